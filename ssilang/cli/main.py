@@ -189,6 +189,8 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
+    if not settings:
+        return {}
     from ssilang.cli.sweeping.given import GivenError, parse_setting
     from ssilang.language.say.diagnostics import render
     from ssilang.language.say.errors import SsiError
