@@ -10,19 +10,31 @@ printed with its line. Rooms are the names of `ROOMS`; without any, all take par
 from __future__ import annotations
 
 import ast
+import compileall
 import copy
 import os
+import py_compile
 import random
+import re
+import select
 import shutil
-import subprocess
+import signal
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[1]
-LIMIT = 900.0  # seconds for the tests of a mutant; longer counts as noticed
+LIMIT = 900.0  # seconds for the tests of a mutant at most; longer counts as noticed
+NOTHING = "none"  # what is said when no test fails
+
+# what the tests import, but for the project: done once
+LIBRARIES = ("hypothesis", "numba", "numpy", "scipy.linalg", "scipy.sparse.linalg", "xdist")
 
 # modules below ssilang/, and the tests that answer for them
 ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -141,8 +153,30 @@ def modules(room: str) -> list[Path]:
     return found
 
 
-def mutants(room: str, count: int, rng: random.Random) -> Iterator[tuple[Path, str, str]]:
-    """File, new source and a line of description, of `count` random mutants of a room."""
+@dataclass(frozen=True)
+class Mutant:
+    """A changed module.
+
+    Attributes
+    ----------
+    path : Path
+        The module.
+    source : str
+        Its text with the change.
+    function : str
+        The outermost function or class around the change.
+    said : str
+        The change in a line.
+    """
+
+    path: Path
+    source: str
+    function: str
+    said: str
+
+
+def mutants(room: str, count: int, rng: random.Random) -> Iterator[Mutant]:
+    """`count` random mutants of a room."""
     places = []
     for path in modules(room):
         tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -152,9 +186,10 @@ def mutants(room: str, count: int, rng: random.Random) -> Iterator[tuple[Path, s
         node = mutable(tree)[i]
         new = next(changes(node))
         line = getattr(node, "lineno", 0)
-        said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> "
+        around = next((n for n in tree.body if n.lineno <= line <= (n.end_lineno or line)), None)
+        said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> {_short(new)}"
         changed = ast.fix_missing_locations(_Swap(node, new).visit(tree))
-        yield path, ast.unparse(changed), said + _short(new)
+        yield Mutant(path, ast.unparse(changed), getattr(around, "name", "-"), said)
 
 
 def _short(node: ast.AST) -> str:
@@ -162,49 +197,124 @@ def _short(node: ast.AST) -> str:
     return ast.unparse(getattr(node, "test", node))[:60]
 
 
-def noticed(copy_of: Path, room: str) -> bool:
-    """Whether the tests of a room fail in a copy of the project."""
-    tests = [str(copy_of / "tests" / name) for name in ROOMS[room][1]]
-    command = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-x", *tests]
-    environment = {**os.environ, "PYTHONPATH": str(copy_of), "PYTHONDONTWRITEBYTECODE": "1"}
+def ordered(copy_of: Path, room: str, path: Path, function: str) -> list[str]:
+    """Test files of a room: first those that name the changed function, then the module."""
+    files: list[Path] = []
+    for name in ROOMS[room][1]:
+        place = copy_of / "tests" / name
+        files += sorted(place.rglob("test_*.py")) if place.is_dir() else [place]
+    texts = {f: f.read_text(encoding="utf-8") for f in dict.fromkeys(files)}
+
+    def rank(file: Path) -> tuple[bool, bool, bool]:
+        named = re.search(rf"\b{function}\b", texts[file]) is not None
+        same = path.stem in file.stem
+        return not (named and same), not (named or same), path.stem not in texts[file]
+
+    return [str(f) for f in sorted(texts, key=rank)]
+
+
+def noticed(copy_of: Path, tests: list[str], limit: float) -> str:
+    """How the tests fail in a copy of the project: the first test that does, '' if none."""
+    reads, writes = os.pipe()
+    pid = os.fork()  # the libraries are imported, the copy is not
+    if pid == 0:
+        os.close(reads)
+        os.setpgid(0, 0)
+        _run_tests(copy_of, tests, writes)
+    os.close(writes)
+    end = time.monotonic() + limit
+    with os.fdopen(reads) as told:
+        late = not select.select([told], [], [], limit)[0]
+        said = "" if late else told.read()
+    while not late and os.waitpid(pid, os.WNOHANG) == (0, 0):
+        late = time.monotonic() > end + 10.0
+        time.sleep(0.01)
+    if late:
+        os.killpg(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
+        return "longer than the limit"
+    return said.strip() or "pytest itself ended"
+
+
+class _First:
+    """A plugin of pytest: the first test, or file, that fails."""
+
+    name = ""
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed and not self.name:
+            self.name = report.nodeid
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        if report.failed and not self.name:
+            self.name = f"{report.nodeid} (collecting)"
+
+
+def _run_tests(copy_of: Path, tests: list[str], told: int) -> None:
+    """Run tests in this process, say what fails and end it."""
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 1)
+    os.dup2(silence, 2)
+    os.chdir(copy_of)
+    os.environ |= {"PYTHONPATH": str(copy_of)}
+    sys.path.insert(0, str(copy_of))
+    first = _First()
+    code = 1
     try:
-        done = subprocess.run(
-            command, cwd=copy_of, env=environment, capture_output=True, timeout=LIMIT, check=False
-        )
-    except subprocess.TimeoutExpired:
-        return True
-    return done.returncode != 0
+        code = int(pytest.main(["-n", "0", "-q", "-x", "-p", "no:cacheprovider", *tests], [first]))
+    except BaseException as problem:
+        first.name = first.name or f"pytest: {type(problem).__name__}"
+    os.write(told, (first.name if code else NOTHING).encode() or b"?")
+    os._exit(0)
 
 
 def main(arguments: list[str]) -> int:
     """Run the mutants; the exit code is that of the command line, not of the tests."""
     count, seed = (int(a) for a in (arguments + ["200", "1"][len(arguments) :])[:2])
     rooms = arguments[2:] or list(ROOMS)
+    sys.dont_write_bytecode = True  # what is compiled once is kept, no mutant's
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    for library in LIBRARIES:
+        import_module(library)
     with tempfile.TemporaryDirectory() as folder:
         copy_of = Path(folder) / "project"
         ignored = shutil.ignore_patterns("__pycache__")
-        for name in ("ssilang", "stdlib", "grammar", "tests", "docs", "cases"):
+        for name in ("ssilang", "stdlib", "grammar", "tests", "docs", "cases", "benchmarks"):
             shutil.copytree(ROOT / name, copy_of / name, ignore=ignored)
         shutil.copy(ROOT / "pyproject.toml", copy_of)
+        # bytecode that is told from its text, not its date: mutants come and go within a second
+        by_text = py_compile.PycInvalidationMode.CHECKED_HASH
+        compileall.compile_dir(copy_of / "ssilang", quiet=2, invalidation_mode=by_text)
         tried = survived = 0
         for k, room in enumerate(rooms):
-            if noticed(copy_of, room):
-                print(f"{room}: the tests fail without a mutant", flush=True)
-                continue
             share = count * (k + 1) // len(rooms) - count * k // len(rooms)
-            for path, source, said in mutants(room, share, random.Random(f"{seed} {room}")):
-                target = copy_of / path.relative_to(ROOT)
-                target.write_text(source, encoding="utf-8")
-                started = time.perf_counter()
-                killed = noticed(copy_of, room)
-                shutil.copy(path, target)
-                tried, survived = tried + 1, survived + (not killed)
-                seconds = time.perf_counter() - started
-                print(
-                    f"{'noticed ' if killed else 'SURVIVED'} {seconds:5.0f} s  {said}", flush=True
-                )
+            chosen = list(mutants(room, share, random.Random(f"{seed} {room}")))
+            for died in run_room(copy_of, room, chosen):
+                tried, survived = tried + 1, survived + (not died)
         print(f"{tried} mutants, {tried - survived} noticed, {survived} survived")
     return 0
+
+
+def run_room(copy_of: Path, room: str, chosen: list[Mutant]) -> Iterator[bool]:
+    """Whether the tests of a room notice each of its mutants, told on the way."""
+    started = time.monotonic()
+    failed = noticed(copy_of, ordered(copy_of, room, Path(), "-"), LIMIT)
+    if failed != NOTHING:
+        print(f"{room}: the tests fail without a mutant: {failed}", flush=True)
+        return
+    limit = min(LIMIT, 60.0 + 5.0 * (time.monotonic() - started))
+    print(f"{room}: {time.monotonic() - started:.0f} s without a mutant", flush=True)
+    for mutant in chosen:
+        target = copy_of / mutant.path.relative_to(ROOT)
+        kept = target.read_bytes()
+        target.write_text(mutant.source, encoding="utf-8")
+        started = time.monotonic()
+        failed = noticed(copy_of, ordered(copy_of, room, mutant.path, mutant.function), limit)
+        target.write_bytes(kept)
+        word = "SURVIVED" if failed == NOTHING else "noticed "
+        by = "" if failed == NOTHING else f"  by {failed}"
+        print(f"{word} {time.monotonic() - started:5.0f} s  {mutant.said}{by}", flush=True)
+        yield failed != NOTHING
 
 
 if __name__ == "__main__":
