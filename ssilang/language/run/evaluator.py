@@ -11,7 +11,7 @@ from ssilang.language.run.call import Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
-from ssilang.language.run.phrase_errors import no_result, tell_held_word
+from ssilang.language.run.phrase_errors import no_result, tell_held_word, tell_line_begun
 from ssilang.language.run.phrases import PhraseRunner
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -285,6 +285,7 @@ class Evaluator(PhraseRunner):
                 error = no_result(statement.targets, target, len(targets), wanted)
                 if self._silent is not None:
                     tell_held_word(error, self._silent)
+                    tell_line_begun(error, self._silent)
                 raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)

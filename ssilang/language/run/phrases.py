@@ -114,7 +114,7 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
-            tell_line_begun(error, operand, call)
+            tell_line_begun(error, operand)
             if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
                 told = {"operator": found.full_name, "operand": cause.span.text[:40]}
                 raise SsiError("operand-not-finite", cause.span, **told) from error
