@@ -359,6 +359,7 @@ def _turns_of_script(frame: FrameType | None) -> int:
 
 
 _NAME = "mutant.ssi"
+_SILENT = "not finite, in silence"
 
 
 def outcome(text: str, folder: Path, seconds: float = SECONDS) -> tuple[str, str]:
@@ -387,7 +388,7 @@ def _ran(text: str, folder: Path, clock: _Clock, *, summary: bool) -> tuple[str,
     how, defect = _judged(result, err.getvalue(), clock)
     given = _GIVEN.search(text)  # who gives NaN gets NaN
     if how == "ran" and not given and (senseless := _senseless(result, out.getvalue())):
-        return "defect", f"not finite, in silence: {senseless}"
+        return "defect", f"{_SILENT}: {senseless}"
     return how, defect
 
 
@@ -530,7 +531,7 @@ class _Split(tuple[tree.Node, ...]):
     tell : function
         Is told of each mutant and its outcome.
     child : bool
-        Whether this process runs a mutant by now.
+        Whether this process runs a mutant by now, whose text is `text`.
     """
 
     mutants: dict[int, list[str]]
@@ -538,6 +539,7 @@ class _Split(tuple[tree.Node, ...]):
     folder: Path
     clock: _Clock
     tell: Told
+    text = ""
     named = False
     child = False
 
@@ -568,7 +570,7 @@ class _Split(tuple[tree.Node, ...]):
         self.tell(text)
         pid = os.fork()
         if pid == 0:
-            self.child = True
+            self.child, self.text = True, text
             self.clock.start()
             return True
         _, status = os.waitpid(pid, 0)
@@ -644,7 +646,8 @@ def run_together(text: str, mutants: list[str], folder: Path, tell: Told) -> lis
     finally:
         running.make_session, running.parse = _OPENED, _READ
     if nodes.child:
-        tell(ended)
+        silent = ended[1].startswith(_SILENT) and _GIVEN.search(nodes.text)
+        tell(("ran", "") if silent else ended)
         os._exit(0)
     shutil.rmtree(folder / "out", ignore_errors=True)
     return [mutant for left in nodes.mutants.values() for mutant in left]

@@ -1,10 +1,15 @@
 """Do the tests notice? Small faults are put into the code, one at a time, and its tests run.
 
     python benchmarks/mutants.py [COUNT] [SEED] [ROOM ...]
+    python benchmarks/mutants.py again REPORT
 
 Each mutant changes one operator, comparison, sign, number or condition of a module; the tests of
 the mirrored folder run in a copy of the project, and a mutant that they pass is a survivor,
-printed with its line. Rooms are the names of `ROOMS`; without any, all take part evenly.
+printed with its line. Rooms are the names of `ROOMS`; without any, all take part evenly. `again`
+runs the survivors of a report (what an earlier run printed) against the tests of today.
+
+Tests run in a process that is split off from this one, whose libraries are imported already; the
+files that name the changed function come first, and the first test that fails ends it.
 """
 
 from __future__ import annotations
@@ -60,7 +65,7 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "shapes": (
         ("kernel/elements/shapes", "kernel/elements/solids"),
-        ("kernel/elements/shapes", "kernel/elements/solids"),
+        ("kernel/elements/shapes", "kernel/elements/solids", "operators/test_finite_motion.py"),
     ),
     "beams": (("kernel/elements/beams",), ("kernel/elements/beams",)),
     "shells": (("kernel/elements/shells",), ("kernel/elements/shells",)),
@@ -82,7 +87,9 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("language",),
     ),
     "numbers": (("operators/numbers", "operators/lists"),
-                ("operators/test_numbers.py", "operators/test_lists.py")),
+                tuple(f"operators/test_{name}.py" for name in (
+                    "numbers", "lists", "records", "optimum", "fitting", "huge_numbers",
+                    "limits_and_senses", "operand_orders", "hostile_operands"))),
     "safety": (("io/run_output.py", "io/atomic.py", "language/run/session.py"),
                ("cli/test_safety.py", "io/test_run_output.py", "operators/test_reading.py",
                 "operators/test_writing.py")),
@@ -182,14 +189,39 @@ def mutants(room: str, count: int, rng: random.Random) -> Iterator[Mutant]:
         tree = ast.parse(path.read_text(encoding="utf-8"))
         places += [(path, i) for i in range(len(mutable(tree)))]
     for path, i in rng.sample(places, min(count, len(places))):
+        yield mutant(path, i)
+
+
+def mutant(path: Path, number: int) -> Mutant:
+    """The change of one of a module's nodes."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    node = mutable(tree)[number]
+    new = next(changes(node))
+    line = getattr(node, "lineno", 0)
+    around = next((n for n in tree.body if n.lineno <= line <= (n.end_lineno or line)), None)
+    said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> {_short(new)}"
+    changed = ast.fix_missing_locations(_Swap(node, new).visit(tree))
+    return Mutant(path, ast.unparse(changed), getattr(around, "name", "-"), said)
+
+
+def survivors(report: Path) -> dict[str, list[Mutant]]:
+    """Mutants of a report that survived, by room; a module that has changed since may miss some."""
+    lines = re.findall(r"^SURVIVED +\d+ s  (.*)$", report.read_text(encoding="utf-8"), re.MULTILINE)
+    found: dict[str, list[Mutant]] = {}
+    for line in lines:
+        path = ROOT / line.partition(":")[0]
+        room = next(r for r in ROOMS if path in modules(r))
         tree = ast.parse(path.read_text(encoding="utf-8"))
-        node = mutable(tree)[i]
-        new = next(changes(node))
-        line = getattr(node, "lineno", 0)
-        around = next((n for n in tree.body if n.lineno <= line <= (n.end_lineno or line)), None)
-        said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> {_short(new)}"
-        changed = ast.fix_missing_locations(_Swap(node, new).visit(tree))
-        yield Mutant(path, ast.unparse(changed), getattr(around, "name", "-"), said)
+        same = [
+            i
+            for i, node in enumerate(mutable(tree))
+            if f":{getattr(node, 'lineno', 0)}: {_short(node)} -> " in line
+            and line.endswith(f" -> {_short(next(changes(node)))}")
+        ]
+        found.setdefault(room, []).extend(mutant(path, i) for i in same[:1])
+        if not same:
+            print(f"is no more: {line}", flush=True)
+    return found
 
 
 def _short(node: ast.AST) -> str:
@@ -268,10 +300,21 @@ def _run_tests(copy_of: Path, tests: list[str], told: int) -> None:
     os._exit(0)
 
 
-def main(arguments: list[str]) -> int:
-    """Run the mutants; the exit code is that of the command line, not of the tests."""
+def chosen(arguments: list[str]) -> dict[str, list[Mutant]]:
+    """The mutants that the command line asks for, by room."""
+    if arguments[:1] == ["again"]:
+        return survivors(Path(arguments[1]))
     count, seed = (int(a) for a in (arguments + ["200", "1"][len(arguments) :])[:2])
     rooms = arguments[2:] or list(ROOMS)
+    shares = (count * (k + 1) // len(rooms) - count * k // len(rooms) for k in range(len(rooms)))
+    return {
+        room: list(mutants(room, share, random.Random(f"{seed} {room}")))
+        for room, share in zip(rooms, shares, strict=True)
+    }
+
+
+def main(arguments: list[str]) -> int:
+    """Run the mutants; the exit code is that of the command line, not of the tests."""
     sys.dont_write_bytecode = True  # what is compiled once is kept, no mutant's
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     for library in LIBRARIES:
@@ -286,16 +329,14 @@ def main(arguments: list[str]) -> int:
         by_text = py_compile.PycInvalidationMode.CHECKED_HASH
         compileall.compile_dir(copy_of / "ssilang", quiet=2, invalidation_mode=by_text)
         tried = survived = 0
-        for k, room in enumerate(rooms):
-            share = count * (k + 1) // len(rooms) - count * k // len(rooms)
-            chosen = list(mutants(room, share, random.Random(f"{seed} {room}")))
-            for died in run_room(copy_of, room, chosen):
+        for room, mutants_of_it in chosen(arguments).items():
+            for died in run_room(copy_of, room, mutants_of_it):
                 tried, survived = tried + 1, survived + (not died)
         print(f"{tried} mutants, {tried - survived} noticed, {survived} survived")
     return 0
 
 
-def run_room(copy_of: Path, room: str, chosen: list[Mutant]) -> Iterator[bool]:
+def run_room(copy_of: Path, room: str, all_of_it: list[Mutant]) -> Iterator[bool]:
     """Whether the tests of a room notice each of its mutants, told on the way."""
     started = time.monotonic()
     failed = noticed(copy_of, ordered(copy_of, room, Path(), "-"), LIMIT)
@@ -304,7 +345,7 @@ def run_room(copy_of: Path, room: str, chosen: list[Mutant]) -> Iterator[bool]:
         return
     limit = min(LIMIT, 60.0 + 5.0 * (time.monotonic() - started))
     print(f"{room}: {time.monotonic() - started:.0f} s without a mutant", flush=True)
-    for mutant in chosen:
+    for mutant in all_of_it:
         target = copy_of / mutant.path.relative_to(ROOT)
         kept = target.read_bytes()
         target.write_text(mutant.source, encoding="utf-8")
