@@ -6,7 +6,7 @@ import io
 import sys
 import traceback
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,6 +67,7 @@ class RunOptions:
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
+    away: Callable[[], float] = lambda: 0.0  # seconds that the run left to others
     on_form: FormsRan | None = None  # collects the forms of operators that run
 
 
@@ -87,6 +88,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             limits=options.limits,
             given={k: _as_object(v) for k, v in options.given.items()},
             integrate=options.integrate,
+            away=options.away,
             was_interrupted=take,
             on_form=options.on_form,
         )

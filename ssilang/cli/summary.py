@@ -42,7 +42,7 @@ def write_summary(
         "deck": str(source.path) if source.path is not None else source.name,
         "version": __version__,
         "exit_code": exit_code,
-        "seconds": round(time.perf_counter() - session.started, 3),
+        "seconds": round(time.perf_counter() - session.started - session.away(), 3),
         "statements": session.evaluator.statement_count,
         "peak_memory_mb": _peak_memory(),
         "files": files,

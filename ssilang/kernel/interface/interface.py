@@ -20,7 +20,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, Parameter
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import (
     Law,
     elastic_tangent,
@@ -286,6 +286,12 @@ def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
 # --- results ---------------------------------------------------------------------------------
 
 
+_SLIDING = (LawCode.SDM, LawCode.MOHR)
+_TITLES = {
+    "jump": "DEFORMATIONS",
+    "plastic jump": "DEFORMATIONS INELASTIQUES",
+    "traction": "CONTRAINTES",
+}
 COMMON_VARIABLES = ("ETAT", "ESTO", "EPER")
 """Results at the points of all joints: state, energy stored, energy lost."""
 
@@ -301,23 +307,33 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
 
     Parameters
     ----------
-    kind : 'jump' or 'traction'
-        Which names the components get.
+    kind : 'jump', 'plastic jump' or 'traction'
+        Which names the components get; joints whose law keeps no plastic jump are left out.
     """
     blocks, start = [], 0
     for j in interface.joints:
         n, g = j.weights.shape
         local = values[start : start + n * g].reshape(n, g, -1)
         start += n * g
-        names = j.element.strains if kind == "jump" else j.element.stresses
+        if kind == "plastic jump" and law_of(j.zone.behaviour).code not in _SLIDING:
+            continue
+        names = j.element.stresses if kind == "traction" else j.element.strains
         if is_macro(j):
             names = MACRO_NAMES[kind][interface.dimension]
+        if kind == "plastic jump":
+            names = tuple(name[0] + "I" + name[2:] for name in names)
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }
         blocks.append(_block(j, components))
-    title = "DEFORMATIONS" if kind == "jump" else "CONTRAINTES"
-    return CellField(tuple(blocks), title)
+    return CellField(tuple(blocks), _TITLES[kind])
+
+
+def plastic_jumps(interface: Interface, w: FloatArray, t: FloatArray) -> FloatArray:
+    """What of the jumps (n_points, d) the springs of the faces do not explain."""
+    d = interface.dimension
+    stiffness = np.diagonal(elastic_tangent(interface.parameters, d), axis1=1, axis2=2)
+    return w - np.divide(t, stiffness, out=np.zeros_like(t), where=stiffness > 0)
 
 
 def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: FloatArray) -> CellField:

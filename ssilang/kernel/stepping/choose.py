@@ -13,7 +13,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
@@ -30,6 +30,7 @@ from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
+from ssilang.kernel.stepping.track import View
 from ssilang.messages.message import Sentence
 
 
@@ -38,6 +39,10 @@ class Loop(Protocol):
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps between the rows of `factors` (n_steps + 1, k)."""
+        ...
+
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns of the problem follow from what the loop keeps of steps."""
         ...
 
 
@@ -110,7 +115,7 @@ def _by(way: str) -> Callable[[Case], Loop]:
 
     def make(case: Case) -> Loop:
         assert case.modal is not None
-        return case.modal.using(getattr(case.modal, way))
+        return case.modal.using(way)
 
     return make
 
@@ -222,28 +227,28 @@ RULES = (
         "small, diagonal damping, one mode that moves and at most one joint that only opens",
         "kernel.stepping.loop-one-mode",
         lambda c: c.modal is not None and c.modal.active == 1,
-        _by("by_one_mode"), light=True,
+        _by("one_mode"), light=True,
     ),
     Rule(
         "one spring", "compiled",
         "small, diagonal damping, a few modes and at most one joint that only opens",
         "kernel.stepping.loop-one-spring",
         lambda c: c.modal is not None and c.modal.active > 1,
-        _by("by_one_spring"), light=True,
+        _by("one_spring"), light=True,
     ),
     Rule(
         "springs", "compiled",
         "small, diagonal damping, joints that only push",
         "kernel.stepping.loop-springs",
         lambda c: c.modal is not None and c.modal.springs is not None,
-        _by("by_springs"),
+        _by("springs"),
     ),
     Rule(
         "modes", "compiled",
         "small, diagonal damping, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
-        _by("by_modes"),
+        _by("modes"),
     ),
     Rule(
         "still supports", "compiled",

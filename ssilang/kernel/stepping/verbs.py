@@ -6,7 +6,7 @@ from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.stepping import newmark
-from ssilang.kernel.stepping.state import Motion, Recorder
+from ssilang.kernel.stepping.state import Motion, Recorder, Tap
 
 advance = compiled_inline(newmark.advanced)
 from_past = compiled_inline(newmark.from_past)
@@ -34,6 +34,28 @@ def keep(x: Motion, to: Recorder, row: int) -> None:
         copy_state(x.contact, to.contact[row])
 
 
+@apart
+@compiled
+def tap(x: Motion, to: Tap, row: int) -> None:
+    """The entries of the present state that are tapped into a row."""
+    for i in range(len(to.at)):
+        j = to.at[i]
+        to.u[row, i], to.v[row, i], to.a[row, i] = x.u[j], x.v[j], x.a[j]
+    if len(to.reaction):
+        for i in range(len(to.at)):
+            to.reaction[row, i] = x.reaction[to.at[i]]
+    if len(to.f):
+        copy_state(x.f, to.f[row])
+    if len(to.w):
+        copy_rows(x.w, to.w[row])
+    if len(to.t):
+        copy_rows(x.t, to.t[row])
+    if len(to.state):
+        copy_rows(x.state, to.state[row])
+    if len(to.contact):
+        copy_state(x.contact, to.contact[row])
+
+
 @compiled
 def motion_at(x: Motion, j: int) -> Motion:
     """One of several motions, that lie in the first direction of each array."""
@@ -48,5 +70,14 @@ def recorder_at(x: Recorder, j: int) -> Recorder:
     """What is kept of one of several motions."""
     return Recorder(
         x.row[j], x.energies[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
-        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j],
+        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j], tap_at(x.tap, j),
+    )  # fmt: skip
+
+
+@compiled
+def tap_at(x: Tap, j: int) -> Tap:
+    """The tap of one of several motions."""
+    return Tap(
+        x.row[j], x.at[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
+        x.state[j], x.contact[j],
     )  # fmt: skip

@@ -17,12 +17,17 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
 from ssilang.operators.dynamics.motion_observers import CsvObserver, VtkObserver
+from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
     pass
+
+
+MANY_INSTANTS = 50
+"""From more of them on, a series is one file if nothing else is said."""
 
 
 def nodes_asked(mesh: Any) -> IntArray | None:
@@ -48,8 +53,11 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     name = entries.get("FICHIER_VTK") or entries.default("FICHIER_VTK")
     path = output_path(entries.call, str(name).rstrip())
     session = entries.call.session
-    writer = run_output(session).begin_series(path, units_in_si(session))
-    return VtkObserver(wanted, meshes, writer, _stress(entries))
+    asked = entries.get("FORMAT_VTK")
+    one_file = wanted.sum() > MANY_INSTANTS if asked is None else str(asked).startswith("VTKH")
+    writer = run_output(session).begin_series(path, units_in_si(session), one_file=one_file)
+    labels = cell_labels(session, meshes)
+    return VtkObserver(wanted, meshes, writer, _stress(entries), labels)
 
 
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:

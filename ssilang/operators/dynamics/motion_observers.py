@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.atomic import write_text
-from ssilang.io.vtk.series import Part, SeriesWriter
+from ssilang.io.vtk.labels import Labels
+from ssilang.io.vtk.series import Part, Series
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -138,12 +139,15 @@ class VtkObserver:
         Name of the part ('' for a single one) to mesh.
     stress : function or None
         Stress of the solids for a displacement.
+    labels : dict
+        Names of the cells of the parts.
     """
 
     wanted: Steps
     meshes: dict[str, Mesh]
-    writer: SeriesWriter
+    writer: Series
     stress: Callable[[NodeField], CellField | None] | None = None
+    labels: Mapping[str, Labels] = field(default_factory=dict)
 
     def receive(self, snapshot: Snapshot) -> None:
         """Write one instant."""
@@ -169,11 +173,15 @@ class VtkObserver:
         found = [f for f in (stress, bodies) if f is not None]
         if found:
             cells["stress"] = CellField(tuple(b for f in found for b in f.blocks), "CONTRAINTES")
-        parts = {name: Part(mesh, points, cells) for name, mesh in self.meshes.items()}
+        none = Labels()
+        parts = {
+            name: Part(mesh, points, cells, self.labels.get(name, none))
+            for name, mesh in self.meshes.items()
+        }
         self.writer.write_parts(snapshot.time, parts)
 
     def close(self) -> None:
-        """Write the list of the steps."""
+        """Finish the series."""
         self.writer.close()
 
 

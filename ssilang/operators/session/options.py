@@ -47,6 +47,7 @@ _UNID = (
     "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
 )  # fmt: skip
 _ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
+_UNNUMBERED = 5  # what an error without a number of Cast3M's counts as
 _KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
 
 
@@ -359,16 +360,23 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     full_name="VALEUR",
     terminal=True,
     help=Help(
-        en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic.",
-        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique.",
-        syntax="VAL1 = VALE MOT1 ;",
-        examples=("OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",),
+        en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic, 'ERMA' the "
+        "largest number of the errors that did not stop the run (OPTI ERRE IGNORE), 0 without any.",
+        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique, 'ERMA' le plus "
+        "grand numéro des erreurs qui n'ont pas arrêté le calcul (OPTI ERRE IGNORE), 0 sans elles.",
+        syntax="VAL1 = VALE MOT1 ; N1 = VALE 'ERMA' ;",
+        examples=(
+            "OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",
+            "OPTI ERRE IGNORE ; ERRE 21 ; MESS (VALE 'ERMA') ;",
+        ),
     ),
 )
 def vale(call: Call, said: str, harmonic: bool) -> Any:
     """Read an option back."""
     ws = workspace(call.session)
     word = said.upper()[:4].rstrip()
+    if word == "ERMA":
+        return _worst_error(call)
     if not any(word in known for known in (_CURRENT, _DEFAULTS, READERS)):
         raise _unknown_option(call, said.upper(), said)
     if word == "MODE" and harmonic:
@@ -383,6 +391,12 @@ def vale(call: Call, said: str, harmonic: bool) -> Any:
     if word == "ERRE":
         return {"IGNORE": 2, "CONTROLE": 1}.get(str(value), 0)
     return Mot(value) if isinstance(value, str) else value
+
+
+def _worst_error(call: Call) -> int:
+    """Largest number of the errors that were shown and passed over."""
+    shown = [w for w in call.session.warnings if getattr(w, "severity", "") == "error"]
+    return max((int(w.data.get("number") or _UNNUMBERED) for w in shown), default=0)
 
 
 @operator(
