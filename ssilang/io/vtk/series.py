@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk.grid import grid_of
@@ -131,6 +132,22 @@ class SeriesWriter:
         """Write the .pvd."""
         if self._entries and self.listed:
             self._list()
+
+    def position(self) -> list[list[Any]]:
+        """How far the series is, for `go_back`: its steps, in plain values."""
+        return [[e.time, e.part, e.file] for e in self._entries]
+
+    def go_back(self, position: list[list[Any]]) -> None:
+        """Go on from where an earlier run was: the files of these steps stand.
+
+        Raises
+        ------
+        OutputError
+            If files are gone.
+        """
+        self._entries = [Entry(time, part, file) for time, part, file in position]
+        self._check(self._entries)
+        self.files = [self.base.parent / e.file for e in self._entries]
 
     def __enter__(self) -> SeriesWriter:
         return self

@@ -313,6 +313,11 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     return Choice(rule, loop, solver)
 
 
+def rule_named(name: str) -> Rule:
+    """A rule of the table."""
+    return next(r for r in RULES if r.name == name)
+
+
 def only(name: str) -> tuple[Rule, ...]:
     """The table with one rule, that fits all: to hold loops against each other."""
     return tuple(r for r in RULES if r.name == name)

@@ -17,6 +17,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
+from ssilang.operators.dynamics.checkpoints import KeptCalculation, kept_calculation
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
 from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
@@ -106,15 +107,21 @@ def _integrated(
 
     tolerance = entries.get("REDUCTION")
     full = entries.flag("NEWTON_COMPLET")
+    driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
+    in_force = {"REDUCTION": tolerance is not None, "CHARMECA": driver is not None}
+    keeper = kept_calculation(
+        entries, problem, observers, [word for word, is_so in in_force.items() if is_so], bodies
+    )
+    if keeper is not None:
+        observers = [*observers, keeper]
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
-        return run_bulk(problem, *bodies, observers, line, dynamic=True)
-    driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
+        return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper)
     if tolerance is None and not full and driver is None:
-        return integrated(entries.call.session, problem, observers, line)
+        return integrated(entries.call.session, problem, observers, line, keeper)
     if tolerance is None:
-        return integrate(problem, observers, line, full, driver)
+        return integrate(problem, observers, line, full, driver, keeper)
     if driver is not None:
         raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
@@ -132,11 +139,17 @@ def _say_reduction(entries: Entries, history: History) -> None:
 
 
 def integrated(
-    session: Session, problem: Problem, observers: Sequence[Observer], line: ProgressLine
+    session: Session,
+    problem: Problem,
+    observers: Sequence[Observer],
+    line: ProgressLine,
+    keeper: KeptCalculation | None = None,
 ) -> History:
     """The history; in a sweep, of what other runs bring too, side by side."""
     from ssilang.kernel.stepping.run import integrate
 
+    if keeper is not None:
+        return integrate(problem, observers, line, keeper=keeper)
     found: History = (session.integrate or integrate)(problem, observers, line)
     return found
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,6 +171,14 @@ class VtkObserver:
             cells["stress"] = CellField(tuple(b for f in found for b in f.blocks), "CONTRAINTES")
         parts = {name: Part(mesh, points, cells) for name, mesh in self.meshes.items()}
         self.writer.write_parts(snapshot.time, parts)
+
+    def held(self) -> Any:
+        """What a checkpoint keeps: how far the series is."""
+        return self.writer.position()
+
+    def hold(self, kept: Any) -> None:
+        """Go on from a checkpoint."""
+        self.writer.go_back(kept)
 
     def close(self) -> None:
         """Write the list of the steps."""

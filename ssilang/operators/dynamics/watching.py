@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,6 +90,15 @@ class ExtremesObserver:
         if before is None or abs(found) > abs(before.value):
             self.peaks[kind, name] = Peak(found, times[int(row)], int(places[column]))
 
+    def held(self) -> list[Any]:
+        """What a checkpoint keeps."""
+        self.close()
+        return [[*key, p.value, p.time, p.place] for key, p in self.peaks.items()]
+
+    def hold(self, kept: list[Any]) -> None:
+        """Go on from a checkpoint."""
+        self.peaks = {(kind, name): Peak(*peak) for kind, name, *peak in kept}
+
     def table(self) -> Table:
         """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
         made, inner = Table(), dict[str, Table]()
@@ -161,6 +170,14 @@ class UpliftWatch:
 
     def close(self) -> None:
         """Nothing is open."""
+
+    def held(self) -> list[Any]:
+        """What a checkpoint keeps."""
+        return [list(pair) for pair in self.seen]
+
+    def hold(self, kept: list[Any]) -> None:
+        """Go on from a checkpoint."""
+        self.seen = [(time, least) for time, least in kept]
 
     @property
     def since(self) -> float:

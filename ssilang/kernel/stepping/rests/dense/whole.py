@@ -14,6 +14,8 @@ from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 class DenseLoop:
     """Steps of one dt."""
 
+    remembered = ("_work",)
+
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self._system = system_of(problem)
         self._operators = operators_of(problem, effective)
