@@ -137,8 +137,10 @@ MESSAGES: dict[str, Message] = {
         "les fichiers de Cast3M même ne peuvent être restitués",
     ),
     "written-later-version-ssilang": Message(
-        "{name} was written by a later version of ssilang",
-        "{name} a été écrit par une version plus récente de ssilang",
+        "{name} was written by a later version of ssilang, {by}; this is {own}",
+        "{name} a été écrit par une version plus récente de ssilang, {by} ; celle-ci est {own}",
+        "read it with that version, or let this one write it again",
+        "le lire avec cette version, ou le faire écrire à nouveau par celle-ci",
     ),
     "holds-unknown-kind-data": Message(
         "{name} holds an unknown kind of data '{kind}'",
