@@ -2,9 +2,9 @@
 
 The calculations of a deck that are kept are numbered as they begin. Of each the folder has two
 files. `N.state` is a zip of `head.json` and arrays (NPY): all that the steps to come depend on,
-written whole or not at all. `N.rows` only grows: arrays behind one another, of the steps done since
-the checkpoint before; the state says how many bytes of it count, and what lies behind them (of a
-run that was killed while it wrote) is written over. Nothing in them is ever executed.
+written whole or not at all. `N.rows` only grows: names and arrays behind one another, of the steps
+done since the checkpoint before; the state says how many bytes of it count, and what lies behind
+them (of a run that was killed while it wrote) is written over. Nothing in them is ever executed.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class Kept:
 
     call: dict[str, Any]
     state: dict[str, Any]
-    rows: Rows
+    rows: list[Rows]
 
 
 @dataclass
@@ -117,7 +117,7 @@ class Checkpoints:
         try:
             with zipfile.ZipFile(path) as file:
                 state = _decoded(head["state"], file)
-            rows = _read_rows(self._path(number, "rows"), head["names"], head["batches"])
+            rows = _read_rows(self._path(number, "rows"), head["batches"])
             length, batches = int(head["length"]), int(head["batches"])
         except DAMAGES as error:
             raise self._damaged(path, error) from error
@@ -138,7 +138,8 @@ class Checkpoints:
             self._remove()  # what an earlier run left is no part of this one
         length, batches = self._lengths.get(number, (0, 0))
         try:
-            length = _append(self._path(number, "rows"), length, rows.values())
+            names = np.frombuffer(json.dumps(list(rows)).encode(), np.uint8)
+            length = _append(self._path(number, "rows"), length, [names, *rows.values()])
         except OSError as error:
             path = self._path(number, "rows")
             raise OutputError(
@@ -152,7 +153,6 @@ class Checkpoints:
             "deck": self.deck.text,
             "given": dict(self.deck.given),
             "call": dict(call),
-            "names": list(rows),
             "batches": batches + 1,
             "length": length,
             "state": _encoded(state, arrays),
@@ -283,11 +283,13 @@ def _append(path: Path, length: int, arrays: Iterable[NDArray[Any]]) -> int:
         return stream.tell()
 
 
-def _read_rows(path: Path, names: list[str], batches: int) -> Rows:
-    """The arrays of all batches, those of one name behind one another."""
-    parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
+def _read_rows(path: Path, batches: int) -> list[Rows]:
+    """The arrays of each batch by name; the names stand before them."""
     with path.open("rb") as stream:
-        for _ in range(batches):
-            for name in names:
-                parts[name].append(np.lib.format.read_array(stream, allow_pickle=False))
-    return {name: np.concatenate(part) for name, part in parts.items()}
+        return [
+            {
+                name: np.lib.format.read_array(stream, allow_pickle=False)
+                for name in json.loads(np.lib.format.read_array(stream).tobytes())
+            }
+            for _ in range(batches)
+        ]

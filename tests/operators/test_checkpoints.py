@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import ssilang.operators.files.saving  # how tables are encoded
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.io.archive import Encoder
 from ssilang.operators.dynamics.checkpoints import KeptCalculation
@@ -81,6 +82,7 @@ class Killed(BaseException):
 
 def content(result, folder: Path):
     """All that a run leaves: its tables as codes and arrays, its files but the summary."""
+    assert ssilang.operators.files.saving.save
     encoder, find = Encoder(), result.session.root.find
     tables = [n for n in ("T", "T2", "T3") if find(n) is not None]
     codes = [encoder.encode(find(n)) for n in tables]

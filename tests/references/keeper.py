@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 
+import numpy as np
+
 from ssilang.io.checkpoint import Checkpoints, Deck
 
 
@@ -39,5 +41,6 @@ class Ending:
         kept = self.files.read(1)
         if kept is None:
             return None
-        self.known = len(kept.rows["energies"])
-        return kept.state | {"energies": kept.rows["energies"]}
+        energies = np.concatenate([batch["energies"] for batch in kept.rows])
+        self.known = len(energies)
+        return kept.state | {"energies": energies}

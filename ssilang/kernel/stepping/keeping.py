@@ -60,6 +60,30 @@ class Keeper(Protocol):
         ...
 
 
+class Cut:
+    """Cuts steps where a keeper does, and keeps nothing: the same steps once more."""
+
+    def __init__(self, every: int) -> None:
+        self.every = every
+
+    def stride(self, done: int, small: bool) -> int:
+        """Steps up to the next cut."""
+        return stride_of(done, small, self.every)
+
+    def steady(self) -> AbstractContextManager[None]:
+        """Nothing waits."""
+        return nullcontext()
+
+    def reached(self, done: int, state: Callable[[], State]) -> None:
+        """Nothing is kept."""
+
+    left = finished = reached
+
+    def last(self) -> State | None:
+        """Nothing was kept."""
+        return None
+
+
 def stride_of(done: int, small: bool, every: int) -> int:
     """Steps up to the next multiple of `every` (0: none) or of the problem's own stride."""
     own = SMALL_STRIDE if small else STRIDE

@@ -5,11 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.stepping.choose import (
     Case,
@@ -20,6 +20,7 @@ from ssilang.kernel.stepping.choose import (
     rule_named,
 )
 from ssilang.kernel.stepping.driven import Drive, Driver
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.keeping import (
     Keeper,
     State,
@@ -40,15 +41,18 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
-from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
+from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
+from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
+
 CHUNK_VALUES = 4_000_000  # saved values held at once
+LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
-LONGEST_CHUNK = 1 << 16  # steps of a chunk at most: its arrays stay in the second cache
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -131,6 +135,8 @@ class Integration:
     light: bool = True
     keeper: Keeper | None = None
     motion: Motion = field(init=False)
+    taps: Taps = field(init=False)
+    wanted: BoolArray = field(init=False)
 
     def __post_init__(self) -> None:
         p, self._drive = self.problem, None
@@ -172,25 +178,49 @@ class Integration:
         times, self._started = self.problem.times, time.perf_counter()
         history = History(times, np.zeros((len(times), N_ENERGIES)))
         history.kept[0] = self.motion.energies
-        wanted = np.zeros(len(times), bool)
-        for observer in self.observers:
-            wanted |= observer.wanted
         try:
+            inside = self._drive is None and self._choice(times[1] - times[0]).rule.inside
+            self.prepare(inside)
             kept = None if self.keeper is None else self.keeper.last()
             if kept is not None:
                 self._go_on(kept, history)
-            elif wanted[0]:
-                self.hand_over(snapshot_of(self.problem, self.motion, 0))
-            self._run(history, wanted)
+            else:
+                self.begin()
+            self._run(history)
         finally:
             for observer in self.observers:
                 observer.close()
         history.seconds += time.perf_counter() - self._started
         return history
 
-    def _run(self, history: History, wanted: np.ndarray) -> None:
+    def prepare(self, inside: bool) -> None:
+        """See what observers want; `inside`: the loop compares the largest values itself."""
+        extremes = [o for o in self.observers if isinstance(o, Extremes)]
+        for one in extremes:
+            one.settle(inside)
+        tracks = [o for o in self.observers if isinstance(o, Track)]
+        whole = [o for o in self.observers if not isinstance(o, Track)]
+        if self._drive is not None:  # what it adds differs from step to step
+            tracks, whole = [], list(self.observers)
+        times = self.problem.times
+        self.taps, self._whole = Taps(tracks, len(times)), whole
+        for one in extremes:
+            self.taps.peaks = one.peaks if inside else self.taps.peaks
+        self.wanted = np.zeros(len(times), bool)
+        for observer in whole:
+            self.wanted |= observer.wanted
+
+    def begin(self) -> None:
+        """Hand over the initial instant."""
+        if self.wanted[0] or self.taps.wanted[0]:
+            snapshot = snapshot_of(self.problem, self.motion, 0)
+            for observer in self.observers:
+                if observer.wanted[0]:
+                    observer.receive(snapshot)
+
+    def _run(self, history: History) -> None:
         if self.keeper is None:
-            self._run_by_time(history, wanted)
+            self._run_by_time(history)
             return
         keeper, total = self.keeper, len(self.problem.times) - 1
 
@@ -200,27 +230,27 @@ class Integration:
         with told_to_leave(keeper, lambda: self._done, state):
             while self._done < total:
                 longest = keeper.stride(self._done, self.problem.small)
-                self._chunk(self._done, longest, history, wanted)
+                self._chunk(self._done, longest, history)
                 if self._done < total:
                     keeper.reached(self._done, state)
         keeper.finished(self._done, state)
 
-    def _chunk(self, done: int, longest: int, history: History, wanted: np.ndarray) -> Run:
+    def _chunk(self, done: int, longest: int, history: History) -> Run:
         """Steps of one length, at most so many."""
         times = self.problem.times
         run = next(runs_of(times[done : done + longest + 1], longest))
         run = Run(done + run.first, done + run.last, run.dt)
-        self._steps(run, history, wanted)
+        self._steps(run, history)
         if self.progress is not None:
             self.progress(run.last, len(times) - 1)
         return run
 
-    def _run_by_time(self, history: History, wanted: np.ndarray) -> None:
+    def _run_by_time(self, history: History) -> None:
         times, done = self.problem.times, 0
         longest = 4096 if self.problem.small else 64
         while done < len(times) - 1:
             before = time.perf_counter()
-            run = self._chunk(done, longest, history, wanted)
+            run = self._chunk(done, longest, history)
             spent = time.perf_counter() - before
             done = run.last
             if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
@@ -229,10 +259,10 @@ class Integration:
             elif spent > 2 * CHUNK_SECONDS:
                 longest = max(longest // 2, 1)
 
-    def _steps(self, run: Run, history: History, wanted: np.ndarray) -> None:
+    def _steps(self, run: Run, history: History) -> None:
         first = run.first
         while first < run.last:
-            last = self._within_memory(first, run.last, wanted)
+            last = self._within_memory(first, run.last)
             factors = self.problem.loading.at(history.times[first : last + 1])
             if self._drive is None:
                 choice = self._choice(run.dt)
@@ -244,18 +274,31 @@ class Integration:
             energies = history.kept[first + 1 : last + 1]
             if self.light and choice.rule.light and self.keeper is None:
                 energies, history.again = energies[:0], self._energies
-            row = rows_of(wanted[first + 1 : last + 1])
-            recorder = recorder_of(self.motion, row, energies, balance=self._balance)
+            row, tapped = (
+                rows_of(x[first + 1 : last + 1]) for x in (self.wanted, self.taps.wanted)
+            )
+            view = choice.loop.view(self.taps.unknowns)
+            tap = view.tap(tapped, self.taps.room)
+            peaks = self.taps.peaks
+            peaks.first[0] = first
+            recorder = recorder_of(
+                self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
+            )
             with steady(self.keeper):
                 done, turns, residual = choice.loop.run(factors, recorder)
                 history.worst = float(self._balance[1])
-                largest = float(np.abs(self.motion.energies).max(initial=0.0))
-                history.seen = max(history.seen, largest)
+                history.seen = max(
+                    history.seen, float(np.abs(self.motion.energies).max(initial=0.0))
+                )
                 if turns > 0:
                     history.iterations = max(history.iterations, turns)
                 problem = self.problem if self._drive is None else self._drive.problem
                 for k in np.flatnonzero(row[:done] >= 0).tolist():
                     self.hand_over(kept_instant(problem, recorder, int(row[k]), first + 1 + k))
+                unknowns = self.taps.unknowns
+                rows = rows_of_tap(problem, unknowns, view, tap, factors, first, done)
+                if rows is not None:
+                    self.taps.give(rows)
                 if done < last - first:
                     raise self.diverged(first + done + 1, turns, residual)
                 first = self._done = last
@@ -286,11 +329,12 @@ class Integration:
     def _go_on(self, kept: State, history: History) -> None:
         """Take over the state in which an earlier run left."""
         self._done = len(kept["energies"]) - 1
-        if self._done < len(self.problem.times) - 1:
-            for known in kept["loops"]:
-                put_back((*self.motion, self._closed), known["begun"])
-                choice = self._choice(known["dt"])
-                recall(choice.loop, known["remembers"])
+        made, self._choices = self._choices, {}
+        for known in kept["loops"] if self._done < len(self.problem.times) - 1 else ():
+            put_back((*self.motion, self._closed), known["begun"])
+            if known["dt"] in made:
+                self._choices[known["dt"]] = made[known["dt"]]
+            recall(self._choice(known["dt"]).loop, known["remembers"])
         put_back(self.motion, kept["motion"])
         self._closed[:], self._balance[:] = kept["closed"], kept["balance"]
         history.kept[: self._done + 1] = kept["energies"]
@@ -305,14 +349,14 @@ class Integration:
         """Energies at all times, by stepping again."""
         return Integration(self.problem, light=False).run().kept
 
-    def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
+    def _within_memory(self, first: int, last: int) -> int:
         if self._drive is not None:
             return first + 1
-        room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
-        if last - first <= room:
-            return last
-        saved = np.flatnonzero(wanted[first + 1 : last + 1])
-        return last if len(saved) <= room else first + max(int(saved[room]), 1)
+        n, tapped = len(self.motion.u), len(self.taps.unknowns)
+        last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
+        most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
+        values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
+        return within(self.taps.wanted, values // (3 * most), first, last)
 
     def _choice(self, dt: float) -> Choice:
         dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)
@@ -329,7 +373,8 @@ class Integration:
         return found
 
     def hand_over(self, snapshot: Snapshot) -> None:
-        for observer in self.observers:
+        """Hand an instant to those that want whole ones."""
+        for observer in self._whole:
             if observer.wanted[snapshot.step]:
                 observer.receive(snapshot)
 
@@ -357,6 +402,15 @@ class Integration:
         )
 
 
+def within(wanted: BoolArray, room: int, first: int, last: int) -> int:
+    """The step up to which there is room for those that are wanted after `first`."""
+    room = max(room, 1)
+    if last - first <= room:
+        return last
+    saved = np.flatnonzero(wanted[first + 1 : last + 1])
+    return last if len(saved) <= room else first + max(int(saved[room]), 1)
+
+
 def integrate(
     problem: Problem,
     observers: Sequence[Observer] = (),
@@ -370,7 +424,7 @@ def integrate(
     Parameters
     ----------
     observers : sequence of Observer
-        Each receives the instants it wants.
+        Each receives the instants it wants; a `Track` takes rows.
     full_newton : bool
         Refactorise at each iteration instead of condensing the interface (comparison).
     driver : callable, optional

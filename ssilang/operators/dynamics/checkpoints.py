@@ -1,8 +1,8 @@
 """REPRISE: DYNAMIC and PASAPAS keep their state on the way, and `--resume` goes on from it.
 
 What is kept are the calculation's own state (`kernel.stepping.keeping`), what its observers hold,
-and the instants that they were given. An observer that says what it holds (`held`) gets it back
-(`hold`); the others are given their instants again.
+and the instants that they were given. An observer that says what it holds (`content`) gets it back
+(`restore`); tracks get their rows back, the others are given their instants again.
 """
 
 from __future__ import annotations
@@ -29,23 +29,23 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.keeping import State
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+    from ssilang.kernel.stepping.track import Rows as TrackRows
 
 Bodies = tuple["Bulk", "BulkState"]
 
-UNKNOWNS = ("u", "v", "a", "reaction")
-POINTS = ("w", "t", "state", "contact")
-"""Parts of an instant: those on the unknowns, of which some may do, and the others."""
+PARTS = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
+"""Parts of an instant."""
 
 
 @runtime_checkable
 class Holding(Protocol):
     """An observer that says in plain values and arrays what it holds, and takes it back."""
 
-    def held(self) -> Any:
+    def content(self) -> Any:
         """What a checkpoint keeps."""
         ...
 
-    def hold(self, kept: Any) -> None:
+    def restore(self, kept: Any) -> None:
         """Go on from a checkpoint."""
         ...
 
@@ -73,24 +73,21 @@ class KeptCalculation:
         self.session, self.checkpoints = entries.call.session, checkpoints
         self.every, self.seconds = every, 60.0 * minutes
         self.number, self._known = checkpoints.begin(), ""
-        self._holding = [o for o in observers if isinstance(o, Holding)]
-        self._given_again = [o for o in observers if not isinstance(o, Holding)]
+        self._holding: list[Any] = [o for o in observers if _holds(o)]
+        rest = [o for o in observers if not _holds(o)]
+        self._tracks = [KeptTrack(o) for o in rest if _is_track(o)]
+        self._given_again = [o for o in rest if not _is_track(o)]
         self.wanted: NDArray[np.bool_] = np.zeros(len(problem.times), bool)
         for observer in self._given_again:
             self.wanted |= observer.wanted
-        self._few = _unknowns_read(problem, self._given_again)
         self._waiting: list[list[Any]] = []
         self._written, self._at = 0, time.monotonic()
 
     # ---- an observer
 
     def receive(self, snapshot: Snapshot) -> None:
-        """Keep an instant, as far as the observers read it."""
-        few = self._few
-        found: list[Any] = [snapshot.step]
-        whole = [getattr(snapshot, name) for name in UNKNOWNS]
-        found += whole if few is None else [x[few] for x in whole]
-        found += [getattr(snapshot, name).copy() for name in POINTS]
+        """Keep an instant for those that are given it again."""
+        found = [snapshot.step, *(getattr(snapshot, name) for name in PARTS)]
         if self.bodies is not None:
             from ssilang.kernel.stepping.keeping import leaves
 
@@ -144,19 +141,22 @@ class KeptCalculation:
         if kept is None:
             return None
         self._check(kept.call)
-        rows = kept.rows
-        for snapshot in self._instants(rows):
-            for observer in self._given_again:
-                if observer.wanted[snapshot.step]:
-                    observer.receive(snapshot)
+        for batch in kept.rows:
+            for i, track in enumerate(self._tracks):
+                track.give(self.problem, i, batch)
+            for snapshot in self._instants(batch):
+                for observer in self._given_again:
+                    if observer.wanted[snapshot.step]:
+                        observer.receive(snapshot)
         for observer, held in zip(self._holding, kept.state["held"], strict=True):
-            observer.hold(held)
-        self._written, steps = len(rows["energies"]) - 1, len(self.problem.times) - 1
+            observer.restore(held)
+        energies = np.concatenate([batch["energies"] for batch in kept.rows])
+        self._written, steps = len(energies) - 1, len(self.problem.times) - 1
         at = self.problem.times[self._written]
         code = "operators.dynamics.resumed" if self._written < steps else "operators.dynamics.given"
         self.entries.warn(code, step=self._written, steps=steps, time=at)
         state: State = kept.state["own"]
-        return state | {"energies": rows["energies"]}
+        return state | {"energies": energies}
 
     # ---- files
 
@@ -164,50 +164,29 @@ class KeptCalculation:
         with self.session.hold():
             first = self._written + 1 if self._written else 0
             rows = self._rows() | {"energies": state["energies"][first:]}
+            for i, track in enumerate(self._tracks):
+                rows |= track.rows(i)
             own = {k: v for k, v in state.items() if k != "energies"}
-            held = [o.held() for o in self._holding]
+            held = [o.content() for o in self._holding]
             self.checkpoints.write(self.number, self._call(), {"own": own, "held": held}, rows)
             self._waiting.clear()
             self._written, self._at = done, time.monotonic()
 
     def _rows(self) -> Rows:
         """The instants that wait, part by part."""
-        columns = zip(*self._waiting, strict=True) if self._waiting else ([] for _ in self._blank())
-        return {
-            name: np.stack([np.asarray(x) for x in column]) if self._waiting else blank
-            for (name, blank), column in zip(self._blank(), columns, strict=True)
-        }
-
-    def _blank(self) -> Iterator[tuple[str, NDArray[Any]]]:
-        """Names of the parts of an instant, with those of no instant."""
-        from ssilang.kernel.stepping.keeping import leaves
-
-        p, joints = self.problem, self.problem.interface
-        n = p.numbering.size if self._few is None else len(self._few)
-        yield "step", np.zeros(0, np.int64)
-        for name in UNKNOWNS:
-            yield name, np.zeros((0, n))
-        shape = (0, 0, 1) if joints is None else (0, joints.n_points, joints.dimension)
-        yield "w", np.zeros(shape)
-        yield "t", np.zeros(shape)
-        yield "state", np.zeros((0, *p.state.shape)) if joints is not None else np.zeros(shape)
-        yield "contact", np.zeros((0, 0 if p.contact is None else p.contact.size))
-        for i, leaf in enumerate(leaves(self.bodies[1]) if self.bodies is not None else []):
-            yield f"body{i}", np.zeros((0, *np.shape(leaf)))
+        names = ["step", *PARTS]
+        columns = [np.stack([np.asarray(x) for x in c]) for c in zip(*self._waiting, strict=True)]
+        names += [f"body{i}" for i in range(len(columns) - len(names))]
+        return dict(zip(names, columns, strict=False))
 
     def _instants(self, rows: Rows) -> Iterator[Snapshot]:
         from ssilang.kernel.plasticity.snapshot import BulkSnapshot
         from ssilang.kernel.stepping.keeping import rebuilt
         from ssilang.kernel.stepping.snapshot import Snapshot
 
-        times, n = self.problem.times, self.problem.numbering.size
-        for k, step in enumerate(rows["step"].tolist()):
-            parts = {name: rows[name][k] for name in (*UNKNOWNS, *POINTS)}
-            if self._few is not None:
-                for name in UNKNOWNS:
-                    whole = np.zeros(n)
-                    whole[self._few] = parts[name]
-                    parts[name] = whole
+        times = self.problem.times
+        for k, step in enumerate(rows["step"].tolist() if "step" in rows else ()):
+            parts = {name: rows[name][k] for name in PARTS}
             at = (self.problem, step, float(times[step]))
             if self.bodies is None:
                 yield Snapshot(*at, **parts)
@@ -260,22 +239,86 @@ class KeptCalculation:
             )  # fmt: skip
 
 
-def _unknowns_read(problem: Problem, observers: Sequence[Observer]) -> IntArray | None:
-    """Unknowns that observers read, where they are few of a large problem; None: all."""
-    nodes = [getattr(o, "nodes", None) for o in observers]
-    if problem.small or any(n is None for n in nodes):
-        return None
-    read = np.concatenate([np.zeros(0, np.int64), *(n for n in nodes if n is not None)])
-    multipliers = problem.multipliers
-    if problem.contact is not None:
-        multipliers = np.concatenate([multipliers, problem.contact.multipliers])
-    if np.isin(multipliers, read).any():
-        return None
-    found: IntArray = np.flatnonzero(np.isin(problem.numbering.nodes, read))
-    return found
+def _holds(observer: Observer) -> bool:
+    """Whether an observer says what it holds."""
+    return isinstance(observer, Holding) and observer.content() is not None
+
+
+def _is_track(observer: Observer) -> bool:
+    """Whether an observer takes rows (a table of whole instants does not)."""
+    from ssilang.kernel.stepping.track import Track
+
+    return isinstance(observer, Track) and not getattr(observer, "whole", False)
+
+
+class KeptTrack:
+    """The rows of an observer that takes them: those that came since the last checkpoint.
+
+    Rows of a loop's coordinates are kept as the unknowns that follow from them, the same numbers.
+    """
+
+    def __init__(self, track: Any) -> None:
+        self.track, self._kept = track, 0
+
+    def rows(self, number: int) -> Rows:
+        """Arrays by names that begin with the track's number, and with that of the group."""
+        new, self._kept = self.track.pieces[self._kept :], len(self.track.pieces)
+        groups: list[dict[str, list[NDArray[Any]]]] = []
+        for piece in new:
+            parts = _parts_of(piece)
+            shapes = {name: x.shape[1:] for name, x in parts.items()}
+            if not groups or {n: x[0].shape[1:] for n, x in groups[-1].items()} != shapes:
+                groups.append({name: [] for name in parts})
+            for name, x in parts.items():
+                groups[-1][name].append(x)
+        return {
+            f"{number}.{g}.{name}": np.concatenate(x)
+            for g, group in enumerate(groups)
+            for name, x in group.items()
+        }
+
+    def give(self, problem: Problem, number: int, rows: Rows) -> None:
+        """Give rows of a batch back."""
+        groups: dict[str, dict[str, NDArray[Any]]] = {}
+        for key, x in rows.items():
+            if key.startswith(f"{number}."):
+                _, group, name = key.split(".")
+                groups.setdefault(group, {})[name] = x
+        for parts in groups.values():
+            self.track.pieces.append(_piece_of(problem, self.track.unknowns, parts))
+        self._kept = len(self.track.pieces)
+
+
+def _parts_of(rows: TrackRows) -> dict[str, NDArray[Any]]:
+    """Rows as arrays, one instant a row."""
+    found = {name: rows.values(name) for name in ("u", "v", "a")} | rows.joints._asdict()
+    for name in ("reaction", "contact"):
+        if len(kept := getattr(rows.tap, name)) == len(rows) and kept.shape[1]:
+            found[name] = kept
+    return {"step": rows.steps_taken, **found}
+
+
+def _piece_of(problem: Problem, unknowns: IntArray, parts: dict[str, NDArray[Any]]) -> TrackRows:
+    from ssilang.kernel.stepping.track import Rows as TrackRows
+    from ssilang.kernel.stepping.track import View
+
+    steps = parts["step"]
+    shapes = {name: x.shape[1:] for name, x in parts.items() if name != "step"}
+    view = View(unknowns, shapes)
+    tap = view.tap(np.arange(len(steps)))
+    for name in shapes:
+        getattr(tap, name)[:] = parts[name]
+    factors = problem.loading.at(problem.times[steps])
+    return TrackRows(problem, steps, unknowns, view, tap, factors)
 
 
 # ---- what is read --------------------------------------------------------------------------------
+
+
+def steps_of_reprise(entries: Entries) -> int | None:
+    """Steps from one checkpoint to the next (0: by the clock); None without REPRISE."""
+    asked = entries.inside("REPRISE") if isinstance(entries.get("REPRISE"), Table) else None
+    return None if asked is None else asked.get("PAS") or 0
 
 
 def kept_calculation(

@@ -16,6 +16,7 @@ import numba
 
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.cache import folder_of
+from ssilang.kernel.base.compiled.kept import keep
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -54,8 +55,11 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     if kept is not None:
         numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
     options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
-    made = numba.njit(fastmath=freedom, cache=kept is not None, forceinline=inline, **options)
-    return cast(Function, made(function))
+    options |= {"fastmath": freedom, "forceinline": inline, "cache": PLAIN and kept is not None}
+    made = numba.njit(**options)(function)
+    if kept is not None and not PLAIN and made is not function:  # it is where nothing is compiled
+        keep(made)
+    return cast(Function, made)
 
 
 def counts(function: Callable[..., Any]) -> bool:
