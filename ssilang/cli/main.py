@@ -181,6 +181,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         verbose=options.verbose,
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
+        resume=getattr(options, "resume", False),
     )
     if options.petsc is not None:
         made.petsc = options.petsc

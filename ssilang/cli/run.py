@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
-from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, take
+from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
@@ -28,6 +28,9 @@ from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.language.values import Mot
 from ssilang.messages.message import sentence
+
+if TYPE_CHECKING:
+    from ssilang.io.checkpoint import Deck
 
 
 @dataclass
@@ -67,6 +70,7 @@ class RunOptions:
     summary: bool = False  # write summary.json into the output folder
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
+    resume: bool = False  # go on from what an earlier run of the deck kept
     integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
     away: Callable[[], float] = lambda: 0.0  # seconds that the run left to others
     on_form: FormsRan | None = None  # collects the forms of operators that run
@@ -93,6 +97,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             integrate=options.integrate,
             away=options.away,
             was_interrupted=take,
+            hold=holding,
             on_form=options.on_form,
         )
     )
@@ -147,6 +152,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     try:
         if options.summary:  # it writes there in any case
             hold_folder(session)
+        keep_for(session, source, options)
         with _libraries_quiet(options.debug):
             execute(session, source)
     except SeveralErrors as several:
@@ -162,6 +168,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         _close_files(session, errors)
+        if not errors:
+            _forget_checkpoints(session)
     _flush(out, errors)
     left = any(e.code == "reader-left" for e in errors)
     names = session.frame.names() | session.library.standard_names
@@ -203,6 +211,45 @@ def hold_folder(session: Session) -> None:
         run_output(session).hold()
     except OutputError as problem:
         raise SsiError.of(problem, None) from problem
+
+
+def keep_for(session: Session, source: Source, options: RunOptions) -> None:
+    """Say whose calculations REPRISE keeps, and look at what there is to go on from.
+
+    Raises
+    ------
+    SsiError
+        If another deck or version left it.
+    """
+    from ssilang.io.errors import InputError
+    from ssilang.operators.files.outputs import run_output
+
+    given = {name: repr(value) for name, value in options.given.items()}
+
+    def deck() -> Deck:
+        from ssilang import __version__
+        from ssilang.io.checkpoint import Deck, digest_of_text
+
+        return Deck(__version__, digest_of_text(source.text), given)
+
+    output = run_output(session)
+    output.deck, output.resume = deck, options.resume
+    if not options.resume or output.checkpoints is None:
+        return
+    if not output.checkpoints.found:
+        session.warn("cli.nothing-to-resume", None, folder=output.checkpoints.folder)
+        return
+    try:
+        output.checkpoints.check()
+    except InputError as problem:
+        raise SsiError.of(problem, None) from problem
+
+
+def _forget_checkpoints(session: Session) -> None:
+    """A deck that came to its end needs them no more; the others may be gone on with."""
+    from ssilang.operators.files.outputs import run_output
+
+    run_output(session).forget_checkpoints()
 
 
 def _release_folder(session: Session) -> None:

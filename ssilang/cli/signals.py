@@ -18,6 +18,7 @@ from types import FrameType
 ENDED_BY_CLOSED_PIPE = 141  # what a shell gives for a tool that SIGPIPE ended: 128 + 13
 
 _arrived = threading.Event()  # signals belong to the process, not to a session
+_held = threading.Event()  # a first signal waits until somebody looks
 
 
 def take() -> bool:
@@ -50,9 +51,27 @@ def listening() -> Iterator[None]:
             signal.signal(number, handler)
 
 
+@contextmanager
+def holding() -> Iterator[None]:
+    """Keep an interruption out while something changes that must be whole: `take` tells of it.
+
+    Whoever insists is heard: a second signal ends what goes on.
+    """
+    outer = _held.is_set()
+    _held.set()
+    try:
+        yield
+    finally:
+        if not outer:
+            _held.clear()
+
+
 def interrupt(number: int, frame: FrameType | None) -> None:
     """A signal's handler."""
+    first = not _arrived.is_set()
     _arrived.set()
+    if first and _held.is_set():
+        return
     raise KeyboardInterrupt
 
 

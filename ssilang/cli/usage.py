@@ -148,6 +148,7 @@ def _run(run: argparse.ArgumentParser) -> None:
     run.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="cli.usage-set-one"
     )
+    run.add_argument("--resume", action="store_true", help="cli.usage-resume")
     run.add_argument("-i", "--interactive", action="store_true", help="cli.usage-interactive")
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,9 @@ from ssilang.io.run_lock import RunLock, hold
 
 if TYPE_CHECKING:
     from ssilang.io.vtk.series import Series
+
+if TYPE_CHECKING:
+    from ssilang.io.checkpoint import Checkpoints, Deck
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -48,6 +52,12 @@ class RunOutput:
         forgotten when OPTI names it again.
     lock : RunLock or None
         Keeps other runs out of `directory`.
+    deck : function or None
+        Says whose run it is, if it runs a deck.
+    resume : bool
+        Whether it goes on from what an earlier run of the deck kept.
+    read : list of Path
+        Files that were read and that the run has not written, each once.
     """
 
     directory: Path
@@ -57,6 +67,9 @@ class RunOutput:
     series: dict[Path, Series] = field(default_factory=dict)
     opened: dict[str, Any] = field(default_factory=dict)
     lock: RunLock | None = None
+    deck: Callable[[], Deck] | None = None
+    resume: bool = False
+    read: list[Path] = field(default_factory=list)
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 
@@ -98,7 +111,11 @@ class RunOutput:
             path = written
         if not self._within(path, roots):
             return None
-        return path if path.exists() else self._of_another_case(name.strip()) or path
+        if not path.exists():
+            path = self._of_another_case(name.strip()) or path
+        if path not in self.files and path not in self.read:
+            self.read.append(path)
+        return path
 
     def is_foreign(self, path: Path) -> bool:
         """Whether a file that may be read is another case's output."""
@@ -115,6 +132,20 @@ class RunOutput:
     @staticmethod
     def _within(path: Path, roots: tuple[Path, ...]) -> bool:
         return any(path.is_relative_to(root) for root in roots)
+
+    @cached_property
+    def checkpoints(self) -> Checkpoints | None:
+        """Where the run keeps calculations on their way; None if it runs no deck."""
+        from ssilang.io.checkpoint import FOLDER, Checkpoints
+
+        if self.deck is None:
+            return None
+        return Checkpoints(self.directory / FOLDER, self.deck(), self.resume)
+
+    def forget_checkpoints(self) -> None:
+        """The deck has come to its end: what was kept on the way is needed no more."""
+        if "checkpoints" in vars(self) and self.checkpoints is not None:
+            self.checkpoints.forget()
 
     def reopen(self, option: str) -> None:
         """OPTI names the file of an option: what was begun there is finished."""

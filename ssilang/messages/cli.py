@@ -197,6 +197,19 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "say by which method motions are calculated",
         "dit par quelle méthode les mouvements sont calculés",
     ),
+    "usage-resume": Message(
+        "go on where a run of the same deck was ended, from what 'REPRISE' of DYNAMIC or PASAPAS "
+        "kept in the output folder",
+        "continuer où un calcul du même jeu a été arrêté, depuis ce que 'REPRISE' de DYNAMIC ou "
+        "de PASAPAS a gardé dans le répertoire des résultats",
+    ),
+    "nothing-to-resume": Message(
+        "'{folder}' holds no checkpoint: the run begins at its start",
+        "'{folder}' ne contient pas de point de reprise : le calcul part de son début",
+        "REPRISE of DYNAMIC or PASAPAS keeps a calculation on its way",
+        "REPRISE de DYNAMIC ou de PASAPAS garde un calcul en chemin",
+        severity="warning",
+    ),
     "usage-quiet": Message(
         "no closing line about files and warnings",
         "sans la ligne finale sur les fichiers et les avertissements",

@@ -3,6 +3,35 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "checkpoint-of-version": Message(
+        "the checkpoints in '{folder}' were written by ssilang {version}, this is {own}",
+        "les points de reprise de '{folder}' ont été écrits par ssilang {version}, celui-ci est "
+        "{own}",
+        "go on with that version, or run without --resume",
+        "continuer avec cette version, ou calculer sans --resume",
+    ),
+    "checkpoint-of-deck": Message(
+        "the checkpoints in '{folder}' belong to another deck, or to this one before it was "
+        "changed",
+        "les points de reprise de '{folder}' viennent d'un autre jeu de données, ou de celui-ci "
+        "avant qu'il ne change",
+        "put the deck back as it was, or run without --resume",
+        "remettre le jeu tel qu'il était, ou calculer sans --resume",
+    ),
+    "checkpoint-of-parameters": Message(
+        "the checkpoints in '{folder}' belong to a run with other parameters: {before} then, {now} "
+        "now",
+        "les points de reprise de '{folder}' viennent d'un calcul avec d'autres paramètres : "
+        "{before} alors, {now} maintenant",
+        "give the same --set, or run without --resume",
+        "donner les mêmes --set, ou calculer sans --resume",
+    ),
+    "checkpoint-damaged": Message(
+        "'{path}' cannot be read as a checkpoint: {error}",
+        "'{path}' ne se lit pas comme un point de reprise : {error}",
+        "run without --resume",
+        "calculer sans --resume",
+    ),
     "field-no-component": Message(
         "the field has no component '{component}', it has {names}",
         "le champ n'a pas de composante '{component}', il a {names}",
@@ -122,8 +151,10 @@ MESSAGES: dict[str, Message] = {
         "les fichiers de Cast3M même ne peuvent être restitués",
     ),
     "written-later-version-ssilang": Message(
-        "{name} was written by a later version of ssilang",
-        "{name} a été écrit par une version plus récente de ssilang",
+        "{name} was written by a later version of ssilang, {by}; this is {own}",
+        "{name} a été écrit par une version plus récente de ssilang, {by} ; celle-ci est {own}",
+        "read it with that version, or let this one write it again",
+        "le lire avec cette version, ou le faire écrire à nouveau par celle-ci",
     ),
     "holds-unknown-kind-data": Message(
         "{name} holds an unknown kind of data '{kind}'",

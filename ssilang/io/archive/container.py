@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang import __version__
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 
@@ -47,6 +48,7 @@ def write_archive(
     head = {
         "format": FORMAT,
         "version": VERSION,
+        "ssilang": __version__,
         "settings": dict(settings),
         "records": [{"label": r.label, "names": r.names} for r in records],
         "objects": objects,
@@ -116,7 +118,8 @@ def read_archive(path: Path) -> Archive:
     except DAMAGES as error:
         raise _unreadable(path, error) from error
     if version > VERSION:
-        raise InputError("io.written-later-version-ssilang", name=path.name)
+        by = str(head.get("ssilang", "?"))
+        raise InputError("io.written-later-version-ssilang", name=path.name, by=by, own=__version__)
     return Archive(path, objects, records, settings, file, bound)
 
 

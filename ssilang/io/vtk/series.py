@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk.grid import DataArray, Grid, bare_grid, with_fields
@@ -97,6 +97,14 @@ class Series(ABC):
     @abstractmethod
     def close(self) -> None:
         """Finish what is written."""
+
+    def position(self) -> Any:
+        """How far the series is, for `go_back`, in plain values; None if it cannot go on later."""
+        return None
+
+    def go_back(self, position: Any) -> None:
+        """Go on from where an earlier run was: what it wrote stands."""
+        raise NotImplementedError
 
     def release(self) -> None:
         """Let go of what is held open: another series takes this one's place."""
@@ -206,6 +214,22 @@ class SeriesWriter(Series):
         self.files.append(path)
         self._entries = [Entry(time, "", path.name)]
         self.close()
+
+    def position(self) -> Any:
+        """Its steps."""
+        return [[e.time, e.part, e.file] for e in self._entries]
+
+    def go_back(self, position: Any) -> None:
+        """The files of these steps stand.
+
+        Raises
+        ------
+        OutputError
+            If files are gone.
+        """
+        self._entries = [Entry(time, part, file) for time, part, file in position]
+        self._check(self._entries)
+        self.files = [self.base.parent / e.file for e in self._entries]
 
     def _write(self, time: float, parts: Mapping[str, Part]) -> None:
         self._check(self._entries[-1:])

@@ -100,6 +100,8 @@ def _stops(
 class ContactLoop:
     """Steps of one dt."""
 
+    remembered = ("_z", "_seen", "_rows")
+
     def __init__(
         self, problem: Problem, motion: Motion, modes: Modes, stops: Stops, rows: ActiveSet
     ) -> None:

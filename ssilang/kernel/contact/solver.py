@@ -43,6 +43,8 @@ UNSTOPPED = 1e-9
 class ContactForces:
     """Finds reactions and frictions from what is seen without them and the flexibility."""
 
+    remembered = ("active", "last")
+
     def __init__(self, contact: ContactRows, options: ContactOptions) -> None:
         self.contact, self.options = contact, options
         self.active: BoolArray | None = None
@@ -88,6 +90,8 @@ class ContactForces:
 
 class ContactSolver:
     """Steps with unilateral relations by multipliers (the exact conditions)."""
+
+    remembered = ("forces",)
 
     def __init__(self, problem: Problem, effective: Effective, contact: ContactRows) -> None:
         self.effective, self.contact = effective, contact

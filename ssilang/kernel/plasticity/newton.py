@@ -70,6 +70,8 @@ class BulkSolver(FullNewtonSolver):
         Largest dimension of the bodies.
     """
 
+    remembered = ("forces", "force")
+
     def __init__(
         self, problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
     ) -> None:

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
@@ -55,6 +57,7 @@ class BulkRun:
     lost: float = 0.0
     residuals: list[list[float]] = field(default_factory=list)
     last: tuple[FloatArray, FloatArray] | None = None
+    keeper: Keeper | None = None
     motion: Motion = field(init=False)
 
     def __post_init__(self) -> None:
@@ -90,6 +93,16 @@ class BulkRun:
             )
         m.energies[LOST] += self.lost
 
+    def memory(self) -> dict[str, Any]:
+        """What the next step depends on beside the motion."""
+        last = None if self.last is None else leaves(self.last)
+        return {"lost": self.lost, "last": last, "state": leaves(self.state)}
+
+    def recall(self, kept: dict[str, Any]) -> None:
+        """Go on with what an earlier run kept."""
+        self.lost, self.state = kept["lost"], rebuilt(self.state, kept["state"])
+        self.last = None if kept["last"] is None else (kept["last"][0], kept["last"][1])
+
     def save(self, step: int) -> None:
         """Hand the state to the observers."""
         hand_over(self.observers, self.problem, self.motion, step, self.bulk, self.state)
@@ -109,10 +122,16 @@ def step_bulk_statics(run: BulkRun) -> History:
         solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
         history.energies[0] = run.motion.energies
-        run.save(0)
-        for k in range(1, len(problem.times)):
-            _static_step(run, solver, history, k, factors)
-            _accept(run, history, k)
+        steps = KeptSteps(run.keeper, history, run.motion, solver, run)
+        if not steps.go_on():
+            run.save(0)
+        solver.state = run.state
+        with steps.going():
+            for k in range(steps.done + 1, len(problem.times)):
+                with steps.step(k):
+                    _static_step(run, solver, history, k, factors)
+                    _accept(run, history, k)
+                steps.reached()
     return history
 
 
@@ -127,7 +146,7 @@ def _recorded(run: BulkRun) -> Iterator[History]:
     finally:
         for observer in run.observers:
             observer.close()
-    history.seconds = time.perf_counter() - started
+    history.seconds += time.perf_counter() - started
 
 
 def _accept(run: BulkRun, history: History, k: int) -> None:
@@ -222,20 +241,33 @@ def integrate_bulk(run: BulkRun) -> History:
         _start(run, factors[0])
         history.energies[0] = run.motion.energies
         loop = _BulkLoop(run)
-        run.save(0)
-        for k in range(1, len(times)):
-            outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
-            if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
-                raise ConvergenceError(
-                    "kernel.plasticity.step-time-no-equilibrium",
-                    k=k,
-                    times=times[k],
-                    residual=outcome.residual,
-                    turns=-outcome.turns,
-                )
-            history.iterations = max(history.iterations, outcome.turns)
-            _accept(run, history, k)
+        steps = KeptSteps(run.keeper, history, run.motion, loop, run)
+        if not steps.go_on():
+            run.save(0)
+        with steps.going():
+            for k in range(steps.done + 1, len(times)):
+                with steps.step(k):
+                    _moving_step(run, loop, history, k, factors)
+                    _accept(run, history, k)
+                steps.reached()
     return history
+
+
+def _moving_step(
+    run: BulkRun, loop: _BulkLoop, history: History, k: int, factors: FloatArray
+) -> None:
+    """The step that ends at time k."""
+    times = run.problem.times
+    outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
+    if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
+        raise ConvergenceError(
+            "kernel.plasticity.step-time-no-equilibrium",
+            k=k,
+            times=times[k],
+            residual=outcome.residual,
+            turns=-outcome.turns,
+        )
+    history.iterations = max(history.iterations, outcome.turns)
 
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
@@ -258,6 +290,18 @@ class _BulkLoop(SparseLoop):
         self.bulk_run = run
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
         self._closed = closed_at_start(run.problem)
+        self._begin()
+
+    def memory(self) -> dict[str, Any]:
+        """Relations that are closed, and what the solvers of the step lengths remember."""
+        solvers = [{"dt": dt, "kept": memory(solver)} for dt, solver, _ in self._solvers]
+        return {"closed": self._closed.copy(), "solvers": solvers}
+
+    def recall(self, kept: dict[str, Any]) -> None:
+        """Go on from a motion that was put back."""
+        self._closed[:] = kept["closed"]
+        for known in kept["solvers"]:
+            recall(self._solver(known["dt"])[0], known["kept"])
         self._begin()
 
     def _solver(self, dt: float) -> tuple[BulkSolver, ImpactRule | None]:
@@ -311,7 +355,8 @@ def run_bulk(
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     dynamic: bool = False,
+    keeper: Keeper | None = None,
 ) -> History:
     """Step a problem with plastic bodies through its times."""
-    run = BulkRun(problem, bulk, state, tuple(observers), progress)
+    run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper)
     return integrate_bulk(run) if dynamic else step_bulk_statics(run)

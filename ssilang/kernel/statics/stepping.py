@@ -14,6 +14,7 @@ from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
+from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
@@ -32,7 +33,10 @@ DRIVEN = 1e-9
 
 
 def step_statics(
-    problem: Problem, observers: Sequence[Observer] = (), progress: Progress | None = None
+    problem: Problem,
+    observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+    keeper: Keeper | None = None,
 ) -> History:
     """Equilibrium at each time of a problem, from its initial state on.
 
@@ -54,27 +58,40 @@ def step_statics(
         history.solver, history.loop = effective.inverse.factor.name, "static"
         solver = step_solver(problem, effective)
         factors = problem.loading.at(times)
-        _hand_over(observers, problem, motion, 0)
-        for k in range(1, len(times)):
-            _check_balanced(problem, effective.inverse, motion, factors[k])
-            try:
-                outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
-            except ConvergenceError as failure:
-                raise ConvergenceError(
-                    "kernel.statics.at-load-step", step=k, time=times[k], failure=failure
-                ) from None
-            if outcome.turns <= 0:
-                raise _lost(problem, motion, k, outcome)
-            history.iterations = max(history.iterations, outcome.turns)
-            history.energies[k] = motion.energies
-            _hand_over(observers, problem, motion, k)
-            if progress is not None:
-                progress(k, len(times) - 1)
+        run = KeptSteps(keeper, history, motion, solver)
+        if not run.go_on():
+            _hand_over(observers, problem, motion, 0)
+        with run.going():
+            for k in range(run.done + 1, len(times)):
+                with run.step(k):
+                    _check_balanced(problem, effective.inverse, motion, factors[k])
+                    outcome = _at_load_step(problem, solver, motion, factors, k)
+                    history.iterations = max(history.iterations, outcome.turns)
+                    history.energies[k] = motion.energies
+                    _hand_over(observers, problem, motion, k)
+                if progress is not None:
+                    progress(k, len(times) - 1)
+                run.reached()
     finally:
         for observer in observers:
             observer.close()
-    history.seconds = time.perf_counter() - started
+    history.seconds += time.perf_counter() - started
     return history
+
+
+def _at_load_step(
+    problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray, k: int
+) -> StepOutcome:
+    """Equilibrium at time k; what fails says where."""
+    try:
+        outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+    except ConvergenceError as failure:
+        raise ConvergenceError(
+            "kernel.statics.at-load-step", step=k, time=problem.times[k], failure=failure
+        ) from None
+    if outcome.turns <= 0:
+        raise _lost(problem, motion, k, outcome)
+    return outcome
 
 
 def _initial_motion(problem: Problem) -> Motion:

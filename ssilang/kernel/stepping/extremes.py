@@ -8,11 +8,12 @@ unknowns come as rows.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.stepping.keeping import leaves, put_back
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.state import Peaks, peaks_of
@@ -109,6 +110,15 @@ class Extremes(Track):
         shear = np.linalg.norm(t[..., :-1], axis=-1)
         for i, x in enumerate((w[..., -1], -t[..., -1], shear)):
             _compare(np.maximum(x, 0.0), steps, to.joints[i], to.joints_when[i])
+
+    def content(self) -> list[Any]:
+        """What a checkpoint keeps: the largest values so far."""
+        return leaves((self.peaks, self.forces, self.forces_when)) if self.known else []
+
+    def restore(self, kept: list[Any]) -> None:
+        """Go on from a checkpoint; the loop shares the peaks."""
+        if self.known:
+            put_back((self.peaks, self.forces, self.forces_when), kept)
 
     def found(self) -> dict[tuple[str, str], Peak]:
         """Of each kind (DEPL, REACTIONS: and component) the largest of all."""

@@ -5,15 +5,32 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
-from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
+from ssilang.kernel.stepping.choose import (
+    Case,
+    Choice,
+    choose,
+    method_of,
+    refuse_combinations,
+    rule_named,
+)
 from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.keeping import (
+    Keeper,
+    State,
+    leaves,
+    memory,
+    put_back,
+    recall,
+    steady,
+    told_to_leave,
+)
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
@@ -116,6 +133,7 @@ class Integration:
     full_newton: bool = False
     driver: Driver | None = None
     light: bool = True
+    keeper: Keeper | None = None
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
     wanted: BoolArray = field(init=False)
@@ -142,6 +160,8 @@ class Integration:
             reaction, energies, pushing,
         )  # fmt: skip
         self._choices: dict[float, Choice] = {}
+        self._begun: dict[float, list[Any]] = {}  # states in which choices were made, if kept
+        self._done, self._rule = 0, ""
         refuse_combinations(p, self.full_newton)
         self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
 
@@ -155,18 +175,22 @@ class Integration:
         SingularMatrixError
             If bodies are held by nothing, not even by mass.
         """
-        times, started = self.problem.times, time.perf_counter()
+        times, self._started = self.problem.times, time.perf_counter()
         history = History(times, np.zeros((len(times), N_ENERGIES)))
         history.kept[0] = self.motion.energies
         try:
             inside = self._drive is None and self._choice(times[1] - times[0]).rule.inside
             self.prepare(inside)
-            self.begin()
+            kept = None if self.keeper is None else self.keeper.last()
+            if kept is not None:
+                self._go_on(kept, history)
+            else:
+                self.begin()
             self._run(history)
         finally:
             for observer in self.observers:
                 observer.close()
-        history.seconds = time.perf_counter() - started
+        history.seconds += time.perf_counter() - self._started
         return history
 
     def prepare(self, inside: bool) -> None:
@@ -195,13 +219,38 @@ class Integration:
                     observer.receive(snapshot)
 
     def _run(self, history: History) -> None:
+        if self.keeper is None:
+            self._run_by_time(history)
+            return
+        keeper, total = self.keeper, len(self.problem.times) - 1
+
+        def state() -> State:
+            return self._state(history)
+
+        with told_to_leave(keeper, lambda: self._done, state):
+            while self._done < total:
+                longest = keeper.stride(self._done, self.problem.small)
+                self._chunk(self._done, longest, history)
+                if self._done < total:
+                    keeper.reached(self._done, state)
+        keeper.finished(self._done, state)
+
+    def _chunk(self, done: int, longest: int, history: History) -> Run:
+        """Steps of one length, at most so many."""
+        times = self.problem.times
+        run = next(runs_of(times[done : done + longest + 1], longest))
+        run = Run(done + run.first, done + run.last, run.dt)
+        self._steps(run, history)
+        if self.progress is not None:
+            self.progress(run.last, len(times) - 1)
+        return run
+
+    def _run_by_time(self, history: History) -> None:
         times, done = self.problem.times, 0
         longest = 4096 if self.problem.small else 64
         while done < len(times) - 1:
-            run = next(runs_of(times[done : done + longest + 1], longest))
             before = time.perf_counter()
-            run = Run(done + run.first, done + run.last, run.dt)
-            self._steps(run, history)
+            run = self._chunk(done, longest, history)
             spent = time.perf_counter() - before
             done = run.last
             if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
@@ -209,8 +258,6 @@ class Integration:
                 longest = min(max(2, faster) * longest, LONGEST_CHUNK)
             elif spent > 2 * CHUNK_SECONDS:
                 longest = max(longest // 2, 1)
-            if self.progress is not None:
-                self.progress(done, len(times) - 1)
 
     def _steps(self, run: Run, history: History) -> None:
         first = run.first
@@ -223,9 +270,9 @@ class Integration:
                 at = float(history.times[last])
                 choice, factors = self._drive.choice(self.motion, run.dt, at, factors, self._closed)
             history.solver, history.loop = choice.solver, choice.rule.loop
-            history.method = method_of(choice.rule, self.problem)
+            history.method, self._rule = method_of(choice.rule, self.problem), choice.rule.name
             energies = history.kept[first + 1 : last + 1]
-            if self.light and choice.rule.light:
+            if self.light and choice.rule.light and self.keeper is None:
                 energies, history.again = energies[:0], self._energies
             row, tapped = (
                 rows_of(x[first + 1 : last + 1]) for x in (self.wanted, self.taps.wanted)
@@ -237,21 +284,66 @@ class Integration:
             recorder = recorder_of(
                 self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
             )
-            done, turns, residual = choice.loop.run(factors, recorder)
-            history.worst = float(self._balance[1])
-            history.seen = max(history.seen, float(np.abs(self.motion.energies).max(initial=0.0)))
-            if turns > 0:
-                history.iterations = max(history.iterations, turns)
-            problem = self.problem if self._drive is None else self._drive.problem
-            for k in np.flatnonzero(row[:done] >= 0).tolist():
-                self.hand_over(kept_instant(problem, recorder, int(row[k]), first + 1 + k))
-            unknowns = self.taps.unknowns
-            rows = rows_of_tap(problem, unknowns, view, tap, factors, first, done)
-            if rows is not None:
-                self.taps.give(rows)
-            if done < last - first:
-                raise self.diverged(first + done + 1, turns, residual)
-            first = last
+            with steady(self.keeper):
+                done, turns, residual = choice.loop.run(factors, recorder)
+                history.worst = float(self._balance[1])
+                history.seen = max(
+                    history.seen, float(np.abs(self.motion.energies).max(initial=0.0))
+                )
+                if turns > 0:
+                    history.iterations = max(history.iterations, turns)
+                problem = self.problem if self._drive is None else self._drive.problem
+                for k in np.flatnonzero(row[:done] >= 0).tolist():
+                    self.hand_over(kept_instant(problem, recorder, int(row[k]), first + 1 + k))
+                unknowns = self.taps.unknowns
+                rows = rows_of_tap(problem, unknowns, view, tap, factors, first, done)
+                if rows is not None:
+                    self.taps.give(rows)
+                if done < last - first:
+                    raise self.diverged(first + done + 1, turns, residual)
+                first = self._done = last
+
+    # ---- going on later
+
+    def _state(self, history: History) -> State:
+        """All that the steps to come depend on, and what is told of those that were done."""
+        known = [
+            {"dt": dt, "begun": self._begun[dt], "remembers": memory(choice.loop)}
+            for dt, choice in self._choices.items()
+        ]
+        return {
+            "motion": leaves(self.motion),
+            "closed": self._closed.copy(),
+            "balance": self._balance.copy(),
+            "loops": known,
+            "energies": history.kept[: self._done + 1],
+            "told": {
+                "iterations": history.iterations,
+                "seen": history.seen,
+                "seconds": history.seconds + time.perf_counter() - self._started,
+                "solver": history.solver,
+                "rule": self._rule,
+            },
+        }
+
+    def _go_on(self, kept: State, history: History) -> None:
+        """Take over the state in which an earlier run left."""
+        self._done = len(kept["energies"]) - 1
+        made, self._choices = self._choices, {}
+        for known in kept["loops"] if self._done < len(self.problem.times) - 1 else ():
+            put_back((*self.motion, self._closed), known["begun"])
+            if known["dt"] in made:
+                self._choices[known["dt"]] = made[known["dt"]]
+            recall(self._choice(known["dt"]).loop, known["remembers"])
+        put_back(self.motion, kept["motion"])
+        self._closed[:], self._balance[:] = kept["closed"], kept["balance"]
+        history.kept[: self._done + 1] = kept["energies"]
+        told = kept["told"]
+        history.iterations, history.seen = told["iterations"], told["seen"]
+        history.worst, history.seconds = float(self._balance[1]), told["seconds"]
+        rule, self._rule = rule_named(told["rule"]), told["rule"]
+        history.solver, history.loop = told["solver"], rule.loop
+        history.method = method_of(rule, self.problem)
 
     def _energies(self) -> FloatArray:
         """Energies at all times, by stepping again."""
@@ -271,7 +363,11 @@ class Integration:
         found = self._choices.get(dt)
         if found is None:
             if len(self._choices) >= FACTORS_KEPT:
-                self._choices.pop(next(iter(self._choices)))
+                oldest = next(iter(self._choices))
+                del self._choices[oldest]
+                self._begun.pop(oldest, None)
+            if self.keeper is not None:
+                self._begun[dt] = leaves((*self.motion, self._closed))
             case = Case(self.problem, self.motion, dt, self.full_newton, self._closed)
             found = self._choices[dt] = choose(case)
         return found
@@ -321,6 +417,7 @@ def integrate(
     progress: Progress | None = None,
     full_newton: bool = False,
     driver: Driver | None = None,
+    keeper: Keeper | None = None,
 ) -> History:
     """Integrate a problem over its times.
 
@@ -332,10 +429,12 @@ def integrate(
         Refactorise at each iteration instead of condensing the interface (comparison).
     driver : callable, optional
         What it adds to matrices and loads at each step; see `driven`.
+    keeper : Keeper, optional
+        Keeps the state on its way; see `keeping`. Not beside a driver.
 
     Raises
     ------
     ConvergenceError, SingularMatrixError
         See `Integration.run`.
     """
-    return Integration(problem, observers, progress, full_newton, driver).run()
+    return Integration(problem, observers, progress, full_newton, driver, keeper=keeper).run()

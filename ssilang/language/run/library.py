@@ -40,6 +40,7 @@ class Library:
         self._loaded: dict[str, Procedure | None] = {}
         self._standard = standard_procedures()
         self._declared: dict[str, Declaration | None] = {}
+        self.read: list[Path] = []  # files beside the script
 
     @property
     def standard_names(self) -> frozenset[str]:
@@ -91,6 +92,8 @@ class Library:
 
     def _load(self, path: Path) -> None:
         origin = "stdlib" if path in self._standard.values() else str(path)
+        if origin != "stdlib":
+            self.read.append(path)
         for node in parse(read_source(path)).body:
             if isinstance(node, Definition):
                 self._loaded[node.name] = Procedure(node.name, node, origin)

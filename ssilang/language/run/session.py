@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, TextIO
@@ -181,5 +182,6 @@ class Session:
     on_warning: Callable[[Any], object] | None = None
     on_note: Callable[[str], object] | None = None
     was_interrupted: Callable[[], bool] = lambda: False  # a signal came that nobody has seen
+    hold: Callable[[], AbstractContextManager[None]] = nullcontext  # keeps a signal out meanwhile
     loops: LoopObserver | None = None
     on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs

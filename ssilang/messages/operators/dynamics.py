@@ -3,6 +3,82 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "resumed": Message(
+        "goes on behind step {step} of {steps}, t = {time:g}, where an earlier run was ended",
+        "continue après le pas {step} sur {steps}, t = {time:g}, où un calcul précédent a fini",
+        severity="warning",
+    ),
+    "given": Message(
+        "was done by an earlier run: its {steps} {steps:step|steps} are given back as they were",
+        "a été fait par un calcul précédent : {steps:son pas est rendu tel quel|ses {steps} pas "
+        "sont rendus tels quels}",
+        severity="warning",
+    ),
+    "checkpoint-left": Message(
+        "step {step} of {steps}, t = {time:g}, is kept in '{folder}'",
+        "le pas {step} sur {steps}, t = {time:g}, est gardé dans '{folder}'",
+        "the same command with --resume goes on from there",
+        "la même commande avec --resume continue de là",
+        severity="warning",
+    ),
+    "nothing-kept": Message(
+        "'REPRISE' keeps nothing here: runs of a sweep, or of no deck, are not gone on with",
+        "'REPRISE' ne garde rien ici : un calcul d'un balayage, ou sans jeu de données, n'est pas "
+        "repris",
+        severity="warning",
+    ),
+    "not-kept": Message(
+        "'REPRISE' cannot keep a calculation with '{index}': {reason}",
+        "'REPRISE' ne peut pas garder un calcul avec '{index}' : {reason}",
+        "leave one of the two",
+        "ôter l'un des deux",
+    ),
+    "not-kept-procedure": Message(
+        "what the script's procedure remembers from step to step is not known",
+        "ce que la procédure du script retient d'un pas à l'autre n'est pas connu",
+    ),
+    "not-kept-reduction": Message(
+        "its results come at the end, when the error of the basis is known",
+        "ses résultats viennent à la fin, quand l'erreur de la base est connue",
+    ),
+    "not-kept-path": Message(
+        "steps along a path have no times that are known before",
+        "les pas le long d'un chemin n'ont pas de temps connus d'avance",
+    ),
+    "not-kept-frequencies": Message(
+        "frequencies are no steps, each is found by itself",
+        "les fréquences ne sont pas des pas, chacune est trouvée seule",
+    ),
+    "steps-of-reprise": Message(
+        "'REPRISE' . 'PAS' is {steps}",
+        "'REPRISE' . 'PAS' vaut {steps}",
+        "give the steps from one checkpoint to the next, 1 or more",
+        "donner le nombre de pas d'un point de reprise au suivant, 1 ou plus",
+    ),
+    "minutes-of-reprise": Message(
+        "'REPRISE' . 'MINUTES' is {minutes:g}",
+        "'REPRISE' . 'MINUTES' vaut {minutes:g}",
+        "give the minutes from one checkpoint to the next, more than 0",
+        "donner les minutes d'un point de reprise au suivant, plus de 0",
+    ),
+    "checkpoint-of-files": Message(
+        "the checkpoints in '{folder}' belong to a run that read other files: {files} "
+        "{files:has|have} changed, or {files:is|are} read no more",
+        "les points de reprise de '{folder}' viennent d'un calcul qui a lu d'autres fichiers : "
+        "{files} {files:a|ont} changé, ou {files:n'est plus lu|ne sont plus lus}",
+        "put them back as they were, or run without --resume",
+        "les remettre tels qu'ils étaient, ou calculer sans --resume",
+    ),
+    "checkpoint-of-call": Message(
+        "the checkpoint of calculation {number} in '{folder}' is that of another one "
+        "({procedure}): the deck does not calculate what it did then (a date or time that it "
+        "reads?)",
+        "le point de reprise du calcul {number} dans '{folder}' est celui d'un autre "
+        "({procedure}) : le jeu ne calcule plus ce qu'il calculait (une date ou une heure qu'il "
+        "lit ?)",
+        "run without --resume",
+        "calculer sans --resume",
+    ),
     "charmeca-gives-a-table": Message(
         "the procedure CHARMECA must give one TABLE",
         "la procédure CHARMECA doit rendre une TABLE",

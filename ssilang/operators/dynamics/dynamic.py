@@ -18,6 +18,11 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
+from ssilang.operators.dynamics.checkpoints import (
+    KeptCalculation,
+    kept_calculation,
+    steps_of_reprise,
+)
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
 from ssilang.operators.dynamics.reports import (
     report,
@@ -93,7 +98,7 @@ def zdyn(call: Call, table: Table) -> Table:
     if extremes.known:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
-        again = partial(_step_again, entries.get("REDUCTION"), problem)
+        again = partial(_step_again, entries.get("REDUCTION"), problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
@@ -111,19 +116,24 @@ def _integrated(
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
     tolerance = entries.get("REDUCTION")
     full = entries.flag("NEWTON_COMPLET")
+    driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
+    in_force = {"REDUCTION": tolerance is not None, "CHARMECA": driver is not None}
+    refused = [word for word, is_so in in_force.items() if is_so]
+    keeper = kept_calculation(entries, problem, observers, refused, bodies)
+    if keeper is not None:
+        observers = [*observers, keeper]
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
         from ssilang.kernel.plasticity.run import run_bulk
 
-        return run_bulk(problem, *bodies, observers, line, dynamic=True)
-    driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
+        return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper)
     if tolerance is None and not full and driver is None:
-        return integrated(entries.call.session, problem, observers, line)
+        return integrated(entries.call.session, problem, observers, line, keeper)
     if tolerance is None:
         from ssilang.kernel.stepping.run import integrate
 
-        return integrate(problem, observers, line, full, driver)
+        return integrate(problem, observers, line, full, driver, keeper)
     if driver is not None:
         raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
@@ -135,13 +145,19 @@ def _integrated(
     return integrate_reduced(problem, float(tolerance), observers, line)
 
 
-def _step_again(tolerance: float | None, problem: Problem, extremes: Extremes) -> None:
-    """The same motion for its largest values, which its loop does not give without cost."""
+def _step_again(
+    tolerance: float | None, problem: Problem, every: int | None, extremes: Extremes
+) -> None:
+    """The same motion for its largest values, which its loop does not give without cost.
+
+    `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
+    """
+    from ssilang.kernel.stepping.keeping import Cut
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
     from ssilang.kernel.stepping.run import integrate
 
     if tolerance is None:
-        integrate(problem, [extremes])
+        integrate(problem, [extremes], keeper=None if every is None else Cut(every))
     else:
         integrate_reduced(problem, float(tolerance), [extremes])
 
@@ -154,11 +170,17 @@ def _say_reduction(entries: Entries, history: History) -> None:
 
 
 def integrated(
-    session: Session, problem: Problem, observers: Sequence[Observer], line: ProgressLine
+    session: Session,
+    problem: Problem,
+    observers: Sequence[Observer],
+    line: ProgressLine,
+    keeper: KeptCalculation | None = None,
 ) -> History:
     """The history; in a sweep, of what other runs bring too, side by side."""
     from ssilang.kernel.stepping.run import integrate
 
+    if keeper is not None:
+        return integrate(problem, observers, line, keeper=keeper)
     found: History = (session.integrate or integrate)(problem, observers, line)
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,6 +84,14 @@ class VtkObserver:
             for name, mesh in self.meshes.items()
         }
         self.writer.write_parts(snapshot.time, parts)
+
+    def content(self) -> Any:
+        """What a checkpoint keeps: how far the series is; None where it is written again."""
+        return self.writer.position()
+
+    def restore(self, kept: Any) -> None:
+        """Go on from a checkpoint."""
+        self.writer.go_back(kept)
 
     def close(self) -> None:
         """Finish the series."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -114,6 +114,14 @@ class UpliftWatch:
 
     def close(self) -> None:
         """Nothing is open."""
+
+    def content(self) -> list[Any]:
+        """What a checkpoint keeps."""
+        return [list(pair) for pair in self.seen]
+
+    def restore(self, kept: list[Any]) -> None:
+        """Go on from a checkpoint."""
+        self.seen = [(time, least) for time, least in kept]
 
     @property
     def since(self) -> float:

@@ -57,6 +57,8 @@ def zfre(call: Call, table: Table) -> None:
     from ssilang.kernel.statics.frequency import sweep
 
     entries = Entries(call, table, "PASAPAS")
+    if isinstance(entries.get("REPRISE"), Table):
+        entries.refuse({"REPRISE": "operators.dynamics.not-kept-frequencies"})
     inputs = _inputs(entries)
     frequencies = _frequencies(entries, inputs)
     tables = {word: Table() for word in _RESULTS}

@@ -24,6 +24,7 @@ from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.reports import (
     report,
@@ -150,25 +151,36 @@ def _stretch(
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
     if work is not entries:
         observers.append(Steering(entries.call, entries.table, work.table, results, len(times)))
+    path = control_asked(work)
+    made = None if bodies is None or path else bodies(problem, inputs)
+    keeper = kept_calculation(entries, problem, observers, _not_kept(entries, work), made)
+    if keeper is not None:
+        observers.append(keeper)
     line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
         (warn_resolution if dynamic else warn_contrast)(work, problem)
-        if control_asked(work):
+        if path:
             history = follow(entries, _path_run(problem, inputs, bodies, observers))
-        elif bodies is not None:
-            history = run_bulk(problem, *bodies(problem, inputs), observers, line, dynamic)
+        elif made is not None:
+            history = run_bulk(problem, *made, observers, line, dynamic, keeper)
         elif dynamic:
             full = work.flag("NEWTON_COMPLET")
             if full or work is not entries:  # a procedure of the script's steps in its own turn
-                history = integrate(problem, observers, line, full)
+                history = integrate(problem, observers, line, full, keeper=keeper)
             else:
-                history = integrated(entries.call.session, problem, observers, line)
+                history = integrated(entries.call.session, problem, observers, line, keeper)
         else:
-            history = step_statics(problem, observers, line)
+            history = step_statics(problem, observers, line, keeper)
     finally:
         line.close()
     report(entries, problem, history)
     return state_table(reached.values)
+
+
+def _not_kept(entries: Entries, work: Entries) -> list[str]:
+    """Entries in force whose calculation REPRISE cannot keep."""
+    asked = [w for w in ("PROCEDURE_CHARMECA", "AUTOMATIQUE", "PILOTAGE_INDIRECT") if work.flag(w)]
+    return asked if work is entries else ["PROCEDURE_PERSO1", *asked]
 
 
 def _entering(start: Start, stage: Stage) -> Start:
@@ -277,7 +289,7 @@ def start_of(entries: Entries) -> Start:
         for i in entries.numbers(word)
     ]
     again = entries.get("REPRISE")
-    if again is None:
+    if again is None or isinstance(again, Table):  # a table: how the calculation is kept
         index = max(entries.numbers("TEMPS") or numbers, default=0)
     else:
         times = {i: entries.at("TEMPS", i) for i in entries.numbers("TEMPS")}

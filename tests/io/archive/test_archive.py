@@ -122,10 +122,10 @@ def test_a_later_version_is_refused(tmp_path: Path) -> None:
     saved(path, X=1)
     with zipfile.ZipFile(path) as z:
         head = json.loads(z.read("objects.json"))
-    head["version"] = 99
+    head["version"], head["ssilang"] = 99, "7.0.0"
     with zipfile.ZipFile(path, "w") as z:
         z.writestr("objects.json", json.dumps(head))
-    with pytest.raises(InputError, match="later version"):
+    with pytest.raises(InputError, match=r"later version of ssilang, 7\.0\.0; this is 0\.1\.0"):
         read_archive(path)
 
 
@@ -148,6 +148,33 @@ def test_a_file_of_the_last_release_is_restored(tmp_path):
     assert result.exit_code == 0, result.message
     assert "3.17147" in result.output
     assert "7.68272" in result.output
+
+
+OBJECTS = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; OPTI REST 'old.sauv' ; REST ;
+MESS (MAXI 'ABS' U) (MAXI 'ABS' (T . 'DEPLACEMENTS' . 3)) (MAXI (T . 'VARIABLES_INTERNES' . 3)) ;
+MESS (MAXI V) (MAXI (EXTR E 'ORDO')) (EXTR LE 2) (EXTR LM 2) F1 W1 X1 (DOUBLE 4.) ;
+R2 = (RIGI MS AS) ET B ; D1 = (RESO R (FORC (3. -5.) L2)) - (RESO R2 (FORC (3. -5.) L2)) ;
+MESS (MAXI 'ABS' D1) (MAXI 'ABS' ((RESO R (FORC (3. -5.) L2)) - U)) (NBEL (S ELEM 'ROUG')) ;
+T1 = TABL ; T1 . 'MODELE' = MS ; T1 . 'CARACTERISTIQUES' = AS ; T1 . 'BLOCAGES_MECANIQUES' = B ;
+T1 . 'CHARGEMENT' = C ; T1 . 'TEMPS_CALCULES' = PROG 0. 1. 2. 3. ; PASAPAS T1 ;
+MESS (MAXI 'ABS' ((T . 'DEPLACEMENTS' . 3) - (T1 . 'DEPLACEMENTS' . 3))) ;
+"""
+
+
+def test_all_kinds_of_objects_of_the_last_release_are_restored_and_used(tmp_path):
+    """Values that the release printed when it wrote the file, and what the objects give today."""
+    shutil.copy(Path(__file__).with_name("files") / "0.1.0-objects.sauv", tmp_path / "old.sauv")
+    script = tmp_path / "old.ssi"
+    script.write_text(OBJECTS, encoding="utf-8")
+    result = run_file(script)
+    assert result.exit_code == 0, result.message
+    assert result.output.splitlines() == [
+        " 2.73931E+00 2.27158E+02 7.63135E-03",
+        " 3.86806E+00 1.00000E+001UY 1.00000E-01wordVRAI 8.00000E+00",
+        " 0.00000E+00 0.00000E+006",
+        " 0.00000E+00",
+    ]
 
 
 def test_classes_have_their_homes():

@@ -30,6 +30,8 @@ def supports_are_still(problem: Problem) -> bool:
 class ReducedLoop:
     """Steps of one dt on `u = T q`."""
 
+    remembered = ("_work",)
+
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self.problem, self.motion = problem, motion
         self.T: FloatArray = problem.constraints.T.toarray()

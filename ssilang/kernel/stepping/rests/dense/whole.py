@@ -15,6 +15,8 @@ from ssilang.kernel.stepping.track import View, whole_view
 class DenseLoop:
     """Steps of one dt."""
 
+    remembered = ("_work",)
+
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self._system = system_of(problem)
         self._operators = operators_of(problem, effective)

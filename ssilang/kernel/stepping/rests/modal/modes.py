@@ -105,6 +105,8 @@ class SmallLoop:
     `line` are few modes and one spring, `springs` springs that only push; None if it is not that.
     """
 
+    remembered = ("_z", "_seen")
+
     def __init__(self, problem: Problem, motion: Motion, effective: Effective, modes: Modes):
         self.problem, self.motion, self.modes = problem, motion, modes
         self._newmark = newmark_of(problem.scheme, effective.dt)

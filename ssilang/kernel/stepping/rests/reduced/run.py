@@ -10,7 +10,6 @@ the field's error may be somewhat larger (a factor of 2 has been seen).
 
 from __future__ import annotations
 
-import hashlib
 import math
 import time
 from collections import OrderedDict
@@ -23,6 +22,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import interface_forces
+from ssilang.kernel.stepping.problem.digest import digest
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import (
     Basis,
@@ -107,7 +107,7 @@ def _step_of(problem: Problem) -> float:
 
 def _name_of(problem: Problem) -> str:
     """A digest of all that the basis is made of."""
-    p, digest = problem, hashlib.sha256()
+    p = problem
     sparse = [p.K, p.M, p.C, p.constraints.T]
     dense = [p.loading.forces, p.u, p.v, p.state, p.loading.at(p.times[:1]), p.times[:1]]
     if p.loading.imposed.any():
@@ -116,12 +116,7 @@ def _name_of(problem: Problem) -> str:
     if p.interface is not None:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
-    for A in sparse:
-        for part in (A.indptr, A.indices, A.data):
-            digest.update(np.ascontiguousarray(part).tobytes())
-    for x in dense:
-        digest.update(np.ascontiguousarray(x).tobytes())
-    return f"{digest.hexdigest()} {_step_of(p):.9g}"
+    return f"{digest(sparse, dense)} {_step_of(p):.9g}"
 
 
 @dataclass(eq=False)

@@ -6,6 +6,8 @@ within a step.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -13,6 +15,7 @@ from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.stepping.keeping import memory, recall
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, keep_whole
@@ -20,6 +23,8 @@ from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Recorder,
 from ssilang.kernel.stepping.track import View, whole_view
 
 DEEPEST = 5
+
+Memory = list[dict[str, Any]]
 
 
 class AdaptiveLoop:
@@ -35,6 +40,15 @@ class AdaptiveLoop:
         self._solvers: dict[int, StepSolver] = {}
         self.solver = ""
         self._solver(0)
+
+    def memory(self) -> Memory:
+        """What the solvers of the levels remember, in the order in which they were made."""
+        return [{"level": level, "kept": memory(s)} for level, s in self._solvers.items()]
+
+    def recall(self, kept: Memory) -> None:
+        """Give it back to them."""
+        for part in kept:
+            recall(self._solver(part["level"]), part["kept"])
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""

@@ -33,6 +33,8 @@ class FullNewtonSolver:
     linearised system, gaps and slips being linear in du.
     """
 
+    remembered: tuple[str, ...] = ("forces",)
+
     def __init__(self, problem: Problem, A: sp.csr_array, share: float) -> None:
         self.A, self.share, self.constraints = A, share, problem.constraints
         self.solver = problem.solver

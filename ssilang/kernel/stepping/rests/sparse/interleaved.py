@@ -66,6 +66,8 @@ def fits(problem: Problem, effective: Effective) -> bool:
 class InterleavedLoop:
     """Steps of one dt of a problem that fits."""
 
+    remembered = ("newton",)
+
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self.problem, self.motion = problem, motion
         inverse = effective.inverse

@@ -60,22 +60,24 @@ class StepSolver(Protocol):
 class CondensedSolver:
     """The interface condensed exactly on its own unknowns (one factorisation a dt)."""
 
+    remembered = ("_newton",)
+
     def __init__(self, problem: Problem, effective: Effective) -> None:
         self.effective = effective
         self.interface = problem.interface
         R = effective.R if effective.R.any() else np.zeros((0, 0))
         self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
         self._newton: Workspace | None = None
+        if (joints := problem.interface) is not None:
+            self._newton = workspace((joints.n_points, joints.dimension), joints.size)
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
         du = self.effective.solve(r)
         if dd.any():
             du = du + self.effective.imposed(dd)
-        if self.interface is None:
+        if self.interface is None or self._newton is None:
             return StepOutcome(du, 1, 0.0)
-        if self._newton is None:
-            self._newton = workspace(motion.w.shape, self.interface.size)
         trial = self._newton.trial
         trial.y0[:] = self.interface.J @ du
         trial.y[:] = trial.y0
@@ -256,6 +258,8 @@ def watch_whole(m: Motion, to: Peaks, k: int) -> None:
 @dataclass(eq=False)
 class SparseSteps:
     """Steps of one dt of a sparse loop with one solver."""
+
+    remembered = ("solver",)
 
     loop: SparseLoop
     solver: StepSolver

@@ -1,0 +1,295 @@
+"""Checkpoints: what a run that ends early leaves for the next one, in a folder of its output.
+
+The calculations of a deck that are kept are numbered as they begin. Of each the folder has two
+files. `N.state` is a zip of `head.json` and arrays (NPY): all that the steps to come depend on,
+written whole or not at all. `N.rows` only grows: names and arrays behind one another, of the steps
+done since the checkpoint before; the state says how many bytes of it count, and what lies behind
+them (of a run that was killed while it wrote) is written over. Nothing in them is ever executed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.io.archive.container import DAMAGES
+from ssilang.io.atomic import replacing
+from ssilang.io.errors import InputError, OutputError
+
+FORMAT = "ssilang-checkpoint"
+VERSION = 1
+FOLDER = "checkpoints"
+_ARRAY = "@"  # key that stands for an array
+
+Rows = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Deck:
+    """Whose checkpoints these are.
+
+    Attributes
+    ----------
+    version : str
+        Of ssilang.
+    text : str
+        Digest of the deck's text.
+    given : dict
+        Parameters of the command line, by name, as text.
+    """
+
+    version: str
+    text: str
+    given: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """One calculation as it was kept: what identifies it, its state, the rows of its steps."""
+
+    call: dict[str, Any]
+    state: dict[str, Any]
+    rows: list[Rows]
+
+
+@dataclass
+class Checkpoints:
+    """The checkpoints of a run.
+
+    Parameters
+    ----------
+    folder : Path
+    deck : Deck
+    resume : bool
+        Whether the run goes on from what stands there; without it the first checkpoint of the run
+        replaces all of them.
+    """
+
+    folder: Path
+    deck: Deck
+    resume: bool = False
+    _number: int = 0
+    _lengths: dict[int, tuple[int, int]] = field(default_factory=dict)
+
+    @property
+    def found(self) -> bool:
+        """Whether an earlier run left any."""
+        return next(self._states(), None) is not None
+
+    def begin(self) -> int:
+        """The number of a calculation that begins."""
+        self._number += 1
+        return self._number
+
+    def check(self) -> None:
+        """Check that what stands there was left by this deck.
+
+        Raises
+        ------
+        InputError
+            If another deck, other parameters or another version of ssilang left it.
+        """
+        for path in self._states():
+            self._head(path)
+
+    def read(self, number: int) -> Kept | None:
+        """What an earlier run kept of a calculation; None if it kept nothing, or is not asked for.
+
+        Raises
+        ------
+        InputError
+            If it cannot be read, or belongs to another deck.
+        """
+        path = self._path(number, "state")
+        if not self.resume or not path.is_file():
+            return None
+        head = self._head(path)
+        try:
+            with zipfile.ZipFile(path) as file:
+                state = _decoded(head["state"], file)
+            rows = _read_rows(self._path(number, "rows"), head["batches"])
+            length, batches = int(head["length"]), int(head["batches"])
+        except DAMAGES as error:
+            raise self._damaged(path, error) from error
+        self._lengths[number] = length, batches
+        return Kept(head["call"], state, rows)
+
+    def write(
+        self, number: int, call: Mapping[str, Any], state: Mapping[str, Any], rows: Rows
+    ) -> None:
+        """Keep a calculation: the rows since the last time, then its state.
+
+        Raises
+        ------
+        OutputError
+            If that cannot be written; the checkpoint before stands still.
+        """
+        if not (self.resume or self._lengths):
+            self._remove()  # what an earlier run left is no part of this one
+        length, batches = self._lengths.get(number, (0, 0))
+        try:
+            names = np.frombuffer(json.dumps(list(rows)).encode(), np.uint8)
+            length = _append(self._path(number, "rows"), length, [names, *rows.values()])
+        except OSError as error:
+            path = self._path(number, "rows")
+            raise OutputError(
+                "io.cannot-written", path=path, strerror=error.strerror or error
+            ) from error
+        arrays: list[NDArray[Any]] = []
+        head = {
+            "format": FORMAT,
+            "version": VERSION,
+            "ssilang": self.deck.version,
+            "deck": self.deck.text,
+            "given": dict(self.deck.given),
+            "call": dict(call),
+            "batches": batches + 1,
+            "length": length,
+            "state": _encoded(state, arrays),
+        }
+        with replacing(self._path(number, "state")) as stream:
+            _write_zip(stream, head, arrays)
+            stream.flush()
+            os.fsync(stream.fileno())
+        self._lengths[number] = length, batches + 1
+
+    def forget(self) -> None:
+        """Remove them: the deck has come to its end."""
+        if self._lengths:
+            self._remove()
+
+    def _path(self, number: int, suffix: str) -> Path:
+        return self.folder / f"{number}.{suffix}"
+
+    def _states(self) -> Iterator[Path]:
+        yield from sorted(self.folder.glob("[0-9]*.state"))
+
+    def _remove(self) -> None:
+        """Remove the checkpoints, and their folder if nothing else stands there."""
+        for path in (*self._states(), *self.folder.glob("[0-9]*.rows")):
+            with suppress(OSError):
+                path.unlink()
+        with suppress(OSError):
+            self.folder.rmdir()
+
+    def _head(self, path: Path) -> dict[str, Any]:
+        try:
+            with zipfile.ZipFile(path) as file:
+                head: dict[str, Any] = json.loads(file.read("head.json"))
+            if head["format"] != FORMAT:
+                raise ValueError(f"format {head['format']!r}")
+            version, written_by = int(head["version"]), str(head["ssilang"])
+            deck, given = str(head["deck"]), dict(head["given"])
+        except DAMAGES as error:
+            raise self._damaged(path, error) from error
+        if version != VERSION or written_by != self.deck.version:
+            raise InputError(
+                "io.checkpoint-of-version",
+                folder=self.folder, version=written_by, own=self.deck.version,
+            )  # fmt: skip
+        if deck != self.deck.text:
+            raise InputError("io.checkpoint-of-deck", folder=self.folder)
+        names = sorted(n for n in given.keys() | self.deck.given if self._differs(given, n))
+        if names:
+            before, now = (
+                [f"{n}={d[n]}" if n in d else f"{n}" for n in names]
+                for d in (given, self.deck.given)
+            )
+            raise InputError(
+                "io.checkpoint-of-parameters", folder=self.folder, before=before, now=now
+            )
+        return head
+
+    def _differs(self, given: Mapping[str, str], name: str) -> bool:
+        return given.get(name) != self.deck.given.get(name)
+
+    def _damaged(self, path: Path, error: Exception) -> InputError:
+        return InputError("io.checkpoint-damaged", path=path, error=error)
+
+
+def digest_of_text(text: str) -> str:
+    """What tells one deck from another."""
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def digest_of_file(path: Path) -> str:
+    """The same of a file; '' of one that is gone."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+# ---- what files hold -----------------------------------------------------------------------------
+
+
+def _encoded(value: Any, arrays: list[NDArray[Any]]) -> Any:
+    """Numbers, words, lists and dictionaries for JSON; arrays by their number."""
+    if isinstance(value, np.ndarray):
+        arrays.append(value)
+        return {_ARRAY: len(arrays) - 1}
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, Mapping):
+        return {name: _encoded(v, arrays) for name, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_encoded(v, arrays) for v in value]
+    assert value is None or isinstance(value, bool | int | float | str), type(value)
+    return value
+
+
+def _decoded(value: Any, file: zipfile.ZipFile) -> Any:
+    if isinstance(value, list):
+        return [_decoded(v, file) for v in value]
+    if not isinstance(value, dict):
+        return value
+    if _ARRAY in value:
+        with file.open(f"{value[_ARRAY]}.npy") as stream:
+            return np.lib.format.read_array(stream, allow_pickle=False)
+    return {name: _decoded(v, file) for name, v in value.items()}
+
+
+def _write_zip(stream: Any, head: dict[str, Any], arrays: list[NDArray[Any]]) -> None:
+    """Not packed: numbers of a motion pack badly, and time counts."""
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED, True) as file:
+        file.writestr("head.json", json.dumps(head))
+        for number, array in enumerate(arrays):
+            with file.open(f"{number}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, array, allow_pickle=False)
+
+
+def _append(path: Path, length: int, arrays: Iterable[NDArray[Any]]) -> int:
+    """Write arrays behind the first `length` bytes of a file; its length then."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | getattr(os, "O_NOFOLLOW", 0)
+    with os.fdopen(os.open(path, flags, 0o666), "r+b") as stream:
+        stream.truncate(length)
+        stream.seek(length)
+        for array in arrays:
+            np.lib.format.write_array(stream, array, allow_pickle=False)
+        stream.flush()
+        os.fsync(stream.fileno())
+        return stream.tell()
+
+
+def _read_rows(path: Path, batches: int) -> list[Rows]:
+    """The arrays of each batch by name; the names stand before them."""
+    with path.open("rb") as stream:
+        return [
+            {
+                name: np.lib.format.read_array(stream, allow_pickle=False)
+                for name in json.loads(np.lib.format.read_array(stream).tobytes())
+            }
+            for _ in range(batches)
+        ]

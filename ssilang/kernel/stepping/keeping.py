@@ -1,0 +1,249 @@
+"""Calculations whose state is kept on their way, so that a later run goes on from there.
+
+A state is a dictionary of numbers, words and arrays, and of lists and dictionaries of them: what a
+file can hold. Going on leads to the last bit of an undisturbed run. The steps of a kept calculation
+are cut at instants that depend on the calculation alone, never on the clock: loops that evaluate
+something anew at the start of some steps do so at the same instants. What loops and solvers carry
+from some steps to the next beside the motion (tangents that are factorised, closed rows,
+coordinates) goes with the state: a class names these attributes in `remembered`.
+"""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+State = dict[str, Any]
+
+SMALL_STRIDE = 4096
+"""Steps of a small problem after which they are cut."""
+STRIDE = 16
+"""The same of others: seconds where a step takes long."""
+
+
+class Keeper(Protocol):
+    """Keeps the state of one calculation."""
+
+    def stride(self, done: int, small: bool) -> int:
+        """Steps after `done` up to the next instant at which the state may be kept."""
+        ...
+
+    def steady(self) -> AbstractContextManager[None]:
+        """While steps change the state an interruption waits."""
+        ...
+
+    def reached(self, done: int, state: Callable[[], State]) -> None:
+        """Steps are done: keep their state if it is time to.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            If the run was told to end.
+        """
+        ...
+
+    def left(self, done: int, state: Callable[[], State]) -> None:
+        """The calculation ends early, and whole: keep its state."""
+        ...
+
+    def finished(self, done: int, state: Callable[[], State]) -> None:
+        """All steps are done."""
+        ...
+
+    def last(self) -> State | None:
+        """The state that an earlier run kept of this calculation, None without."""
+        ...
+
+
+class Cut:
+    """Cuts steps where a keeper does, and keeps nothing: the same steps once more."""
+
+    def __init__(self, every: int) -> None:
+        self.every = every
+
+    def stride(self, done: int, small: bool) -> int:
+        """Steps up to the next cut."""
+        return stride_of(done, small, self.every)
+
+    def steady(self) -> AbstractContextManager[None]:
+        """Nothing waits."""
+        return nullcontext()
+
+    def reached(self, done: int, state: Callable[[], State]) -> None:
+        """Nothing is kept."""
+
+    left = finished = reached
+
+    def last(self) -> State | None:
+        """Nothing was kept."""
+        return None
+
+
+def stride_of(done: int, small: bool, every: int) -> int:
+    """Steps up to the next multiple of `every` (0: none) or of the problem's own stride."""
+    own = SMALL_STRIDE if small else STRIDE
+    return min(n - done % n for n in (own, every) if n)
+
+
+@contextmanager
+def told_to_leave(
+    keeper: Keeper | None, done: Callable[[], int], state: Callable[[], State]
+) -> Iterator[None]:
+    """Steps that an interruption may end: the keeper gets the state in which it does."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if keeper is not None:
+            keeper.left(done(), state)
+        raise
+
+
+def steady(keeper: Keeper | None) -> AbstractContextManager[None]:
+    """While steps change the state an interruption waits, if the state is kept."""
+    return nullcontext() if keeper is None else keeper.steady()
+
+
+# ---- records of arrays ------------------------------------------------------------------------
+
+
+def leaves(value: Any) -> list[Any]:
+    """Copies of the arrays, and the numbers, of nested tuples and data classes, in order."""
+    return [x.copy() if isinstance(x, np.ndarray) else x for x in _leaves(value)]
+
+
+def _leaves(value: Any) -> Iterator[Any]:
+    if isinstance(value, tuple):
+        for part in value:
+            yield from _leaves(part)
+    elif is_dataclass(value):
+        for f in fields(value):
+            yield from _leaves(getattr(value, f.name))
+    else:
+        yield value
+
+
+def put_back(record: Any, values: Sequence[Any]) -> None:
+    """The arrays of a record become those of `leaves`, in place."""
+    for array, value in zip(_leaves(record), values, strict=True):
+        if isinstance(array, np.ndarray):
+            array[...] = value
+
+
+def rebuilt(like: Any, values: Sequence[Any]) -> Any:
+    """A record of the shape of another one with the values of `leaves`."""
+    source = iter(values)
+    made = _rebuilt(like, source)
+    assert next(source, None) is None
+    return made
+
+
+def _rebuilt(like: Any, values: Iterator[Any]) -> Any:
+    if isinstance(like, tuple):
+        parts = [_rebuilt(part, values) for part in like]
+        return type(like)(*parts) if hasattr(like, "_fields") else tuple(parts)
+    if is_dataclass(like) and not isinstance(like, type):
+        return replace(
+            like, **{f.name: _rebuilt(getattr(like, f.name), values) for f in fields(like)}
+        )
+    return next(values)
+
+
+# ---- what loops and solvers remember -----------------------------------------------------------
+
+
+def memory(owner: Any) -> Any:
+    """What an object goes on with, by its class: the attributes of `remembered`."""
+    if hasattr(owner, "memory"):
+        return owner.memory()
+    return {name: _memory(getattr(owner, name)) for name in getattr(owner, "remembered", ())}
+
+
+def _memory(value: Any) -> Any:
+    if value is None or isinstance(value, np.ndarray):
+        return None if value is None else value.copy()
+    return leaves(value) if isinstance(value, tuple) else memory(value)
+
+
+def recall(owner: Any, kept: Any) -> None:
+    """Give an object back what it remembered."""
+    if hasattr(owner, "recall"):
+        owner.recall(kept)
+        return
+    for name, value in kept.items():
+        now = getattr(owner, name)
+        if isinstance(now, tuple):
+            put_back(now, value)
+        elif isinstance(value, dict):
+            recall(now, value)
+        else:
+            setattr(owner, name, None if value is None else value.copy())
+
+
+# ---- calculations that step in Python ------------------------------------------------------------
+
+
+class KeptSteps:
+    """Steps of a calculation whose state is its motion, what its solver remembers, and `more`.
+
+    Attributes
+    ----------
+    done : int
+        Steps that are done.
+    """
+
+    def __init__(
+        self, keeper: Keeper | None, history: Any, motion: Any, solver: Any, more: Any = None
+    ) -> None:
+        self.keeper, self.history, self.motion = keeper, history, motion
+        self.solver, self.more, self.done = solver, more, 0
+        self._started = clock.perf_counter()
+
+    def go_on(self) -> bool:
+        """Take over the state that an earlier run kept; False if there is none."""
+        kept = None if self.keeper is None else self.keeper.last()
+        if kept is None:
+            return False
+        self.done, h = len(kept["energies"]) - 1, self.history
+        put_back(self.motion, kept["motion"])
+        h.kept[: self.done + 1] = kept["energies"]
+        h.iterations, h.seconds = kept["iterations"], kept["seconds"]
+        if self.more is not None:
+            recall(self.more, kept["more"])
+        recall(self.solver, kept["remembers"])
+        return True
+
+    def state(self) -> State:
+        """What the steps to come depend on."""
+        return {
+            "motion": leaves(self.motion),
+            "energies": self.history.kept[: self.done + 1],
+            "iterations": self.history.iterations,
+            "seconds": self.history.seconds + clock.perf_counter() - self._started,
+            "remembers": memory(self.solver),
+            "more": None if self.more is None else memory(self.more),
+        }
+
+    @contextmanager
+    def going(self) -> Iterator[None]:
+        """All steps that are left."""
+        with told_to_leave(self.keeper, lambda: self.done, self.state):
+            yield
+        if self.keeper is not None:
+            self.keeper.finished(self.done, self.state)
+
+    @contextmanager
+    def step(self, k: int) -> Iterator[None]:
+        """The step that ends at time k."""
+        with steady(self.keeper):
+            yield
+            self.done = k
+
+    def reached(self) -> None:
+        """A step is done and told of: the state may be kept."""
+        if self.keeper is not None and self.done < len(self.history.times) - 1:
+            self.keeper.reached(self.done, self.state)

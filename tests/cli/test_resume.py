@@ -1,0 +1,230 @@
+"""`--resume`: processes that were killed, checkpoints that belong elsewhere."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.main import main
+from ssilang.io import checkpoint
+from ssilang.operators.dynamics.checkpoints import KeptCalculation
+
+posix = pytest.mark.skipif(os.name != "posix", reason="signals of one system")
+
+MODEL = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ; LIN1 = PROG 0. PAS {dt} {end} ;
+PS = 0. -1. ; PM = 0. 0. ; JOI = MANU 'SEG2' PS PM ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+T . 'RIGI' = (BLOQ 'UX' 'UY' PS) ET (BLOQ 'UX' PM) ; T . 'MASS' = MASS 'DEPL' 1.E3 PM ;
+T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E7 'KS' 0. ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E4) PM)) ET
+  (CHAR 'MECA' (FORC (0. 3.E4) PM) (EVOL 'MANU' LIN1 (SIN (LIN1 * 500.)))) ;
+T . 'TEMPS_CALCULES' = LIN1 ; T . 'PAS_SAUVES' = {every} ;
+T . 'PAS_SAUVES_VTK' = {every} ; T . 'MAILLAGE_VTK' = JOI ;
+T . 'PAS_SAUVES_CSV' = 1 ; T . 'MAILLAGE_CSV' = PM ;
+T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = {steps} ;
+T2 = DYNAMIC T ;
+"""
+SHORT = MODEL.format(dt=1e-3, end=0.1, every=10, steps=20)
+LONG = MODEL.format(dt=1e-3, end=4.0, every=400, steps=200)
+
+
+@pytest.fixture
+def case(tmp_path, monkeypatch, capsys):
+    """Path of a deck in the working folder, whose calculation was ended behind a checkpoint."""
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "case.ssi"
+    path.write_text(SHORT)
+    reached = KeptCalculation.reached
+
+    def end(self, done, state):
+        reached(self, done, state)
+        if done >= 60:
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(KeptCalculation, "reached", end)
+        assert main([str(path)]) == 1
+    assert (tmp_path / "results" / "case" / "checkpoints" / "1.state").is_file()
+    path.with_name("told.txt").write_text(capsys.readouterr().err)
+    return path
+
+
+def said(capsys) -> str:
+    return capsys.readouterr().err
+
+
+def test_who_ends_a_run_is_told_how_to_go_on(case, capsys):
+    told = case.with_name("told.txt").read_text()
+    assert "step 60 of 100, t = 0.06, is kept in" in told
+    assert "--resume" in told
+    assert main([str(case), "--resume"]) == 0
+    assert "goes on behind step 60 of 100" in said(capsys)
+    assert not (case.parent / "results" / "case" / "checkpoints").exists()
+
+
+def test_a_checkpoint_of_another_deck_is_refused(case, capsys):
+    case.write_text(SHORT.replace("1.E7", "2.E7"))
+    for words, sentence in (((), "belong to another deck"), (("--lang", "fr"), "autre jeu")):
+        assert main([str(case), "--resume", *words]) == 1
+        told = said(capsys)
+        assert sentence in told
+        assert "--resume" in told
+    case.write_text(SHORT)  # it was refused before anything was touched
+    assert main([str(case), "--resume"]) == 0
+    assert "goes on behind step 60" in said(capsys)
+
+
+def test_a_checkpoint_of_other_parameters_is_refused(case, capsys):
+    assert main([str(case), "--resume", "--set", "PAS1=2"]) == 1
+    told = said(capsys)
+    assert "other parameters" in told
+    assert "PAS1=2" in told
+
+
+def test_a_checkpoint_of_another_version_is_refused(case, capsys, monkeypatch):
+    monkeypatch.setattr("ssilang.__version__", "9.9.9")
+    assert main([str(case), "--resume"]) == 1
+    told = said(capsys)
+    assert "written by ssilang 0.1.0, this is 9.9.9" in told
+
+
+def test_a_checkpoint_in_another_format_is_refused(case, capsys, monkeypatch):
+    monkeypatch.setattr(checkpoint, "VERSION", 99)
+    assert main([str(case), "--resume"]) == 1
+    assert "were written by ssilang" in said(capsys)
+
+
+@pytest.mark.parametrize("data", [b"", b"PK\x05\x06" + 18 * b"\0", b"no zip"])
+def test_a_damaged_checkpoint_is_refused(case, capsys, data):
+    (case.parent / "results" / "case" / "checkpoints" / "1.state").write_bytes(data)
+    assert main([str(case), "--resume"]) == 1
+    assert "cannot be read as a checkpoint" in said(capsys)
+
+
+def test_rows_that_are_lost_are_refused(case, capsys):
+    rows = case.parent / "results" / "case" / "checkpoints" / "1.rows"
+    rows.write_bytes(rows.read_bytes()[:-8])
+    assert main([str(case), "--resume"]) == 1
+    assert "cannot be read as a checkpoint" in said(capsys)
+
+
+def test_what_was_written_behind_the_last_checkpoint_does_not_count(case, capsys):
+    folder = case.parent / "results" / "case"
+    with (folder / "checkpoints" / "1.rows").open("ab") as stream:
+        stream.write(b"half of a row")
+    assert main([str(case), "--resume"]) == 0
+    found = (folder / "dynamic.csv").read_bytes()
+    assert main([str(case), "--out", "truth"]) == 0
+    assert (case.parent / "truth" / "dynamic.csv").read_bytes() == found
+
+
+def test_without_a_checkpoint_the_run_begins_at_its_start(case, capsys):
+    shutil.rmtree(case.parent / "results" / "case" / "checkpoints")
+    assert main([str(case), "--resume"]) == 0
+    assert "holds no checkpoint" in said(capsys)
+
+
+def test_a_run_from_the_start_replaces_the_checkpoints_of_the_one_before(case, capsys):
+    said(capsys)
+    assert main([str(case)]) == 0
+    assert "goes on behind" not in said(capsys)
+    assert not (case.parent / "results" / "case" / "checkpoints").exists()
+
+
+READS = "OPTI ACQU 'k.txt' ; ACQU K1*FLOTTANT ;\n" + SHORT.replace("1.E7", "K1")
+
+
+def test_a_checkpoint_of_a_run_that_read_other_files_is_refused(case, capsys, monkeypatch):
+    values = case.parent / "k.txt"
+    values.write_text("1.E7\n")
+    case.write_text(READS)
+    reached = KeptCalculation.reached
+
+    def end(self, done, state):
+        reached(self, done, state)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(KeptCalculation, "reached", end)
+        assert main([str(case)]) == 1
+    values.write_text("2.E7\n")
+    said(capsys)
+    assert main([str(case), "--resume"]) == 1
+    told = said(capsys)
+    assert "read other files" in told
+    assert "k.txt" in told
+    values.write_text("1.E7\n")
+    assert main([str(case), "--resume"]) == 0
+
+
+def test_a_checkpoint_of_another_calculation_is_refused(case, capsys, monkeypatch):
+    monkeypatch.setattr(
+        "ssilang.kernel.stepping.problem.digest.digest_of", lambda problem: "another"
+    )
+    assert main([str(case), "--resume"]) == 1
+    assert "checkpoint of calculation 1" in said(capsys)
+
+
+@pytest.mark.parametrize(
+    ("entry", "reason"),
+    [
+        ("T . 'REDUCTION' = 1.E-3", "error of the basis"),
+        ("T . 'CHARMECA' = VRAI", "script's procedure"),
+        ("T . 'REPRISE' . 'PAS' = 0", "'REPRISE' . 'PAS' is 0"),
+        ("T . 'REPRISE' . 'MINUTES' = -1.", "'REPRISE' . 'MINUTES' is -1"),
+    ],
+)
+def test_what_cannot_be_kept_is_refused_with_its_reason(entry, reason, tmp_path, capsys):
+    path = tmp_path / "case.ssi"
+    procedure = "DEBP CHARMECA T1*TABLE X1*FLOTTANT ; R1 = TABL ; FINP R1 ;\n"
+    path.write_text(procedure + SHORT.replace("T2 = ", f"{entry} ; T2 = "))
+    assert main([str(path), "--out", str(tmp_path / "out")]) == 1
+    assert reason in said(capsys)
+
+
+def started(deck: Path, out: Path, *words: str) -> subprocess.Popen:
+    command = [sys.executable, "-m", "ssilang.cli.main", str(deck), "--out", str(out), *words]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def files_of(out: Path) -> dict[str, bytes]:
+    found = (p for p in out.rglob("*") if p.is_file() and p.name != "summary.json")
+    return {p.relative_to(out).as_posix(): p.read_bytes() for p in found}
+
+
+def wait_for(path: Path, process: subprocess.Popen) -> None:
+    while not path.is_file():
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+
+
+@posix
+@pytest.mark.long
+def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
+    deck, draw = tmp_path / "case.ssi", random.Random(3)
+    deck.write_text(LONG)
+    assert started(deck, tmp_path / "truth").wait() == 0
+    truth = files_of(tmp_path / "truth")
+    assert len(truth) > 10
+    for number in (signal.SIGKILL, signal.SIGKILL, signal.SIGKILL, signal.SIGTERM):
+        out = tmp_path / f"out{draw.random()}"
+        process = started(deck, out)
+        wait_for(out / "checkpoints" / "1.state", process)
+        time.sleep(draw.uniform(0.0, 0.3))
+        process.send_signal(number)
+        _, told = process.communicate()
+        if number == signal.SIGTERM and process.returncode:
+            assert b"is kept in" in told
+        again = started(deck, out, "--resume")
+        _, told = again.communicate()
+        assert again.returncode == 0, told
+        assert files_of(out) == truth

@@ -1,0 +1,174 @@
+"""A calculation that is ended and gone on with is the undisturbed one, to the last bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.keeper import Ending
+from references.recorder import Recorder
+from references.rocking_beam import rocking
+from references.soil_block import soil_block
+
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping import choose
+from ssilang.kernel.stepping.choose import only
+from ssilang.kernel.stepping.keeping import leaves, put_back, rebuilt, stride_of
+from ssilang.kernel.stepping.newmark import Scheme, hht
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.run import integrate
+from tests.kernel.contact.test_modal import feet
+from tests.kernel.stepping.test_choose import masses
+
+PARTS = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
+MANY = (60, 10, 52)
+"""A block on 300 jumps and more: factors of the interface are changed, not made anew."""
+
+
+def oscillator(scheme=None, joint=None, steps=200, push=0.0):
+    """A mass on a spring and, if wished, a joint that opens."""
+    bench = Bench()
+    top = bench.node(0.0, 0.0)
+    bench.fix(top, "UY")
+    bench.spring(12e6, top, unknown="UX")
+    bench.mass(3000.0, top)
+    if joint is not None:
+        soil = bench.node(-1.0, 0.0)
+        bench.fix(soil)
+        bench.joint("SEG2", [soil, top], "JOI1", KS=0.0, **joint)
+    t = 1.3e-3 * np.arange(steps + 1)
+    return make_problem(
+        Inputs(
+            bench.stiffness, t, bench.mass_matrix, None,
+            bench.load(bench.field((top, "FX", push)), t, np.sin(31.0 * t)) if push else None,
+            bench.field((top, "UX", 0.01)), model=bench.model,
+            characteristics=bench.characteristics, scheme=scheme or Scheme(),
+        )
+    )  # fmt: skip
+
+
+def longer(problem: Problem, steps: int, kinds: int = 1) -> Problem:
+    """A problem with more steps, of so many lengths in turn."""
+    lengths = 1e-3 * (1.0 + 0.5 * (np.arange(steps) // 5 % kinds))
+    return replace(problem, times=np.concatenate([[0.0], np.cumsum(lengths)]))
+
+
+PENALTY = ContactOptions("PENALITE", 1e7)
+CASES = {
+    "one mode": ("one mode", oscillator),
+    "one mode on a joint": ("one mode", lambda: oscillator(joint={"KN": 7e6}, push=3e4)),
+    "one spring": (
+        "one spring", lambda: oscillator(hht(0.1), {"KN": 7e6, "FU": 2e4, "GF": 150.0}, push=3e4)
+    ),
+    "springs": ("springs", lambda: rocking(Scheme(), 300)),
+    "springs, alpha": ("springs", lambda: rocking(hht(0.1), 300)),
+    "modes": ("modes", lambda: longer(masses(3, shear=1e5), 200)),
+    "modes, two lengths": ("modes", lambda: longer(masses(3, shear=1e5), 200, 2)),
+    "still supports": ("still supports", lambda: soil_block(90, size=(6, 3, 4))),
+    "still, six lengths": ("still supports", lambda: longer(masses(3, dashpot=True), 200, 6)),
+    "dense": ("dense", lambda: soil_block(90, size=(6, 3, 4))),
+    "conserving": ("conserving", lambda: longer(masses(3, scheme=Scheme(conserving=True)), 90)),
+    "conserving relations": ("conserving", lambda: feet(scheme=Scheme(conserving=True))),
+    "conserving penalty": ("conserving", lambda: feet(PENALTY, Scheme(conserving=True))),
+    "adaptive": ("adaptive", lambda: longer(masses(3, scheme=Scheme(adaptive=True)), 60)),
+    "adaptive relations": ("adaptive", lambda: feet(scheme=Scheme(adaptive=True))),
+    "full Newton": ("full Newton", lambda: longer(masses(3), 60)),
+    "full Newton on relations": ("full Newton", lambda: feet(steps=60)),
+    "relations on modes": ("relations on modes", feet),
+    "penalty on modes": ("relations on modes", lambda: feet(PENALTY)),
+    "relations": ("relations", lambda: feet(damping="dashpots", moving=True)),
+    "condensed": ("condensed", lambda: soil_block(steps=60, size=(16, 8, 4))),
+    "dissection": ("dissection", lambda: soil_block(steps=140, size=(16, 8, 4))),
+    "dissection, moving": ("dissection", lambda: soil_block(90, size=(16, 8, 4), moving=True)),
+    "dissection, many jumps": ("dissection", lambda: soil_block(60, 5e-3, (100, 8, 80))),
+}  # fmt: skip
+
+
+def run(problem, keeper, full=False):
+    """Energies, iterations and instants of a calculation; what came before it was ended."""
+    recorder = Recorder(len(problem.times))
+    try:
+        history = integrate(problem, [recorder], full_newton=full, keeper=keeper)
+    except KeyboardInterrupt:
+        return None, recorder.snapshots
+    return history, recorder.snapshots
+
+
+def assert_same(history, snapshots, truth, others):
+    assert np.array_equal(history.energies, truth.energies)
+    assert (history.iterations, history.loop, history.solver) == (
+        truth.iterations, truth.loop, truth.solver,
+    )  # fmt: skip
+    assert history.worst_imbalance == truth.worst_imbalance
+    assert [s.step for s in snapshots] == [s.step for s in others]
+    for name in PARTS:
+        for a, b in zip(snapshots, others, strict=True):
+            assert np.array_equal(getattr(a, name), getattr(b, name)), (name, a.step)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_going_on_leads_to_the_same_bits(case, tmp_path, monkeypatch):
+    rule, make = CASES[case]
+    rng, full = np.random.default_rng(sum(map(ord, case))), rule == "full Newton"
+    if rule in ("dense", "still supports", "condensed"):
+        monkeypatch.setattr(choose, "RULES", only(rule))
+    steps = len(make().times) - 1
+    stride = int(rng.integers(3, 40))
+    truth, others = run(make(), Ending(tmp_path / "truth", stride), full)
+    assert truth.loop == choose.rule_named(rule).loop
+    for _ in range(3):
+        folder, snapshots, history = tmp_path / f"{rng.integers(1 << 30)}", [], None
+        ends = sorted(rng.integers(1, steps, 2).tolist())  # it is ended twice
+        for i, end in enumerate([*ends, None]):
+            if history is None:  # else the end lay in its last steps
+                history, more = run(make(), Ending(folder, stride, end, resume=i > 0), full)
+                snapshots += more
+        assert_same(history, snapshots, truth, others)
+    near, _ = run(make(), None, full)  # chunks of other lengths: other roundings
+    size = np.abs(truth.energies).max()
+    assert np.abs(near.energies - truth.energies).max() <= 1e-9 * size
+
+
+def test_load_steps_of_joints_and_of_relations(tmp_path):
+    def still(problem):
+        return replace(problem, times=np.linspace(0.0, problem.times[-1], 20))
+
+    for name, make in (("joints", lambda: still(soil_block(steps=20, size=(16, 8, 4)))),
+                       ("relations", lambda: still(feet()))):  # fmt: skip
+
+        def stepped(keeper, make=make):
+            problem = make()
+            recorder = Recorder(len(problem.times))
+            try:
+                history = step_statics(problem, [recorder], keeper=keeper)
+            except KeyboardInterrupt:
+                return None, recorder.snapshots
+            return history, recorder.snapshots
+
+        truth, others = stepped(Ending(tmp_path / f"{name} truth", 1))
+        _, snapshots = stepped(Ending(tmp_path / name, 1, 7))
+        assert [s.step for s in snapshots] == list(range(8))
+        history, more = stepped(Ending(tmp_path / name, 1, resume=True))
+        assert_same(history, snapshots + more, truth, others)
+
+
+def test_a_stride_ends_at_multiples_of_both_lengths():
+    ends, done = [], 0
+    while done < 100:
+        done += stride_of(done, small=False, every=10)
+        ends.append(done)
+    assert ends == sorted({*range(10, 101, 10), *range(16, 100, 16)})
+
+
+def test_records_of_arrays_are_taken_apart_and_made_again():
+    problem = masses(2)
+    motion = (np.arange(3.0), (np.ones((2, 2)), 4.0), problem.scheme)
+    values = leaves(motion)
+    again = rebuilt(motion, values)
+    assert again[2] == problem.scheme
+    assert np.array_equal(again[1][0], motion[1][0])
+    assert again[1][1] == 4.0
+    motion[0][:] = 0.0
+    put_back(motion, values)
+    assert np.array_equal(motion[0], np.arange(3.0))

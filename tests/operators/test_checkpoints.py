@@ -1,0 +1,146 @@
+"""REPRISE: decks that are ended and gone on with leave what the undisturbed run leaves."""
+
+import contextlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import ssilang.operators.files.saving  # how tables are encoded
+from ssilang.cli.run import RunOptions, run_text
+from ssilang.io.archive import Encoder
+from ssilang.operators.dynamics.checkpoints import KeptCalculation
+from tests.operators.test_friction import BLOCK
+from tests.operators.test_pasapas_stages import LAYERS, PLASTIC
+
+EVERY = "T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = 7 ; "
+
+ROCKING = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ;
+PC = 0. 0. ; PG = 0. 3. ; PL = -1. 0. ; PR = 1. 0. ; PSL = -1. -1. ; PSR = 1. -1. ;
+JOI = (MANU 'SEG2' PSL PL) ET (MANU 'SEG2' PSR PR) ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+BLO = (BLOQ 'UX' 'UY' (PSL ET PSR)) ET (BLOQ 'UX' (PL ET PR ET PC)) ;
+BLO = BLO ET (RELA 'UY' PL - 'UY' PC + 1. 'RZ' PC) ET (RELA 'UY' PR - 'UY' PC - 1. 'RZ' PC) ;
+BLO = BLO ET (RELA 'UY' PG - 'UY' PC) ET (RELA 'UX' PG + 3. 'RZ' PC) ;
+T . 'MASS' = (MASS 'DEPL' 1.E5 PG) ET (MASS 'ROTA' 1.E5 PC) ;
+T . 'RIGI' = BLO ; T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E8 'KS' 0. ;
+T . 'VITE' = MANU 'CHPO' PG 1 'UX' 0.3 ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E6) PG)) ET
+  (CHAR 'MECA' (FORC (2.E5 0.) PG) (EVOL 'MANU' (PROG 0. 0.3 0.6 9.) (PROG 0. 1. -1. 0.5))) ;
+T . 'TEMPS_CALCULES' = PROG 0. PAS 0.002 0.5 ; T . 'PAS_SAUVES' = 3 ; T . 'EXTREMES' = VRAI ;
+T . 'PAS_SAUVES_VTK' = 40 ; T . 'MAILLAGE_VTK' = JOI ; T . 'FICHIER_VTK' = 'rock' ;
+T . 'PAS_SAUVES_CSV' = 2 ; T . 'MAILLAGE_CSV' = PG ET PC ; T . 'FICHIER_CSV' = 'rock' ;
+"""
+PLATE = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; T = TABL ;
+L1 = DROI {n} (0. 0.) (1. 0.) ; S1 = L1 TRAN {n} (0. 1.) ; L2 = COTE 3 S1 ;
+M = MODE S1 'MECANIQUE' %s ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. %s ;
+T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; B = BLOQ 'DEPL' L1 ; F = FORC (1.2E8 -1.E8) L2 ;
+E = EVOL 'MANU' (PROG 0. 1. 2. 3.) (PROG 0. 0.5 -0.5 0.6) ; T . 'CHARGEMENT' = CHAR 'MECA' F E ;
+T . 'BLOCAGES_MECANIQUES' = B ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 3. ;
+"""
+STEEL = PLATE.replace("{n}", "3") % ("'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'", "'SIGY' 2.E8")
+ELASTIC = PLATE.replace("{n}", "3") % ("'ELASTIQUE'", "")
+LARGE = PLATE.replace("{n}", "12") % ("'ELASTIQUE'", "")
+DECKS = {
+    "bodies that rock": ROCKING + EVERY + "T2 = DYNAMIC T ;",
+    "two calculations": ROCKING + EVERY + "T2 = DYNAMIC T ; T . 'VITE' = 2. * (T . 'VITE') ; "
+    "T . 'FICHIER_VTK' = 'second' ; T . 'FICHIER_CSV' = 'second' ; T3 = DYNAMIC T ;",
+    "a plastic plate in motion": STEEL + EVERY + "T . 'CHAR' = T . 'CHARGEMENT' ; "
+    "T . 'RIGI' = (RIGI M A) ET B ; T . 'MASS' = MASS M A ; T . 'PAS_SAUVES' = 2 ; "
+    "T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-4 0.008 ; T2 = DYNAMIC T ;",
+    "a plastic plate": STEEL + EVERY + "PASAPAS T ;",
+    "a plastic plate, moving": STEEL + EVERY + "T . 'DYNAMIQUE' = VRAI ; "
+    "T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-4 0.006 ; PASAPAS T ;",
+    "a plate in large displacements": ELASTIC + EVERY
+    + "T . 'GRANDS_DEPLACEMENTS' = VRAI ; PASAPAS T ;",
+    "an elastic plate, saved by SAUV": ELASTIC + EVERY
+    + "OPTI SAUV 'plate.sauv' ; T . 'TEMPS_SAUVEGARDES' = PROG 0.5 2. ; PASAPAS T ;",
+    "an elastic plate, moving": ELASTIC + EVERY + "T . 'DYNAMIQUE' = VRAI ; "
+    "PASAPAS T ;",
+    "a large plate of which few points are kept": LARGE + EVERY + "P1 = L2 POIN 3 ; "
+    "T . 'CHAR' = T . 'CHARGEMENT' ; T . 'RIGI' = (RIGI M A) ET B ; T . 'MASS' = MASS M A ; "
+    "T . 'MAILLAGE_SAUVE' = P1 ; T . 'PAS_SAUVES' = 'TOUS' ; T . 'EXTREMES' = VRAI ; "
+    "T . 'PAS_SAUVES_CSV' = 1 ; T . 'MAILLAGE_CSV' = L2 ; T2 = DYNAMIC T ;",
+    "friction": BLOCK + "K = MODE (INVE C) CONTACT FROTTANT COULOMB A MESC ; "
+    "D = BLOQ UX (COTE 2 S) ; T.MODELE = MS ET MZ ET K ; "
+    "T.CARACTERISTIQUES = B ET (MATE K MU 0.3) ; T.BLOCAGES_MECANIQUES = BASE ET D ; "
+    "T.TEMPS_CALCULES = PROG 0. PAS .1 4. ; "
+    "T.CHARGEMENT = (CHAR MECA (PRES MASS MS 1.E5 (COTE 3 S)) "
+    "(EVOL MANU (PROG 0. 1. 9.) (PROG 0. 1. 1.))) ET (CHAR DIMP (DEPI D 1.E-3) "
+    "(EVOL MANU (PROG 0. 1. 2. 3. 4.) (PROG 0. 0. .01 1. 0.))) ; " + EVERY + "PASAPAS T ;",
+    "layers": LAYERS.replace("{law}", PLASTIC) + "TM . 0 = M1 ; TM . 1 = M1 ET M2 ; "
+    "T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MODE' TT TM) ; "
+    "T . 'TEMPS_CALCULES' = PROG 0.1 PAS 0.1 3. ; " + EVERY + "PASAPAS T ;",
+}  # fmt: skip
+
+
+class Killed(BaseException):
+    """Nothing is written any more."""
+
+
+def content(result, folder: Path):
+    """All that a run leaves: its tables as codes and arrays, its files but the summary."""
+    assert ssilang.operators.files.saving.save
+    encoder, find = Encoder(), result.session.root.find
+    tables = [n for n in ("T", "T2", "T3") if find(n) is not None]
+    codes = [encoder.encode(find(n)) for n in tables]
+    files = {
+        p.relative_to(folder).as_posix(): p.read_bytes() if p.suffix != ".sauv" else b""
+        for p in sorted(folder.rglob("*"))
+        if p.is_file() and p.name != "summary.json"
+    }
+    return codes, encoder.objects, encoder.arrays, files
+
+
+def assert_same(found, truth):
+    assert found[:2] == truth[:2]
+    assert len(found[2]) == len(truth[2])
+    for a, b in zip(found[2], truth[2], strict=True):
+        assert a.dtype == b.dtype
+        assert np.array_equal(a, b, equal_nan=True)
+    assert found[3].keys() == truth[3].keys()
+    for name, data in truth[3].items():
+        assert found[3][name] == data, name
+
+
+@pytest.fixture
+def ended(monkeypatch):
+    """Function `(call, step, how)`: calculations of that number end so behind that step."""
+    reached = KeptCalculation.reached
+
+    def install(call, step, how):
+        def end(self, done, state):
+            if how is KeyboardInterrupt and self.number == call and done >= step:
+                raise KeyboardInterrupt
+            reached(self, done, state)
+            if self.number == call and done >= step:
+                raise how
+
+        monkeypatch.setattr(KeptCalculation, "reached", end if how else reached)
+
+    return install
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_decks_that_were_ended_go_on_to_the_same_results(name, tmp_path, ended):
+    deck, rng = DECKS[name], np.random.default_rng(len(name))
+    truth_folder = tmp_path / "truth"
+    truth = run_text(deck, truth_folder)
+    assert truth.exit_code == 0, truth.message
+    whole = content(truth, truth_folder)
+    calls = 2 if name in ("two calculations", "layers") else 1
+    for how in (KeyboardInterrupt, Killed):
+        folder = tmp_path / how.__name__
+        ended(calls, int(rng.integers(7, 10)), how)
+        with contextlib.suppress(Killed):
+            assert run_text(deck, folder).exit_code == 1
+        assert (folder / "checkpoints" / f"{calls}.state").is_file()
+        ended(0, 0, None)
+        again = run_text(deck, options=RunOptions(folder, resume=True))
+        assert again.exit_code == 0, again.message
+        codes = [w.code for w in again.session.warnings]
+        assert codes.count("operators.dynamics.resumed") == 1
+        assert codes.count("operators.dynamics.given") == calls - 1
+        assert_same(content(again, folder), whole)
