@@ -44,6 +44,18 @@ _EXAMPLE = (
     "E = EVOL 'MANU' (PROG 0. 2.) (PROG 0. 1.) ; C = CHAR 'MECA' F E ; "
 )
 
+# A square stepped through time by PASAPAS, pressed on its upper side or strained from within.
+_STEPPED = (
+    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = (0. 0.) DROI 2 (1. 0.) ; "
+    "S = L TRAN 2 (0. 1.) ;\n"
+    "M = MODE S MECANIQUE ; N = MODE (COTE 3 S) CHARGEMENT PRESSION ;\n"
+    "E = EVOL MANU (PROG 0. 1.) (PROG 0. 1.) ; T = TABL ;\n"
+    "T . MODELE = {models} ; T . CARACTERISTIQUES = MATE M YOUN 1.E6 NU 0. ;\n"
+    "T . BLOCAGES_MECANIQUES = (BLOQ UY L) ET (BLOQ UX (POIN 1 L)) ;\n"
+    "T . TEMPS_CALCULES = PROG 0. 1. ;\n"
+    "T . CHARGEMENT = {load} ;\n"
+    "PASAPAS T ; LIST ({found} (T . DEPLACEMENTS . 1) AVEC (MOTS UY)) ;"
+)
 
 _NAME = opt("name", "MOT", en="name, of 4 characters", fr="nom, de 4 caractères")
 _LINK = choice(
@@ -91,6 +103,15 @@ _PATH = group(  # behind the name, which may be this word
                 "OPTI DIME 2 ; P = 0. 0. ; T = TABL ; U = TABL ;\n"
                 "T . 0 = 0. ; T . 1 = 2. ; U . 0 = FORC (0. 0.) P ; U . 1 = FORC (0. -3.) P ;\n"
                 "LIST (TIRE (CHAR 'MECA' T U) 1. 'MECA') ;"
+            ),
+            _STEPPED.format(
+                models="M ET N", load="CHAR 'PRES' (PRES N 'PRES' 100.) E", found="MINI"
+            ),
+            _STEPPED.format(
+                models="M",
+                load="CHAR 'DEFI' (MANU CHML M EPXX 0. EPYY 2.E-3 EPZZ 0. GAXY 0. "
+                "TYPE DEFORMATIONS STRESSES) E",
+                found="MAXI",
             ),
         ),
     ),
