@@ -143,20 +143,21 @@ class RunOutput:
         self, path: Path, constants: Mapping[str, float], *, one_file: bool = False
     ) -> Series:
         """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
-        from ssilang.io.vtk import SeriesWriter, VtkHdfWriter
+        from ssilang.io.vtk.series import SeriesWriter
 
-        kind = VtkHdfWriter if one_file else SeriesWriter
-        writer = kind(path, constants=constants)
+        writer: Series = SeriesWriter(path, constants=constants)
+        if one_file:
+            from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+
+            writer = VtkHdfWriter(path, constants=constants)
         self.keep_series(writer)
         return writer
 
     def keep_series(self, writer: Series) -> None:
         """Let a series be finished when the run ends, in place of one of that name."""
-        from ssilang.io.vtk import VtkHdfWriter
-
         before = self.series.get(writer.base)
-        if isinstance(before, VtkHdfWriter) and before is not writer:
-            before.close()
+        if before is not None and before is not writer:
+            before.release()
         self.series[writer.base] = writer
 
     def wrote(self, *paths: Path) -> None:

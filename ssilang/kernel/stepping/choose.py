@@ -19,6 +19,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.solvers.backends import PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
@@ -194,6 +195,8 @@ class Rule:
         Whether a run without its energies costs much less.
     factorises : bool
         Whether the step's matrix is factorised at each iteration.
+    inside : bool
+        Whether the loop compares the largest values as it steps.
     """
 
     name: str
@@ -205,6 +208,7 @@ class Rule:
     renewable: bool = False
     light: bool = False
     factorises: bool = False
+    inside: bool = False
 
 
 RULES = (
@@ -214,21 +218,21 @@ RULES = (
         "kernel.stepping.loop-adaptive",
         lambda c: c.problem.scheme.adaptive
         and not (c.problem.interface is None and c.problem.contact is None),
-        _adaptive, renewable=True,
+        _adaptive, renewable=True, inside=True,
     ),
     Rule(
         "conserving", "conserving",
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        _conserving, renewable=True,
+        _conserving, renewable=True, inside=True,
     ),
     Rule(
         "full Newton", "full Newton",
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True,
+        _full_newton, renewable=True, factorises=True, inside=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -242,7 +246,7 @@ RULES = (
         "unilateral relations",
         "kernel.stepping.loop-relations",
         lambda c: c.problem.contact is not None,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
     Rule(
         "one mode", "compiled",
@@ -284,21 +288,21 @@ RULES = (
         "small",
         "kernel.stepping.loop-dense",
         lambda c: c.small,
-        _dense,
+        _dense, inside=True,
     ),
     Rule(
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
         lambda c: fits(c.problem, c.effective),
-        _interleaved,
+        _interleaved, inside=True,
     ),
     Rule(
         "condensed", "condensed",
         "all others",
         "kernel.stepping.loop-condensed",
         lambda c: True,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
 )  # fmt: skip
 
@@ -336,8 +340,13 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     if rule.make is _adaptive:
         solver = cast("AdaptiveLoop", loop).solver
     else:
-        solver = "SuperLU" if rule.factorises else case.effective.inverse.factor.name
+        solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name
     return Choice(rule, loop, solver)
+
+
+def _each_time(problem: Problem) -> str:
+    """The solver of a loop that factorises at each iteration."""
+    return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
 def only(name: str) -> tuple[Rule, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -42,6 +42,7 @@ from ssilang.language.values import (
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
+    RecordedPoints,
     components_in_time,
     refused_place,
     value_in_time,
@@ -352,7 +353,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         if np.any(places < 0) or np.any(places >= len(fields)):
             raise call.error("operators.curves.no-such-step", chosen.value, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
-    if fields and isinstance(fields[0], CellField):
+    if isinstance(fields, RecordedPoints) or (fields and isinstance(fields[0], CellField)):
         return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
     names = names_in_time(call, fields)
     support = call.read("POINT", "MAILLAGE")
@@ -379,7 +380,7 @@ def _made(field: NodeField | InstantField) -> NodeField:
 
 def _in_a_cell(
     call: Call,
-    fields: list[Any],
+    fields: Sequence[Any],
     times: FloatArray,
     colour: int,
     unit_of: Callable[[str], str],
@@ -387,6 +388,12 @@ def _in_a_cell(
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.required("ENTIER") for _ in range(3))
+    if isinstance(fields, RecordedPoints):
+        recorded = fields.history(name, zone, cell, point)
+        if recorded is not None:
+            part = CurvePart(times, recorded, "TEMP", name[:12], name, colour)
+            return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
+        fields = [fields[0]]  # the others lack it too
     values = []
     for field in fields:
         held = (
@@ -406,7 +413,7 @@ def nodes_named(support: Point | Mesh) -> list[int]:
     return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
 
 
-def names_in_time(call: Call, fields: list[Any]) -> list[str]:
+def names_in_time(call: Call, fields: Sequence[Any]) -> list[str]:
     operand = call.read("LISTMOTS")
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
@@ -416,7 +423,7 @@ def names_in_time(call: Call, fields: list[Any]) -> list[str]:
     return []
 
 
-def history(call: Call, unmade: bool = False) -> tuple[list[Any], FloatArray, str]:
+def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray, str]:
     """Fields, their times, and the index of the table they came from ('' for a list).
 
     With `unmade`, an `InstantField` may stand for a field that nobody asked for yet.
@@ -456,13 +463,16 @@ def _in_steps(table: Table, index: str) -> bool:
     return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
 
 
-def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[list[Any], FloatArray]:
+def results_in_time(
+    table: Table, index: str, unmade: bool = False
+) -> tuple[Sequence[Any], FloatArray]:
     """Fields and times of a table of results: of PASAPAS by index, of DYNAMIC by step.
 
     Parameters
     ----------
     unmade : bool
-        Whether an `InstantField` may stand for a field that is not made yet.
+        Whether an `InstantField` may stand for a field that is not made yet, and what was recorded
+        for all of them.
 
     Raises
     ------
@@ -474,10 +484,10 @@ def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[lis
         steps = sorted(i for i, _ in held.items() if type(i) is int)
         return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
     found = []
-    if unmade and isinstance(table, LazyRows):
+    if unmade and isinstance(table, LazyRows) and table.untouched:
         ready = table.stand_ins(index)
-        if ready and len(ready) == len(table):  # in order of time as they came
-            return [f for _, f in ready], reals([t for t, _ in ready])
+        if ready is not None:  # in order of time as they came
+            return ready
     for place, value in table.items():
         if type(place) is int and isinstance(value, Table):
             look = value.glance if unmade and isinstance(value, LazyTable) else value.get

@@ -11,6 +11,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.solvers.backends import PETSC
 from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
@@ -32,7 +33,7 @@ _DEFAULTS: dict[str, Any] = {
     "ISOV": "SURFACE", "LANG": "FRAN", "LECT": 4, "LOCA": False, "NBP": 0, "NGMA": 100000,
     "NIVE": 19, "OMBR": True, "PARA": False, "PLAC": 0, "POLI": "8_BY_13", "POTR": "COURIER_14",
     "RESO": "DIRECTE", "REST": 2, "SAUV": 8, "SORT": 7, "SOUC": 0, "TRAC": "BENS", "VERI": 0,
-    "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
+    "SOLV": "AUTO", "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
     "PREC": sys.float_info.epsilon,
 }  # fmt: skip
 # cells of more than four straight sides go by one name
@@ -210,6 +211,14 @@ def _unit(call: Call, word: str) -> None:
     said = value_word(call).upper().rstrip()
     if said not in SYSTEMS:  # whole: MN-MM is not MN-M
         raise _no_value(call, "UNIT", said, tuple(SYSTEMS), quoted=True)
+    _store(call, word, Mot(said))
+
+
+@reader("SOLV")
+def _solv(call: Call, word: str) -> None:
+    said = _one_of(call, "SOLVEUR", ("AUTO", PETSC))
+    if said == PETSC and workspace(call.session).petsc is None:
+        raise call.error("kernel.solvers.petsc-no-command", call.used[-1].value)
     _store(call, word, Mot(said))
 
 
