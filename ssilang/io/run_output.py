@@ -144,12 +144,10 @@ class RunOutput:
     ) -> Series:
         """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
         from ssilang.io.vtk.series import SeriesWriter
+        from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 
-        writer: Series = SeriesWriter(path, constants=constants)
-        if one_file:
-            from ssilang.io.vtk.vtkhdf import VtkHdfWriter
-
-            writer = VtkHdfWriter(path, constants=constants)
+        kind: type[Series] = VtkHdfWriter if one_file else SeriesWriter
+        writer = kind(path, constants=constants)
         self.keep_series(writer)
         return writer
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -135,7 +135,7 @@ def contribution(
     return [float(weights.values_at(name(s.unknown), np.array([s.mark.node]))[0]) for s in shapes]
 
 
-def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], FloatArray]:
+def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any], FloatArray]:
     """Contributions in time of the results of DYNE or of PASAPAS, and the times."""
     name = _INDEX.get(quantity, quantity)
     if table.subtype != "RESULTAT_DYNE":
