@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ def _basis(call: Call, shapes_wanted: int | None = None) -> list[Shape]:
     return shapes_of(call, operand.value)[:shapes_wanted]
 
 
-def contributions(fields: Sequence[Any], shapes: list[Shape]) -> FloatArray:
+def contributions(fields: list[Any], shapes: list[Shape]) -> FloatArray:
     """Values ALFA or BETA at the marks of the shapes, shape (n_fields, n_shapes)."""
     return np.asarray(
         [
@@ -60,7 +59,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     if not names:
         raise call.missing(("MOT",))
     places_of = [(name, node) for name in names for node in nodes_named(support.value)]
-    return _curves(call, times, contributions(fields, shapes), known, places_of, colours)
+    return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
 def _curves(

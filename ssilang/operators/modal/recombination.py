@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -135,12 +135,13 @@ def contribution(
     return [float(weights.values_at(name(s.unknown), np.array([s.mark.node]))[0]) for s in shapes]
 
 
-def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any], FloatArray]:
+def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], FloatArray]:
     """Contributions in time of the results of DYNE or of PASAPAS, and the times."""
     name = _INDEX.get(quantity, quantity)
     if table.subtype != "RESULTAT_DYNE":
         plural = {"ACCELERATION": "ACCELERATIONS"}.get(name, name + "S")
-        return results_in_time(table, plural)
+        kept, instants = results_in_time(table, plural)
+        return list(kept), instants
     times = table.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)
     fields = []
