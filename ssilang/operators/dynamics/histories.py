@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.atomic import write_text
+from ssilang.io.parquet_tables import write_parquet
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -24,6 +25,7 @@ from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.dynamics.motion_observers import restricted
 
+PARQUET = ".parquet"
 NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}
 JOINTS = {"CONTRAINTES": "traction", "SAUTS": "jump", "VARIABLES_INTERNES": "variables"}
 OF_INSTANTS = {"traction": "tractions", "jump": "jumps", "variables": "variables"}
@@ -147,7 +149,7 @@ class TableObserver(NodeTrack):
 
 @dataclass(eq=False)
 class CsvObserver(NodeTrack):
-    """Lists of values in time at the nodes of a mesh, and a file of them."""
+    """Lists of values in time at the nodes of a mesh, and a file of them, CSV or Parquet."""
 
     components: list[str] | None = None
     path: Path | None = None
@@ -172,19 +174,28 @@ class CsvObserver(NodeTrack):
         """Write the file, whole."""
         if self.path is None:
             return
+        if self.path.suffix.lower() == PARQUET:
+            write_parquet(
+                self.path, self.columns, {name: self._unit(name) for name in self.columns}
+            )
+            return
         lines = [";".join(map(self._head, self.columns))]
-        lines += [
-            ";".join(f"{x:.12g}" for x in row) for row in zip(*self.columns.values(), strict=True)
-        ]
+        row = ";".join(["%.12g"] * len(self.columns))
+        columns = [values.tolist() for values in self.columns.values()]
+        lines += [row % values for values in zip(*columns, strict=True)]
         write_text(self.path, "\n".join(lines) + "\n")
 
     def _head(self, name: str) -> str:
-        """Title of a column of the file, with the deck's units where they are known."""
-        if self.units is None:
-            return name
-        index, component = (*name.split("_"), "")[:2]
-        unit = self.units.written("s" if name == "TEMP" else result_unit(component, index))
+        """Title of a column of the file, with its unit where it is known."""
+        unit = self._unit(name)
         return f"{name} ({unit})" if unit else name
+
+    def _unit(self, name: str) -> str:
+        """Unit of a column where the deck's are known."""
+        if self.units is None:
+            return ""
+        index, component = (*name.split("_"), "")[:2]
+        return self.units.written("s" if name == "TEMP" else result_unit(component, index))
 
     @property
     def table(self) -> Table:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.io.parquet_tables import is_there
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.fields.cell_field import CellField
@@ -85,7 +86,7 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
 
 
 def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
-    from ssilang.operators.dynamics.histories import CsvObserver
+    from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         return None
@@ -94,7 +95,10 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     assert nodes is not None
     components: ListMots | None = entries.get("COMPOSANTES_CSV")
     text = str(entries.get("FICHIER_CSV")).rstrip()
-    path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+    named = text.lower().endswith((".csv", PARQUET))
+    if text.lower().endswith(PARQUET) and not is_there():
+        raise entries.error("operators.dynamics.parquet-needs-pyarrow", name=text)
+    path = output_path(entries.call, text if named else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
     return CsvObserver(
