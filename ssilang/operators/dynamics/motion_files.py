@@ -17,6 +17,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
+from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 from ssilang.operators.dynamics.motion_observers import VtkObserver
 from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import output_path, run_output
@@ -25,7 +26,6 @@ from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.operators.dynamics.histories import CsvObserver
 
 
 MANY_INSTANTS = 50
@@ -86,7 +86,7 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
 
 
 def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
-    from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
+    from ssilang.kernel.stepping.node_track import NodeTrack
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         return None
@@ -101,7 +101,5 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     path = output_path(entries.call, text if named else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
-    return CsvObserver(
-        wanted, problem=problem, nodes=nodes, components=chosen, path=path,
-        units=workspace(entries.call.session).units,
-    )  # fmt: skip
+    track = NodeTrack(wanted, problem=problem, nodes=nodes)
+    return CsvObserver(track, chosen, path, workspace(entries.call.session).units)
