@@ -15,8 +15,11 @@ from typing import Any, NoReturn
 
 from ssilang.messages.message import Teller, teller
 
-COMMANDS = ("run", "check", "format", "help", "sweep", "repl", "lsp", "version")
+COMMANDS = (
+    "run", "new", "check", "format", "help", "sweep", "repl", "lsp", "completion", "version",
+)  # fmt: skip
 LANGUAGES = ("en", "fr")
+SHELLS = ("bash", "zsh", "fish", "words")
 REPORTS = ("text", "json", "github")
 
 _HEADINGS = {
@@ -103,6 +106,10 @@ def parser(words: Sequence[str]) -> Parser:
     commands = made.add_subparsers(dest="command", metavar=f"{{{','.join(COMMANDS)}}}")
     command = partial(commands.add_parser, told=told)
     _run(command("run", help="cli.usage-run"))
+    new = command("new", help="cli.usage-new")
+    new.add_argument("name", nargs="?", default="", help="cli.usage-new-name")
+    new.add_argument("file", nargs="?", type=Path, help="cli.usage-new-file")
+    _language_argument(new)
     check = command("check", help="cli.usage-check")
     check.add_argument("files", nargs="+", help="cli.usage-files")
     check.add_argument("--syntax-only", action="store_true", help="cli.usage-syntax-only")
@@ -119,6 +126,8 @@ def parser(words: Sequence[str]) -> Parser:
     _sweep(command("sweep", help="cli.usage-sweep"))
     _session_arguments(command("repl", help="cli.usage-repl"))
     _language_argument(command("lsp", help="cli.usage-lsp"))
+    shell = command("completion", help="cli.usage-completion")
+    shell.add_argument("shell", choices=SHELLS, help="cli.usage-shell")
     command("version", help="cli.usage-version")
     return made
 
@@ -165,6 +174,7 @@ def _session_arguments(to: argparse.ArgumentParser) -> None:
     to.add_argument("--debug", action="store_true", help="cli.usage-debug")
     to.add_argument("--max-recursion", type=int, default=200, help="cli.usage-max-recursion")
     to.add_argument("--max-statements", type=int, help="cli.usage-max-statements")
+    to.add_argument("--petsc", metavar="COMMAND", help="cli.usage-petsc")
     to.add_argument("--max-memory", type=int, metavar="MB", help="cli.usage-max-memory")
 
 

@@ -1,12 +1,12 @@
 """Objects of the language itself: words, texts, lists, tables, procedures; and the type words.
 
 ENTIER, FLOTTANT and LOGIQUE are Python's int, float and bool. Classes of the kernel become
-objects of the language by `register_type`.
+objects of the language by `name_types`, which needs their names alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence, Sized
+from collections.abc import Callable, Iterator, Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -354,9 +354,23 @@ _TYPE_WORDS: dict[type, str] = {
 }
 
 
-def register_type(cls: type, word: str) -> None:
-    """Make a class an object of the language: `word` is its type, 8 characters at most."""
-    _TYPE_WORDS[cls] = word
+_NAMED: dict[str, str] = {}
+"""Further classes by module and name, 'ssilang.kernel.mesh.mesh:Mesh', so that none is imported."""
+
+
+def name_types(words: Mapping[str, str]) -> None:
+    """Make classes objects of the language: by 'module:Class' their type, 8 characters at most."""
+    _NAMED.update(words)
+
+
+def _word_of(cls: type) -> str | None:
+    """Type word of a class itself."""
+    word = _TYPE_WORDS.get(cls)
+    if word is None:
+        word = _NAMED.get(f"{cls.__module__}:{cls.__qualname__}")
+        if word is not None:
+            _TYPE_WORDS[cls] = word
+    return word
 
 
 def type_of(value: object) -> str:
@@ -365,19 +379,21 @@ def type_of(value: object) -> str:
     if word is not None:
         return word
     for cls in type(value).__mro__:
-        if cls in _TYPE_WORDS:
-            return _TYPE_WORDS[cls]
+        word = _word_of(cls)
+        if word is not None:
+            return word
     return type(value).__name__.upper()[:8]
 
 
 def known_types() -> frozenset[str]:
     """All type words."""
-    return frozenset(_TYPE_WORDS.values())
+    return frozenset({*_TYPE_WORDS.values(), *_NAMED.values()})
 
 
-def known_classes() -> dict[type, str]:
-    """Classes that are objects of the language, with their type words."""
-    return dict(_TYPE_WORDS)
+def words_of_classes() -> dict[str, str]:
+    """Type words by the name of a class."""
+    named = {name.partition(":")[2]: word for name, word in _NAMED.items()}
+    return {cls.__name__: word for cls, word in _TYPE_WORDS.items()} | named
 
 
 def normalised(value: object) -> object:

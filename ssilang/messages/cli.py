@@ -210,6 +210,10 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "stop after so many statements", "s'arrête après ce nombre d'instructions"
     ),
     "usage-max-memory": Message("stop past so much memory", "s'arrête au-delà de cette mémoire"),
+    "usage-petsc": Message(
+        "what starts PETSc for OPTI 'SOLVEUR' 'PETSC': 'mpirun -n 4 /usr/bin/python3'",
+        "ce qui lance PETSc pour OPTI 'SOLVEUR' 'PETSC' : 'mpirun -n 4 /usr/bin/python3'",
+    ),
     "usage-error": Message("{program}: error: {problem}", "{program} : erreur : {problem}"),
     "usage-no-file": Message(
         "run needs a file, or - for standard input",
@@ -279,5 +283,31 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-check-format": Message(
         "how problems are printed: text, json, or github (notes beside the lines of a change)",
         "forme des problèmes : text, json, ou github (notes à côté des lignes d'un changement)",
+    ),
+    "no-starter": Message(
+        "there is no starter '{word}'",
+        "il n'y a pas de modèle '{word}'",
+        "{near:?did you mean {near}?|there are {known:and}}",
+        "{near:?vouliez-vous dire {near} ?|il y a {known:and}}",
+    ),
+    "starter-there": Message(
+        "{path} is there already",
+        "{path} existe déjà",
+        "give another name: ssilang new NAME FILE",
+        "donnez un autre nom : ssilang new NOM FICHIER",
+    ),
+    "starter-written": Message(
+        "{path}: run it with   ssilang {path}", "{path} : à exécuter par   ssilang {path}"
+    ),
+    "usage-new": Message(
+        "write a commented deck to begin with", "écrit un jeu de données commenté pour commencer"
+    ),
+    "usage-new-name": Message("which one; none lists all", "lequel ; sans nom, la liste"),
+    "usage-new-file": Message("file to write (NAME.ssi here)", "fichier à écrire (NOM.ssi, ici)"),
+    "usage-completion": Message(
+        "print the completion of a shell", "affiche la complétion d'un interpréteur de commandes"
+    ),
+    "usage-shell": Message(
+        "bash, zsh, fish; words: what help knows", "bash, zsh, fish ; words : ce que l'aide connaît"
     ),
 }

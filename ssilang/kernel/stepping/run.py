@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,12 +24,14 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
+
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again

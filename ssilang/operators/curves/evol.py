@@ -16,6 +16,7 @@ from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.filled import Filled
 from ssilang.language.registry import (
     Entry,
     Help,
@@ -155,6 +156,12 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
 }
 
+_MODE = (
+    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; "
+    "T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; "
+    "Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ; "
+)
+
 
 @operator(
     "EVOL",
@@ -165,11 +172,17 @@ _ENTRIES: dict[str, list[Entry]] = {
     help=Help(
         en="Curve, or several: from two lists ('MANU'), from real and imaginary parts or modulus "
         "and phase ('COMP'), of a component along a line of nodes ('CHPO'), in time at points "
-        "('TEMP': from a list of fields and a list of times, or a table of results).",
+        "('TEMP': from a list of fields and a list of times, or a table of results).\n"
+        "RECO gives components at points from modal contributions in time (of DYNE with a load: "
+        "with the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA "
+        "the projections of fields in time on the shapes of a basis.",
         fr="Évolution à une ou plusieurs courbes : de deux listes ('MANU'), de parties réelle et "
         "imaginaire ou module et phase ('COMP'), d'une composante le long d'une ligne de noeuds "
         "('CHPO'), en fonction du temps en des points ('TEMP' : d'une liste de champs et d'une "
-        "liste de temps, ou d'une table de résultats).",
+        "liste de temps, ou d'une table de résultats).\n"
+        "RECO donne des composantes en des points à partir de contributions modales en temps (de "
+        "DYNE avec un chargement : avec les pseudo-modes qu'il excite) ; SOLU les contributions de "
+        "DYNE ; PJBA les projections de champs en temps sur les déformées d'une base.",
         syntax="EVOL1 = EVOL (COUL) 'MANU' ('TYPE' MTYP1) ('LEGE' TIT1) (NOMABS) LIS1 "
         "(NOMORD) LIS2 ;\n"
         "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"
@@ -177,11 +190,21 @@ _ENTRIES: dict[str, list[Entry]] = {
         "| MAIL1 ;\n"
         "EVOL1 = EVOL (COUL) 'TEMP' TAB1 MOT1 COMP N1 N2 N3 ; (field in cells: zone, cell, point)\n"
         "EVOL1 = EVOL (COUL) 'COMP' ('REIM' | 'MOPH') ('LEGE' TIT1 TIT2) NOMABS LREE1 (NOMOR1) "
-        "LREE2 (NOMOR2) LREE3 ;",
+        "LREE2 (NOMOR2) LREE3 ;\n"
+        "EVOL1 = EVOL (COUL) 'RECO' LCHP1 LREE1 TBAS1 (N1) COMP | LCOMP GEO1 ;\n"
+        "EVOL1 = EVOL (COUL) 'RECO' TDYNE | TPASA TBAS1 | MODL1 MAT1 (CHAR1) 'DEPL' | 'VITE' | "
+        "'ACCE' GEO1 COMP | CHPO1 (LREE1) ;\n"
+        "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
+        "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
+        "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
         examples=(
             "E = EVOL 'ROUG' 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; LIST E ;",
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; "
             "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
+            _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
+            _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 "
+            "0.1 ; LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
+            _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
         ),
     ),
     reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
@@ -189,12 +212,11 @@ _ENTRIES: dict[str, list[Entry]] = {
 def evol(call: Call) -> Curve:
     """Choose the kind of curve."""
     colours = read_colours(call)
-    word = call.keyword(tuple(KINDS))
+    word = call.keyword(tuple(_ENTRIES))
     if word is None:
-        raise call.error("operators.curves.which-curve", kinds=[f"'{w}'" for w in KINDS])
+        raise call.error("operators.curves.which-curve", kinds=[f"'{w}'" for w in _ENTRIES])
     colours = colours or read_colours(call) or [workspace(call.session).colour]
-    made: Curve = KINDS[word](call, colours)
-    return made
+    return KINDS[word](call, colours)
 
 
 def _manual(call: Call, colours: list[int]) -> Curve:
@@ -482,6 +504,9 @@ def reals(values: list[Any]) -> FloatArray:
     return np.asarray(values, dtype=float)
 
 
-KINDS: dict[str, Any] = {
-    "MANU": _manual, "COMP": _complex, "CHPO": _along_line, "TEMP": _in_time,
-}  # fmt: skip
+KINDS: Filled[str, Callable[[Call, list[int]], Curve]] = Filled("kinds of curves")
+"""What makes the curve, by the word of EVOL; those of modal bases are added by their module."""
+KINDS["MANU"] = _manual
+KINDS["COMP"] = _complex
+KINDS["CHPO"] = _along_line
+KINDS["TEMP"] = _in_time

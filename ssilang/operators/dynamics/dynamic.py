@@ -31,6 +31,7 @@ from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, ext
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State
@@ -111,20 +112,20 @@ def _integrated(
     bodies: tuple[Bulk, State] | None = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
-    from ssilang.kernel.plasticity.run import run_bulk
-    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
-    from ssilang.kernel.stepping.run import integrate
-
     tolerance = entries.get("REDUCTION")
     full = entries.flag("NEWTON_COMPLET")
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
+        from ssilang.kernel.plasticity.run import run_bulk
+
         return run_bulk(problem, *bodies, observers, line, dynamic=True)
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     if tolerance is None and not full and driver is None:
         return integrated(entries.call.session, problem, observers, line)
     if tolerance is None:
+        from ssilang.kernel.stepping.run import integrate
+
         return integrate(problem, observers, line, full, driver)
     if driver is not None:
         raise entries.error("operators.dynamics.reduction-or-charmeca")
@@ -132,6 +133,8 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-newton")
     if not 0.0 < tolerance < 1.0:
         raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+
     return integrate_reduced(problem, float(tolerance), observers, line)
 
 
@@ -223,6 +226,7 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.get("CARACTERISTIQUES"),
         scheme_of(entries),
         contact_options(entries),
+        solver=solver_of(entries.call.session),
     )
 
 
