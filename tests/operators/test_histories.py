@@ -138,3 +138,39 @@ def test_lists_and_their_file_hold_the_same_values(tmp_path):
     rows = [find("R2").get(i) for i in range(1, 36)]
     exact = [float(r.get("ACCE").components["UX"].values[0]) for r in rows]
     assert np.array_equal(lists.get(f"ACCE_UX_{node}").values, exact)
+
+
+def test_a_parquet_file_holds_the_lists_with_their_units(tmp_path):
+    pq = pytest.importorskip("pyarrow.parquet")
+    more = (
+        "T . 'PAS_SAUVES_CSV' = 3 ; T . 'MAILLAGE_CSV' = MANU 'POI1' P ; "
+        "T . 'FICHIER_CSV' = '{name}' ; R3 = DYNAMIC T ; "
+    )
+    text = "OPTI 'UNIT' 'KN-M' ; " + BLOCK.format(step="")
+    for name in ("corner.parquet", "corner"):
+        text += more.format(name=name)
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    lists = result.session.root.find("T").get("RESULTATS_CSV")
+    table = pq.read_table(tmp_path / "corner.parquet")
+    assert table.column_names == [str(i).rstrip() for i, _ in lists.items()]
+    units = [field.metadata[b"unit"].decode() for field in table.schema]
+    assert units == ["s", "m", "m", "m/s", "m/s", "m/s2", "m/s2"]
+    for name, values in lists.items():
+        assert np.array_equal(table[str(name).rstrip()].to_numpy(), values.values)
+    lines = (tmp_path / "corner.csv").read_text().splitlines()
+    assert lines[0].split(";")[:2] == ["TEMP (s)", f"{table.column_names[1]} (m)"]
+    rows = np.array([[float(x) for x in line.split(";")] for line in lines[1:]])
+    exact = np.column_stack([c.to_numpy() for c in table.columns])
+    assert np.abs(rows - exact).max() <= 1e-11 * np.abs(exact).max()
+
+
+def test_a_parquet_file_without_pyarrow_is_refused(monkeypatch):
+    monkeypatch.setattr("ssilang.operators.dynamics.motion_files.is_there", lambda: False)
+    more = (
+        "T . 'PAS_SAUVES_CSV' = 3 ; T . 'MAILLAGE_CSV' = P ; "
+        "T . 'FICHIER_CSV' = 'corner.parquet' ; R3 = DYNAMIC T ;"
+    )
+    result = run_text(BLOCK.format(step="") + more)
+    assert result.exit_code == 1
+    assert "pip install" in result.message

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.interface.interface import interface_field, point_history, state_field
@@ -27,16 +29,16 @@ class Followed:
         Their nodes, increasing.
     at : array (p,)
         Unknowns that the equalities hold.
-    forces : array (p, m)
+    forces : csr array (p, m)
         Multipliers LX from the forces of the equalities on these; zero for unilateral ones.
-    contact : array (m, size)
+    contact : csr array (m, size)
         LX from the reactions of the unilateral relations.
     """
 
     nodes: IntArray
     at: IntArray
-    forces: FloatArray
-    contact: FloatArray
+    forces: sp.csr_array
+    contact: sp.csr_array
 
     def values(self, rows: Rows) -> FloatArray:
         """LX (k, m)."""
@@ -53,20 +55,41 @@ class Followed:
 def followed_of(problem: Problem, nodes: IntArray) -> Followed:
     """The relations whose multipliers are among some nodes."""
     p, contact = problem, problem.contact
-    equal = np.flatnonzero(np.isin(p.multipliers, nodes))
-    columns = -p.constraints.pushers(equal)
-    at = np.flatnonzero(columns.any(axis=1))
-    found = [p.multipliers[equal]]
-    size = 0 if contact is None else contact.size
-    pushed = [np.zeros((len(equal), size))]
+    equal, one_sided, size = np.flatnonzero(np.isin(p.multipliers, nodes)), np.zeros(0, int), 0
+    whole, sense = p.multipliers[equal], np.zeros(0)
     if contact is not None:
-        one_sided = np.flatnonzero(np.isin(contact.multipliers, nodes))
-        found.append(contact.multipliers[one_sided])
-        pushed.append(-contact.sense[one_sided, None] * np.eye(size)[one_sided])
-    forces = np.hstack([columns[at], np.zeros((len(at), sum(map(len, found[1:]))))])
-    whole = np.concatenate(found)
-    order = np.argsort(whole, kind="stable")
-    return Followed(whole[order], at, forces[:, order], np.concatenate(pushed)[order])
+        one_sided, size = np.flatnonzero(np.isin(contact.multipliers, nodes)), contact.size
+        whole = np.concatenate([whole, contact.multipliers[one_sided]])
+        sense = contact.sense[one_sided]
+    first, m = len(equal), len(whole)
+    columns = sp.csr_array(sp.hstack([_pushers(p, equal), sp.csc_array((p.K.shape[0], m - first))]))
+    places = (first + np.arange(m - first), one_sided)
+    pushed = sp.csr_array((-sense, places), shape=(m, size))
+    at, order = np.flatnonzero(np.diff(columns.indptr)), np.argsort(whole, kind="stable")
+    return Followed(whole[order], at, columns[at][:, order], pushed[order])
+
+
+def _pushers(problem: Problem, rows: IntArray) -> sp.csc_array:
+    """Columns (n, m) whose products with the forces of equalities are some multipliers LX.
+
+    Most relations hold one unknown, and are alone to do so.
+    """
+    D = problem.constraints.D
+    alone = np.bincount(D.indices, minlength=D.shape[1]) == 1
+    entries = np.diff(D.indptr)
+    found: list[tuple[Any, FloatArray]] = []
+    for row in rows.tolist():
+        first = D.indptr[row]
+        if entries[row] == 1 and alone[D.indices[first]] and D.data[first] != 0.0:
+            found.append((D.indices[first : first + 1], -1.0 / D.data[first : first + 1]))
+            continue
+        column = -problem.constraints.pushers(np.array([row]))[:, 0]
+        at = np.flatnonzero(column)
+        found.append((at, column[at]))
+    starts = np.cumsum([0, *(len(at) for at, _ in found)])
+    at = np.concatenate([np.zeros(0, np.int64), *(at for at, _ in found)])
+    values = np.concatenate([np.zeros(0), *(x for _, x in found)])
+    return sp.csc_array((values, at, starts), shape=(D.shape[1], len(rows)))
 
 
 @dataclass(eq=False)
@@ -97,13 +120,9 @@ class NodeTrack(Track):
 
     @cached_property
     def followed(self) -> Followed:
-        """Relations whose multipliers are among the nodes; all."""
-        p, nodes = self.problem, self.nodes
-        if nodes is None:
-            nodes = p.multipliers
-            if p.contact is not None:
-                nodes = np.concatenate([nodes, p.contact.multipliers])
-        return followed_of(p, nodes)
+        """Relations whose multipliers are among the nodes."""
+        assert self.nodes is not None
+        return followed_of(self.problem, self.nodes)
 
     # ---- single instants
 
@@ -158,17 +177,12 @@ class NodeTrack(Track):
         return self.values(name, place)[:, 0]
 
     def _multiplier(self, node: int) -> FloatArray | None:
-        all_ = self.followed
-        chosen = np.flatnonzero(all_.nodes == node)
-        if not len(chosen):
+        if self.nodes is not None and not np.isin(node, self.nodes):
             return None
-        one = chosen[:1]
-        few = replace(
-            all_, nodes=all_.nodes[one], forces=all_.forces[:, one], contact=all_.contact[one]
-        )
-        held = np.flatnonzero(few.forces[:, 0])
-        few = replace(few, at=few.at[held], forces=few.forces[held])
-        return np.concatenate([few.values(rows)[:, 0] for rows in self.pieces])
+        one = followed_of(self.problem, np.array([node]))
+        if not len(one.nodes):
+            return None
+        return np.concatenate([one.values(rows)[:, 0] for rows in self.pieces])
 
     def point_history(
         self, name: str, component: str, zone: int, cell: int, point: int

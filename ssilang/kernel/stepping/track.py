@@ -312,11 +312,14 @@ class Track:
         Increasing.
     pieces : list of Rows
         What came, in order of time.
+    at_end : callable or None
+        Called when the run has ended.
     """
 
     wanted: BoolArray
     unknowns: IntArray
     pieces: list[Rows] = field(default_factory=list)
+    at_end: Callable[[], None] | None = None
     keeps: ClassVar[bool] = True
 
     @cached_property
@@ -336,7 +339,9 @@ class Track:
         self.pieces.append(rows)
 
     def close(self) -> None:
-        """Nothing is open."""
+        """The run has ended, or failed."""
+        if self.at_end is not None:
+            self.at_end()
 
     def __len__(self) -> int:
         return sum(len(rows) for rows in self.pieces)

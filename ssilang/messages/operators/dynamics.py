@@ -243,6 +243,12 @@ MESSAGES: dict[str, Message] = {
         "leave one",
         "ôter l'un des deux",
     ),
+    "parquet-needs-pyarrow": Message(
+        "{name} needs pyarrow, which is not installed",
+        "{name} demande pyarrow, qui n'est pas installé",
+        "pip install 'ssilang[sweep]', or a name that ends with .csv",
+        "pip install 'ssilang[sweep]', ou un nom qui finit par .csv",
+    ),
     "two-schemes": Message(
         "'{given}' and '{given_2}' choose two schemes",
         "'{given}' et '{given_2}' choisissent deux schémas",

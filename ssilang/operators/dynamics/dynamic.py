@@ -23,6 +23,7 @@ from ssilang.operators.dynamics.checkpoints import (
     kept_calculation,
     steps_of_reprise,
 )
+from ssilang.operators.dynamics.histories import TableObserver
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
 from ssilang.operators.dynamics.reports import (
     report,
@@ -66,8 +67,8 @@ def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.extremes import Extremes
+    from ssilang.kernel.stepping.node_track import NodeTrack
     from ssilang.kernel.stepping.problem.problem import make_problem
-    from ssilang.operators.dynamics.histories import TableObserver
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
@@ -80,12 +81,14 @@ def zdyn(call: Call, table: Table) -> Table:
     warn_resolution(entries, problem)
     asked = nodes_asked(entries.get("MAILLAGE_SAUVE"))
     whole = bodies is not None or entries.flag("CHARMECA")
-    results = TableObserver(saved, problem=problem, nodes=asked, whole=whole)
+    results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     extremes = Extremes(problem=problem, asked=entries.flag("EXTREMES"))
     uplift = UpliftWatch.of(problem)
-    observers = [o for o in (results, vtk, csv, extremes, uplift) if o is not None]
+    lists = None if csv is None else csv.track
+    given = (results.observer, vtk, lists, extremes, uplift)
+    observers = [o for o in given if o is not None]
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
     try:

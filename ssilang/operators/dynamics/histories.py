@@ -1,6 +1,6 @@
 """Histories that DYNAMIC keeps: the table of results, lists and files of values in time.
 
-The kernel's tracks hold them, which bring compiled code along: DYNAMIC imports this when it runs.
+The kernel's tracks hold them.
 """
 
 from __future__ import annotations
@@ -9,21 +9,25 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ssilang.io.atomic import write_text
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.io.parquet_tables import write_parquet
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.stepping.node_track import NodeTrack
-from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, promises
 from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.dynamics.motion_observers import restricted
 
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+
+PARQUET = ".parquet"
 NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}
 JOINTS = {"CONTRAINTES": "traction", "SAUTS": "jump", "VARIABLES_INTERNES": "variables"}
 OF_INSTANTS = {"traction": "tractions", "jump": "jumps", "variables": "variables"}
@@ -61,26 +65,37 @@ def _asked(table: LazyRows, place: int, index: str) -> NodeField:
 
 
 @dataclass(eq=False)
-class TableObserver(NodeTrack):
+class TableObserver:
     """The table of results: 1, 2 ... with TEMP, DEPL, VITE, ACCE and what joints give.
 
     What loops record stays as rows; fields are made of them when a script first asks. `whole`: of
     problems that change, or with plastic bodies, instants are kept instead.
     """
 
+    track: NodeTrack
     whole: bool = False
     table: LazyRows = field(init=False)
 
     def __post_init__(self) -> None:
-        super().__post_init__()
-        words = NODAL_WORDS if self.problem.interface is None else ALL_WORDS
-        self.table = LazyRows(self._entry, words, self._stand_ins, self)
+        self.nodes = self.track.nodes
+        words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
+        self.table = LazyRows(self._entry, words, self._stand_ins, self.track)
+
+    @property
+    def observer(self) -> Observer:
+        """What the run hands instants to."""
+        return self if self.whole else self.track
+
+    @property
+    def wanted(self) -> BoolArray:
+        """Which times."""
+        return self.track.wanted
+
+    def close(self) -> None:
+        """Nothing to do: the table is whole after each step."""
 
     def receive(self, snapshot: Snapshot) -> None:
-        """Add one instant."""
-        if not self.whole:
-            super().receive(snapshot)
-            return
+        """Add one whole instant."""
         if self.nodes is not None and not snapshot.problem.small:
             entry = self._entry(snapshot)
             entry.items()  # lets go of the rest of a large model
@@ -90,13 +105,14 @@ class TableObserver(NodeTrack):
 
     def _stand_ins(self, index: str) -> tuple[Sequence[Any], FloatArray] | None:
         """What serves instead of all fields at an index, and their times."""
+        track = self.track
         if not self.whole:
             if index in VECTORS:
-                make = partial(self.node_field, name=VECTORS[index])
-                return RecordedFields(self, VECTORS[index], make), self.times
-            if index in JOINTS and self.problem.interface is not None:
+                make = partial(track.node_field, name=VECTORS[index])
+                return RecordedFields(track, VECTORS[index], make), track.times
+            if index in JOINTS and track.problem.interface is not None:
                 name = JOINTS[index]
-                return RecordedPoints(self, name, partial(self._points, name=name)), self.times
+                return RecordedPoints(track, name, partial(self._points, name=name)), track.times
             return None
         if index not in VECTORS or self.nodes is not None:
             return None
@@ -112,16 +128,16 @@ class TableObserver(NodeTrack):
         return fields, np.array([snapshot.time for _, snapshot in rows])
 
     def _points(self, row: int, name: str) -> CellField:
-        found = self.cell_field(row, name)
+        found = self.track.cell_field(row, name)
         assert found is not None
         return found
 
     def _entry(self, row: Snapshot | int) -> LazyTable:
         """The table of an instant: a snapshot, or a place among the rows."""
         if isinstance(row, int):
-            words = NODAL_WORDS if self.problem.interface is None else ALL_WORDS
+            words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
             entry = LazyTable(partial(self._recorded, row), words, partial(self._instant, row))
-            entry.set(Mot("TEMP"), float(self.instant(row).times[0]))
+            entry.set(Mot("TEMP"), float(self.track.instant(row).times[0]))
             return entry
         words = ALL_WORDS
         if row.problem.interface is None:
@@ -134,37 +150,42 @@ class TableObserver(NodeTrack):
 
     def _recorded(self, row: int, word: str) -> object:
         if word in JOINTS:
-            return self.cell_field(row, JOINTS[word])
-        return self.node_field(row, VECTORS[word])
+            return self.track.cell_field(row, JOINTS[word])
+        return self.track.node_field(row, VECTORS[word])
 
     def _instant(self, row: int, word: str, make: Callable[[], NodeField]) -> InstantField | None:
         """As `_stand_in`, of recorded rows."""
         if self.nodes is not None or word not in VECTORS:
             return None
-        values = self.instant(row).values(VECTORS[word])[0]
-        return InstantField(self.problem.numbering, values, make)
+        values = self.track.instant(row).values(VECTORS[word])[0]
+        return InstantField(self.track.problem.numbering, values, make)
 
 
 @dataclass(eq=False)
-class CsvObserver(NodeTrack):
-    """Lists of values in time at the nodes of a mesh, and a file of them."""
+class CsvObserver:
+    """Lists of values in time at the nodes of a mesh, and a file of them, CSV or Parquet."""
 
+    track: NodeTrack
     components: list[str] | None = None
     path: Path | None = None
     units: UnitSystem | None = None
 
+    def __post_init__(self) -> None:
+        self.track.at_end = self.close
+
     @cached_property
     def columns(self) -> dict[str, FloatArray]:
         """Values in time by title: TEMP, DEPL_UX_12 ..."""
-        found, numbering = {"TEMP": self.times}, self.problem.numbering
+        track, numbering = self.track, self.track.problem.numbering
+        found = {"TEMP": track.times}
         for word, field_ in VECTORS.items():
-            values = self.values(field_, self.shown)
+            values = track.values(field_, track.shown)
             for name in numbering.unknowns:
                 if self.components is not None and name not in self.components:
                     continue
-                places = np.flatnonzero(numbering.codes[self.shown] == numbering.code(name))
+                places = np.flatnonzero(numbering.codes[track.shown] == numbering.code(name))
                 for place in places.tolist():
-                    node = numbering.nodes[self.shown[place]]
+                    node = numbering.nodes[track.shown[place]]
                     found[f"{word}_{name}_{node + 1}"] = values[:, place]
         return found
 
@@ -172,19 +193,28 @@ class CsvObserver(NodeTrack):
         """Write the file, whole."""
         if self.path is None:
             return
+        if self.path.suffix.lower() == PARQUET:
+            write_parquet(
+                self.path, self.columns, {name: self._unit(name) for name in self.columns}
+            )
+            return
         lines = [";".join(map(self._head, self.columns))]
-        lines += [
-            ";".join(f"{x:.12g}" for x in row) for row in zip(*self.columns.values(), strict=True)
-        ]
+        row = ";".join(["%.12g"] * len(self.columns))
+        columns = [values.tolist() for values in self.columns.values()]
+        lines += [row % values for values in zip(*columns, strict=True)]
         write_text(self.path, "\n".join(lines) + "\n")
 
     def _head(self, name: str) -> str:
-        """Title of a column of the file, with the deck's units where they are known."""
-        if self.units is None:
-            return name
-        index, component = (*name.split("_"), "")[:2]
-        unit = self.units.written("s" if name == "TEMP" else result_unit(component, index))
+        """Title of a column of the file, with its unit where it is known."""
+        unit = self._unit(name)
         return f"{name} ({unit})" if unit else name
+
+    def _unit(self, name: str) -> str:
+        """Unit of a column where the deck's are known."""
+        if self.units is None:
+            return ""
+        index, component = (*name.split("_"), "")[:2]
+        return self.units.written("s" if name == "TEMP" else result_unit(component, index))
 
     @property
     def table(self) -> Table:

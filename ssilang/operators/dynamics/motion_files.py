@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.io.parquet_tables import is_there
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.fields.cell_field import CellField
@@ -16,6 +17,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
+from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 from ssilang.operators.dynamics.motion_observers import VtkObserver
 from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import output_path, run_output
@@ -24,7 +26,6 @@ from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.operators.dynamics.histories import CsvObserver
 
 
 MANY_INSTANTS = 50
@@ -85,7 +86,7 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
 
 
 def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
-    from ssilang.operators.dynamics.histories import CsvObserver
+    from ssilang.kernel.stepping.node_track import NodeTrack
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         return None
@@ -94,10 +95,11 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     assert nodes is not None
     components: ListMots | None = entries.get("COMPOSANTES_CSV")
     text = str(entries.get("FICHIER_CSV")).rstrip()
-    path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
+    named = text.lower().endswith((".csv", PARQUET))
+    if text.lower().endswith(PARQUET) and not is_there():
+        raise entries.error("operators.dynamics.parquet-needs-pyarrow", name=text)
+    path = output_path(entries.call, text if named else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
-    return CsvObserver(
-        wanted, problem=problem, nodes=nodes, components=chosen, path=path,
-        units=workspace(entries.call.session).units,
-    )  # fmt: skip
+    track = NodeTrack(wanted, problem=problem, nodes=nodes)
+    return CsvObserver(track, chosen, path, workspace(entries.call.session).units)

@@ -17,6 +17,7 @@ from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
+from ssilang.kernel.stepping.node_track import NodeTrack
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
@@ -330,3 +331,51 @@ def test_extremes_side_by_side_and_of_reduced_models():
     recorder, extremes = Recorder(n), Extremes(problem=problem)
     assert integrate_reduced(problem, 1e-3, [recorder, extremes]).loop == "reduced"
     assert_largest(extremes, recorder)
+
+
+def frame_with_ties():
+    """Masses in a row, two of them tied, one held by a relation with the next, one over a stop."""
+    bench = Bench()
+    nodes = [bench.node(float(i), 0.0) for i in range(5)]
+    for i, node in enumerate(nodes):
+        bench.mass(20.0 * (1 + i), node)
+        if i:
+            bench.spring(4e5, nodes[i - 1], node)
+            bench.spring(1e5, nodes[i - 1], node, unknown="UX")
+    marks = [bench.relate([(2.0, "UX", nodes[0])])]
+    marks.append(bench.relate([(1.0, "UX", nodes[1]), (-1.0, "UX", nodes[2])]))
+    marks.append(bench.relate([(1.0, "UY", nodes[3]), (0.5, "UX", nodes[3])]))
+    marks.append(bench.relate([(1.0, "UY", nodes[4])], sense=1))
+    marks.append(bench.relate([(-3.0, "UY", nodes[0])]))
+    t = 2e-3 * np.arange(STEPS + 1)
+    weight = bench.field(*((n, "FY", -1200.0) for n in nodes))
+    push = bench.field((nodes[1], "FX", 900.0), (nodes[4], "FY", 2500.0))
+    load = Load(bench.load(weight).parts + bench.load(push, t, np.sin(30.0 * t)).parts)
+    problem = make_problem(Inputs(bench.stiffness, t, bench.mass_matrix, None, load))
+    return problem, np.sort(np.array(marks)), nodes
+
+
+@pytest.mark.parametrize("rule", ["relations on modes", "relations", "conserving"])
+def test_multipliers_of_relations_are_followed(rule, monkeypatch):
+    monkeypatch.setattr(choose, "RULES", only(rule))
+    problem, marks, nodes = frame_with_ties()
+    if rule == "conserving":
+        problem = replace(problem, scheme=Scheme(conserving=True))
+    n, asked = len(problem.times), np.sort(np.append(marks, nodes[2]))
+    recorder = Recorder(n)
+    few = NodeTrack(np.ones(n, bool), problem=problem, nodes=asked)
+    every = NodeTrack(np.ones(n, bool), problem=problem)
+    integrate(problem, [recorder, few, every])
+    exact = np.array([s.displacement.components["LX"].at(marks) for s in recorder.snapshots])
+    assert (np.abs(exact).max(axis=0) > 0.0).all()
+    scale = np.abs(exact).max()
+    for j, mark in enumerate(marks.tolist()):
+        for track in (few, every):
+            gap = np.abs(track.history("u", "LX", mark) - exact[:, j])
+            assert gap.max() <= 1e-9 * scale
+    for row in (0, 70, n - 1):
+        field = few.node_field(row, "u")
+        assert np.abs(field.components["LX"].at(marks) - exact[row]).max() <= 1e-9 * scale
+        assert field.components["UX"].nodes.tolist() == [nodes[2]]
+    assert few.history("u", "LX", nodes[0]) is None
+    assert few.history("u", "UX", nodes[0]) is None

@@ -246,13 +246,16 @@ def keep_whole(m: Motion, to: Recorder, k: int) -> None:
 def watch_whole(m: Motion, to: Peaks, k: int) -> None:
     """As the verb `watch`, of arrays at once."""
     step = to.first[0] + k + 1.0
-    larger = np.abs(m.u) > np.abs(to.u)
-    to.u[larger], to.when[larger] = m.u[larger], step
+    larger = np.flatnonzero(np.abs(m.u) > np.abs(to.u))
+    if len(larger):
+        to.u[larger], to.when[larger] = m.u[larger], step
     if to.joints.shape[1]:
-        shear = np.linalg.norm(m.t[:, :-1], axis=1)
-        found = np.stack([m.w[:, -1], -m.t[:, -1], shear])
-        larger = found > to.joints
-        to.joints[larger], to.joints_when[larger] = found[larger], step
+        shear = np.sqrt(np.vecdot(m.t[:, :-1], m.t[:, :-1]))
+        found = np.array([m.w[:, -1], -m.t[:, -1], shear])
+        larger_joints = found > to.joints
+        if larger_joints.any():
+            np.copyto(to.joints, found, where=larger_joints)
+            to.joints_when[larger_joints] = step
 
 
 @dataclass(eq=False)
