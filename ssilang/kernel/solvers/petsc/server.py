@@ -44,6 +44,7 @@ SHARE = 0.8  # of the free memory, for factors
 RESIDUAL = 1e-12  # of the second member, where a solution is iterated
 MOST_TURNS = 500
 NO_MEMORY = frozenset({-5, -7, -8, -9, -11, -13, -14, -15, -17, -18, -19, -20})  # of MUMPS
+NOT_GIVEN = -13
 SINGULAR = frozenset({-6, -10, -40})
 
 
@@ -278,21 +279,29 @@ class Factors:
             A.setOption(PETSc.Mat.Option.SPD, True)
         return A
 
+    def mumps(self, command: Message, A: Any, room: float) -> Any:
+        """What MUMPS makes of a matrix, with so many bytes a rank at most; its INFOG says more."""
+        pc = self.petsc.PC().create(self.ranks.comm)
+        pc.setOperators(A)
+        pc.setType("cholesky" if command["symmetric"] else "lu")
+        pc.setFactorSolverType("mumps")
+        pc.setFactorSetUpSolverType()
+        factor = pc.getFactorMatrix()
+        if np.isfinite(room):
+            factor.setMumpsIcntl(23, max(1, int(room / MEGABYTE)))
+        pc.setUp()
+        pc.destroy()  # the factor stays
+        return factor
+
     def direct(self, command: Message, A: Any) -> Message:
         """LL^T, LDL^T or LU by MUMPS; the memory it wants, if that is not there."""
-        pc, room = self.petsc.PC().create(self.ranks.comm), self.room()
-        try:
-            pc.setOperators(A)
-            pc.setType("cholesky" if command["symmetric"] else "lu")
-            pc.setFactorSolverType("mumps")
-            pc.setFactorSetUpSolverType()
-            factor = pc.getFactorMatrix()
-            room = min(room, command["room"] or room)
-            if np.isfinite(room):
-                factor.setMumpsIcntl(23, max(1, int(room / MEGABYTE)))
-            pc.setUp()
-        finally:
-            pc.destroy()  # the factor stays
+        room = self.room()
+        room = min(room, command["room"] or room)
+        factor = self.mumps(command, A, room)
+        if factor.getMumpsInfog(1) == NOT_GIVEN and MEGABYTE * factor.getMumpsInfog(16) <= room:
+            # told its room, MUMPS asks for all of it, which some systems do not promise
+            factor.destroy()
+            factor = self.mumps(command, A, np.inf)
         said, second = factor.getMumpsInfog(1), factor.getMumpsInfog(2)
         negative = command["positive"] and factor.getMumpsInfog(12) > 0
         if said >= 0 and not negative:
