@@ -367,6 +367,8 @@ def _start(command: str, limit: float) -> tuple[_Line, dict[str, Any]]:
     KernelError
         If it cannot be started, ends, is late, or is no such server.
     """
+    if not hasattr(socket, "AF_UNIX") or not hasattr(socket, "send_fds"):
+        raise KernelError("kernel.solvers.petsc-system")
     words = _words(command)
     folder = Path(tempfile.mkdtemp(prefix="ssilang-petsc-"))  # its owner's alone
     output = tempfile.TemporaryFile()  # noqa: SIM115  # it lives as long as the line

@@ -14,12 +14,10 @@ ends, so does the server, in the middle of a factorisation as well.
 
 from __future__ import annotations
 
-import fcntl
 import glob
 import json
 import mmap
 import os
-import resource
 import select
 import signal
 import socket
@@ -117,6 +115,8 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
 
 def end_with(line: socket.socket, on: bool) -> None:
     """Let the system end this process, and by it all ranks, when the client ends (SIGIO)."""
+    import fcntl  # the client imports this file, on any system
+
     flags = fcntl.fcntl(line, fcntl.F_GETFL)
     fcntl.fcntl(line, fcntl.F_SETOWN, os.getpid())
     fcntl.fcntl(line, fcntl.F_SETFL, flags | os.O_ASYNC if on else flags & ~os.O_ASYNC)
@@ -214,6 +214,8 @@ def lines_of(path: str) -> list[str]:
 
 def most_bytes() -> float:
     """The most memory that this process has held."""
+    import resource
+
     unit = 1 if sys.platform == "darwin" else 1024
     return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
 
@@ -496,6 +498,8 @@ def serve(desk: Desk | None, ranks: Ranks, factors: Factors) -> None:
 
 def main(folder: str) -> None:
     """Greet the client and serve it; whatever fails on one rank ends all."""
+    import resource
+
     from mpi4py import MPI
 
     comm = MPI.COMM_WORLD

@@ -69,6 +69,11 @@ def test_a_positive_matrix(petsc, columns):
     np.testing.assert_allclose(factor.solve(b), factorise(A, True, "SuperLU").solve(b), atol=1e-12)
 
 
+def test_fewer_unknowns_than_processes(petsc):
+    x = factorise(sp.csr_array([[4.0]]), True, petsc).solve(np.array([[2.0, 8.0]]))
+    np.testing.assert_allclose(x, [[0.5, 2.0]], rtol=1e-15)
+
+
 def test_a_matrix_without_symmetry(petsc):
     A = sp.csr_array(laplacian(5)[0] + sp.diags_array(np.full(124, 0.7), offsets=1))
     b = right_side(125, 2)
@@ -153,6 +158,7 @@ def test_multigrid_takes_a_matrix_whose_factor_has_no_room(cramped):
     b = right_side(8000, 2)
     x = factor.solve(b)
     assert np.linalg.norm(A @ x - b) <= 2e-12 * np.linalg.norm(b)
+    assert not factor.solve(np.zeros(8000)).any()
 
 
 @pytest.mark.skipif(shutil.which("prlimit") is None, reason="no prlimit here")
