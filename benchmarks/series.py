@@ -21,8 +21,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.vtk import Part, SeriesWriter, VtkHdfWriter
+from ssilang.io.vtk import Part, SeriesWriter
 from ssilang.io.vtk.grid import Grid, bare_grid, with_fields
+from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh

@@ -8,14 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
-from ssilang.io.vtk.series import Series, SeriesWriter
-from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+
+if TYPE_CHECKING:
+    from ssilang.io.vtk.series import Series
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -142,7 +143,10 @@ class RunOutput:
         self, path: Path, constants: Mapping[str, float], *, one_file: bool = False
     ) -> Series:
         """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
-        kind = VtkHdfWriter if one_file else SeriesWriter
+        from ssilang.io.vtk.series import SeriesWriter
+        from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+
+        kind: type[Series] = VtkHdfWriter if one_file else SeriesWriter
         writer = kind(path, constants=constants)
         self.keep_series(writer)
         return writer
@@ -150,8 +154,8 @@ class RunOutput:
     def keep_series(self, writer: Series) -> None:
         """Let a series be finished when the run ends, in place of one of that name."""
         before = self.series.get(writer.base)
-        if isinstance(before, VtkHdfWriter) and before is not writer:
-            before.close()
+        if before is not None and before is not writer:
+            before.release()
         self.series[writer.base] = writer
 
     def wrote(self, *paths: Path) -> None:

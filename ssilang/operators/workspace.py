@@ -95,12 +95,12 @@ def units_in_si(session: Session) -> dict[str, float]:
 
 
 def open_session(session: Session) -> Session:
-    """Give a session its evaluator and its workspace, and load all operators."""
+    """Give a session its evaluator, its workspace and its operators."""
     from ssilang.language.run.evaluator import Evaluator
-    from ssilang.operators.loader import load_operators
+    from ssilang.operators.loader import prepare_operators
     from ssilang.operators.tables.soundness import flaw_of
 
-    load_operators()
+    prepare_operators()
     Evaluator(session)
     made = Workspace()
     session.workspace = made

@@ -166,9 +166,12 @@ def _files_of(folder: Path, left: list[Path]) -> list[str]:
 
 
 def is_motion(path: Path) -> bool:
-    """Whether a file may be a ground motion: a text that soon has a line of numbers."""
-    with path.open("rb") as stream:
-        head = stream.read(_LOOKED_AT)
+    """Whether a file may be a ground motion: a text that can be read and soon has numbers."""
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(_LOOKED_AT)
+    except OSError:
+        return False
     if b"\0" in head:
         return False
     lines = head.decode("utf-8", errors="replace").splitlines()

@@ -1,8 +1,7 @@
-"""VTK files (.vtu, .pvd, .vtkhdf) that ParaView and pyvista open."""
+"""VTK files that ParaView and pyvista open: .vtu, .pvd; `vtkhdf` writes one for a series."""
 
 from ssilang.io.vtk.grid import Grid, grid_of
 from ssilang.io.vtk.series import Part, SeriesWriter
-from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 from ssilang.io.vtk.vtu import Encoding, write_vtu
 
-__all__ = ["Encoding", "Grid", "Part", "SeriesWriter", "VtkHdfWriter", "grid_of", "write_vtu"]
+__all__ = ["Encoding", "Grid", "Part", "SeriesWriter", "grid_of", "write_vtu"]

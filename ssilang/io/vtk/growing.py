@@ -145,6 +145,11 @@ class Column:
     def __len__(self) -> int:
         return self._length
 
+    @property
+    def last(self) -> float:
+        """The value added last."""
+        return float(self.values[self._length - 1])
+
     def append(self, value: float) -> None:
         """Add a value."""
         if self._length == len(self.values):

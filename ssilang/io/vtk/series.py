@@ -55,7 +55,11 @@ class Series(ABC):
         What has been written.
     labels : dict of str to (Mesh, Labels)
         Meshes of the parts of the last step, and what their cells are called.
+    one_file : bool
+        Whether all steps are in one file.
     """
+
+    one_file = False
 
     def __init__(self, base: Path, constants: Mapping[str, float] | None = None) -> None:
         self.base = strip_extension(base)
@@ -93,6 +97,10 @@ class Series(ABC):
     @abstractmethod
     def close(self) -> None:
         """Finish what is written."""
+
+    def release(self) -> None:
+        """Let go of what is held open: another series takes this one's place."""
+        return
 
     def accepts(self, time: float, parts: tuple[str, ...]) -> bool:
         """Whether a step at that time with these parts can follow."""

@@ -45,6 +45,8 @@ class VtkHdfWriter(Series):
         gone or cannot be written.
     """
 
+    one_file = True
+
     def __init__(self, base: Path, *, constants: Mapping[str, float] | None = None) -> None:
         super().__init__(base, constants)
         self.path = self.base.with_name(self.base.name + ".vtkhdf")
@@ -54,7 +56,7 @@ class VtkHdfWriter(Series):
     @property
     def last_time(self) -> float | None:
         """Time of the last step, None before the first."""
-        return None if self._times is None else float(self._times.values[len(self._times) - 1])
+        return self._times.last if self._times else None
 
     @property
     def part_names(self) -> tuple[str, ...]:
@@ -81,6 +83,8 @@ class VtkHdfWriter(Series):
         if self._times is not None:
             self._file.close()
 
+    release = close
+
     def _begin(self, grids: Mapping[str, Grid], parts: Mapping[str, Part]) -> None:
         file = self._file = GrowingFile(self.path)
         self._times = Column(file, "<f8", kept=False)
@@ -101,9 +105,12 @@ class VtkHdfWriter(Series):
         if not self._file.is_there:
             raise OutputError("io.series-files-gone", path=self.path, names=[self.path.name])
         for name, grid in grids.items():
-            if not self._parts[name].fits(grid):
+            part, path = self._parts[name], self.path.name
+            if not part.has_mesh_of(grid):
                 shown = f" ({name})" if name else ""
-                raise OutputError("io.series-mesh-changed", part=shown, path=self.path.name)
+                raise OutputError("io.series-mesh-changed", part=shown, path=path)
+            if bad := part.misfits(grid):
+                raise OutputError("io.series-array-changed", names=bad, path=path)
 
     def _root(self) -> int:
         """Write the headers that say how many steps there are; address of the root's."""
@@ -122,8 +129,7 @@ class VtkHdfWriter(Series):
 
     def _blocks(self, values: int, count: int) -> int:
         names = _link_names(tuple(self._parts))
-        # VTK takes the times from the last of these, and gives the first grid the field data
-        links = self._told.links(values, count)
+        links = {}
         for i, (name, part) in enumerate(self._parts.items()):
             said = [
                 hdf5.attribute("Version", _GRID_VERSION),
@@ -227,23 +233,23 @@ class _OneGrid:
         self._rest: tuple[int, list[bytes]] | None = None
         self._steps_rest: tuple[int, list[bytes]] | None = None
 
-    def fits(self, grid: Grid) -> bool:
-        """Whether a grid's mesh is this one, and its arrays have the widths of those before."""
+    def has_mesh_of(self, grid: Grid) -> bool:
+        """Whether a grid's mesh is this one."""
         mine = self._grid
-        same = grid is mine or all(
-            getattr(grid, k) is getattr(mine, k)
-            or np.array_equal(getattr(grid, k), getattr(mine, k))
-            for k in ("points", "connectivity", "types")
-        )
-        return same and not any(
-            array.values.shape != shapes[name]
-            for shapes, arrays in (
+        pairs = [(getattr(grid, k), getattr(mine, k)) for k in ("points", "connectivity", "types")]
+        return all(a is b or np.array_equal(a, b) for a, b in pairs)
+
+    def misfits(self, grid: Grid) -> list[str]:
+        """Names of the arrays whose widths are not those of the steps before."""
+        return [
+            name
+            for mine, arrays in (
                 (self._points.shapes(), grid.point_data),
                 (self._cells.shapes(), grid.cell_data),
             )
             for name, array in _plain_names(arrays).items()
-            if name in shapes
-        )
+            if mine.get(name, array.values.shape) != array.values.shape
+        ]
 
     def write(self, grid: Grid, step: int) -> None:
         """Add the fields of a step."""
@@ -291,12 +297,11 @@ class _OneGrid:
 
 
 class _Told:
-    """Numbers that hold for all steps, by name: the field data of a grid or of all of them."""
+    """Numbers that hold for all steps, by name: the field data of all grids."""
 
     def __init__(
         self, file: GrowingFile, repeated: Mapping[str, Repeated], told: Mapping[str, float]
     ) -> None:
-        self._file = file
         made = {
             _plain_name(name): file.add(hdf5.header(hdf5.compact(np.array([value], dtype="<f8"))))
             for name, value in told.items()
@@ -307,12 +312,6 @@ class _Told:
             "FieldDataOffsets": group_header(file, dict.fromkeys(made, zeros)),
             "FieldDataSizes": group_header(file, dict.fromkeys(made, ones)),
         }
-
-    def links(self, values: int, count: int) -> dict[str, int]:
-        """The links of a whole of several grids for so many steps with these times."""
-        said = [hdf5.attribute("NSteps", count)]
-        steps = group_header(self._file, {"Values": values, **self.steps}, said)
-        return {"Steps": steps, "FieldData": self.address}
 
 
 def _mesh_links(file: GrowingFile, grid: Grid) -> dict[str, int]:

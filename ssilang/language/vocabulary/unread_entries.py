@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -77,10 +78,34 @@ def reads(text: str, word: str) -> Iterator[str]:
 
     Also the tables that the text asks for it (EXIS), or for all their indices (INDE).
     """
-    said = re.escape(word)
-    for found in re.finditer(rf"([@&!]?\w+|['\)])\s*\.\s*(?:'{said}'|{said}(?!\w))\s*(=?)", text):
-        if not found.group(2):
-            yield found.group(1).upper()
-    for pattern in (rf"\bEXIS\w*\s+\(?\s*([@&!]?\w+)[^;]*?'{said}'", r"\bINDE\w*\s+([@&!]?\w+)"):
-        for found in re.finditer(pattern, text, re.IGNORECASE):
-            yield found.group(1).upper()
+    read = _read(text)
+    yield from read.before.get(word, ())
+    yield from (table for table, rest in read.asked if f"'{word.upper()}'" in rest)
+    yield from read.listed
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What a text reads of tables: in front of each index, asked by EXIS, listed by INDE."""
+
+    before: dict[str, list[str]]
+    asked: list[tuple[str, str]]
+    listed: list[str]
+
+
+# the index is looked at only: it may be the base of the next one
+_INDEX = re.compile(r"([@&!]?\w+|['\)])\s*\.\s*(?=(?:'([^']*)'|(\w+))\s*(=?))")
+_ASKED = re.compile(r"\bEXIS\w*\s+\(?\s*([@&!]?\w+)([^;]*)", re.IGNORECASE)
+_LISTED = re.compile(r"\bINDE\w*\s+([@&!]?\w+)", re.IGNORECASE)
+
+
+@lru_cache(maxsize=8)
+def _read(text: str) -> _Read:
+    before: dict[str, list[str]] = {}
+    for found in _INDEX.finditer(text):
+        base, quoted, bare, sign = found.groups()
+        if not sign:
+            index = bare.upper() if quoted is None else quoted.rstrip()
+            before.setdefault(index, []).append(base.upper())
+    asked = [(m.group(1).upper(), m.group(2).upper()) for m in _ASKED.finditer(text)]
+    return _Read(before, asked, [m.group(1).upper() for m in _LISTED.finditer(text)])

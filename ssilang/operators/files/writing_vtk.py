@@ -11,7 +11,6 @@ import numpy as np
 from ssilang.io.run_output import RunOutput
 from ssilang.io.vtk.labels import Labels
 from ssilang.io.vtk.series import Part, Series, SeriesWriter, strip_extension
-from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 from ssilang.io.vtk.vtu import Encoding
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -130,7 +129,7 @@ def _vtk(call: Call, word: str) -> None:
     path = strip_extension(target_path(call))
     output = run_output(call.session)
     begun = output.series.get(path)
-    one_file = said.format == "VTKHDF" or (not said.format and isinstance(begun, VtkHdfWriter))
+    one_file = said.format == "VTKHDF" or (not said.format and begun is not None and begun.one_file)
     if one_file and said.of_files:
         raise call.error("operators.files.not-of-one-file", said.of_files, word=said.of_files)
     parts = _parts(call.session, said, begun, one_file)
@@ -164,8 +163,8 @@ def _parts(session: Session, said: _Said, begun: Series | None, one_file: bool) 
 def _one_file(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:
     """The .vtkhdf to which the step is added."""
     begun = output.series.get(path)
-    goes_on = isinstance(begun, VtkHdfWriter) and said.listing != "NOUV"
-    if goes_on and begun is not None and begun.accepts(said.time or 0.0, parts):
+    goes_on = begun is not None and begun.one_file and said.listing != "NOUV"
+    if begun is not None and goes_on and begun.accepts(said.time or 0.0, parts):
         return begun
     return output.begin_series(path, said.constants, one_file=True)
 
@@ -173,7 +172,7 @@ def _one_file(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]
 def _files(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:
     """The series of .vtu files to which the step is added."""
     begun = output.series.get(path)
-    if isinstance(begun, VtkHdfWriter):
+    if begun is not None and begun.one_file:
         begun = None
     time = said.time or 0.0
     if said.listing == "SUIT" and begun is None:

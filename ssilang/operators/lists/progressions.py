@@ -188,7 +188,10 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     """Integers behind `start` up to `end`, whose distance the step divides."""
     if start == end:
         return []
-    if step == 0 or (end - start) % step or (end - start) // step < 0:
+    if step == 0 or (end < start) != (step < 0):
+        told = {"step": step, "start": start, "end": end, "meant": -step}
+        raise KernelError("operators.lists.steps-lead-away", **told)
+    if (end - start) % step:
         raise KernelError("operators.lists.steps-miss-end", step=step, start=start, end=end)
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 

@@ -20,7 +20,6 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
-from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
 
 Reader = Callable[[Call, str], None]
@@ -95,6 +94,8 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
 def _no_value(
     call: Call, option: str, said: str, words: tuple[str, ...], *, quoted: bool = False
 ) -> SsiError:
+    from ssilang.operators.vocabulary.words import told_values  # knows the kernel: slow to load
+
     told = told_values(option, words, call.session.language)
     return SsiError(
         "operators.session.no-value-of-option",
@@ -334,6 +335,8 @@ def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
         )
     meant = _ENGLISH.get((word or said).upper().strip())
     near = [meant] if meant else nearest_names(said.strip()[:4], sorted(READERS), 0.5)
+    from ssilang.operators.vocabulary.words import told_options
+
     told = told_options(near, call.session.language)
     return SsiError(
         "operators.session.unknown-option",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -216,7 +216,8 @@ def char_in_lists(
     for held in objects.values:
         if type_of(held) not in _HELD:
             raise call.error("operators.statics.not-loaded", objects, found=type_of(held))
-    steps = tuple(zip(times.values.tolist(), objects.values, strict=True))
+    fields = cast("tuple[NodeField | CellField, ...]", objects.values)  # by _HELD
+    steps = tuple(zip(times.values.tolist(), fields, strict=True))
     return Load((LoadPart(_short(name), None, None, steps),))
 
 
@@ -339,7 +340,7 @@ _PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
             "LIBR": [],
         },
         optional=False,
-        unless=lambda load: {p.name for p in load.parts},
+        unless=lambda load: {p.name for p in getattr(load, "parts", ())},
         en="a part, its field, its curve, its times or objects, all names, the parts that follow "
         "the matter or not",
         fr="une partie, son champ, son évolution, ses temps ou objets, tous les noms, les parties "

@@ -16,11 +16,12 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from ssilang.io.errors import OutputError
-from ssilang.io.vtk import Part, SeriesWriter, VtkHdfWriter
+from ssilang.io.vtk import Part, SeriesWriter
 from ssilang.io.vtk.cells import ORDERS
 from ssilang.io.vtk.growing import GrowingFile
 from ssilang.io.vtk.hdf5 import BRANCHES
 from ssilang.io.vtk.labels import Labels, labels_of
+from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -60,7 +61,8 @@ def assert_same_grid(one: pyvista.UnstructuredGrid, two: pyvista.UnstructuredGri
     assert np.array_equal(one.points, two.points)
     assert one.points.dtype == two.points.dtype
     assert np.array_equal(one.cell_connectivity, two.cell_connectivity)
-    assert np.array_equal(one.offset, two.offset)
+    ends = [vtk_to_numpy(g.GetCells().GetOffsetsArray()) for g in (one, two)]
+    assert np.array_equal(*ends)
     assert np.array_equal(one.celltypes, two.celltypes)
     for mine, theirs in (
         (one.GetPointData(), two.GetPointData()),
@@ -175,7 +177,7 @@ def test_arrays_that_come_late_or_leave_out_a_step_are_nan_there(tmp_path: Path)
 
 def test_named_parts_are_blocks_of_their_own_arrays(tmp_path: Path) -> None:
     soil, block = bar(4), bar(3)
-    with VtkHdfWriter(tmp_path / "two", constants={"unit_m": 1.0}) as series:
+    with VtkHdfWriter(tmp_path / "two") as series:
         for i in range(3):
             parts = {
                 "soil": Part(soil, {"": moving(soil, i)}),
@@ -191,8 +193,6 @@ def test_named_parts_are_blocks_of_their_own_arrays(tmp_path: Path) -> None:
         expected = moving(block, 10 + i).components["UY"].values
         assert np.array_equal(blocks["a_b"].point_data["velocity"][:, 1], expected)
         assert "velocity" not in blocks["soil"].point_data
-        # VTK's reader gives what is told of the whole to the first block
-        assert blocks["soil"].field_data["unit_m"] == [1.0]
 
 
 def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path: Path) -> None:
@@ -206,7 +206,7 @@ def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path: Pat
     assert (tmp_path / "s.vtkhdf").stat().st_size < files / 5
 
 
-@pytest.mark.parametrize("how", ["time", "parts", "mesh", "moved", "gone"])
+@pytest.mark.parametrize("how", ["time", "parts", "mesh", "moved", "array", "gone"])
 def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, how: str) -> None:
     mesh = bar()
     path = tmp_path / "r.vtkhdf"
@@ -218,6 +218,7 @@ def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, 
         "parts": "io.series-parts-step-brings",
         "mesh": "io.series-mesh-changed",
         "moved": "io.series-mesh-changed",
+        "array": "io.series-array-changed",
         "gone": "io.series-files-gone",
     }
     table = NodeTable()
@@ -230,6 +231,7 @@ def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, 
         "parts": (2.0, {"x": Part(mesh)}),
         "mesh": (2.0, {"": Part(bar(4))}),
         "moved": (2.0, {"": Part(moved)}),
+        "array": (2.0, {"": Part(mesh, {"TEMP": moving(mesh, 3)})}),
         "gone": (2.0, {"": Part(mesh)}),
     }
     with pytest.raises(OutputError) as refused:
@@ -388,12 +390,17 @@ def test_every_state_of_the_file_is_whole(tmp_path: Path, monkeypatch: pytest.Mo
 WRITE = """
 import sys, pathlib
 sys.path[:0] = {paths!r}
-from test_vtkhdf import bar, field_of_step
-from ssilang.io.vtk import VtkHdfWriter
-mesh = bar(2000)
+import numpy as np
+from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+table = NodeTable()
+ids = table.add(np.arange(2000.0)[:, None])
+mesh = Mesh.of(table, "SEG2", np.stack([ids[:-1], ids[1:]], axis=1))
 with VtkHdfWriter(pathlib.Path(sys.argv[1])) as series:
-    for i in range(100000):
-        series.write(float(i), mesh, {{"": field_of_step(mesh, i)}})
+    for i in range(1000000):
+        series.write(float(i), mesh, {{"": NodeField.of(table, ids, {{"T": np.cos(i + ids)}})}})
         if i == 0:
             print("begun", flush=True)
 """
@@ -401,7 +408,7 @@ with VtkHdfWriter(pathlib.Path(sys.argv[1])) as series:
 
 def test_a_killed_process_leaves_its_last_whole_step(tmp_path: Path) -> None:
     rng = np.random.default_rng(int(os.environ.get("KILL_SEED", "5")))
-    script = WRITE.format(paths=[str(Path(__file__).parent), *sys.path])
+    script = WRITE.format(paths=sys.path)
     paths = []
     for i in range(int(os.environ.get("KILLS", "6"))):
         path = tmp_path / f"k{i}.vtkhdf"
@@ -418,7 +425,7 @@ def test_a_killed_process_leaves_its_last_whole_step(tmp_path: Path) -> None:
     found = found_in(paths)
     assert all(nodes == 2000 and steps >= 1 for steps, nodes in found)
     assert max(steps for steps, _ in found) > 3
-    assert sorted(p.name for p in tmp_path.iterdir()) == [p.name for p in paths]
+    assert set(tmp_path.iterdir()) == set(paths)
 
 
 def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
