@@ -286,8 +286,9 @@ class _Line:
 
     def _reply(self) -> dict[str, Any]:
         """The next message; none if the server has ended."""
-        gone = False
-        while not select.select([self.connection], [], [], 1.0)[0]:
+        gone, line = False, select.poll()
+        line.register(self.connection, select.POLLIN)
+        while not line.poll(1000):
             if gone:
                 return {}
             gone = self.process.poll() is not None
