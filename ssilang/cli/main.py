@@ -249,7 +249,7 @@ def _check(options: argparse.Namespace) -> int:
             failed = check_file(source, options.syntax_only, options.lang, sys.stdout)
             code = max(code, FAILED) if failed else code
     if options.format != "text":
-        from ssilang.cli.check_reports import report
+        from ssilang.cli.checking.reports import report
 
         failed = report(sources, options.format, options.syntax_only, options.lang, sys.stdout)
         code = max(code, FAILED) if failed else code
@@ -257,7 +257,7 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _format(options: argparse.Namespace) -> int:
-    from ssilang.cli.formatting import format_files
+    from ssilang.cli.editor.formatting import format_files
 
     return format_files(
         options.files, options.check, options.diff, options.lang, sys.stdout, sys.stderr

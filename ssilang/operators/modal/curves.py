@@ -59,7 +59,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     if not names:
         raise call.missing(("MOT",))
     places_of = [(name, node) for name in names for node in nodes_named(support.value)]
-    return _curves(call, times, contributions(fields, shapes), known, places_of, colours)
+    return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
 def _curves(

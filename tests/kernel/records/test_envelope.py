@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -51,6 +53,6 @@ def test_an_envelope_has_the_energy_of_the_signal_on_each_interval():
     assert places[-1] == x[-1]
     line = np.interp(x, places, values)
     ends = np.searchsorted(x, places)
-    for begin, end in zip(ends[:-1], ends[1:], strict=True):
+    for begin, end in itertools.pairwise(ends):
         part = slice(begin + 1, end + 1)
         assert np.sum(line[part] ** 2) == pytest.approx(np.sum(y[part] ** 2), rel=1e-9)
