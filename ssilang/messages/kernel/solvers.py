@@ -105,6 +105,13 @@ MESSAGES: dict[str, Message] = {
         "install MPI (Debian: mpi-default-bin), or write the program's whole path",
         "installez MPI (Debian : mpi-default-bin), ou écrivez le chemin complet du programme",
     ),
+    "petsc-system": Message(
+        "PETSc is asked through files that processes hand to each other, which this system lacks",
+        "PETSc est interrogé par des fichiers que les processus se passent, ce que ce système "
+        "n'offre pas",
+        "Linux and macOS have them",
+        "Linux et macOS l'offrent",
+    ),
     "petsc-not-started": Message(
         "PETSc cannot be started by {command!r}: {fault}",
         "PETSc ne se lance pas par {command!r} : {fault}",

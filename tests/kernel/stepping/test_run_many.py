@@ -9,9 +9,11 @@ from references.rocking_beam import rocking
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.solvers.factor import Solver
 from ssilang.kernel.stepping import run_many as together
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.loading import Loading
+from ssilang.kernel.stepping.problem.sharing import grouped
 from ssilang.kernel.stepping.rests.sparse import interleaved_batch as interleaved_together
 from ssilang.kernel.stepping.run import integrate
 
@@ -101,6 +103,13 @@ def test_other_models_run_one_after_another():
     assert [h.together for h in found] == [2, 1, 2]
     assert not np.allclose(recorders[0].of("u")[-1], recorders[1].of("u")[-1], rtol=1e-6)
     assert np.array_equal(recorders[0].of("u"), recorders[2].of("u"))
+
+
+def test_problems_of_other_solvers_and_those_of_servers_stay_apart():
+    one = soil_block(steps=2, size=SIZE)
+    named, served = Solver("SuperLU"), Solver("PETSC")
+    problems = [one, replace(one, solver=named), one, *[replace(one, solver=served)] * 2]
+    assert grouped(problems) == [[0, 2], [1], [3], [4]]
 
 
 def test_loops_without_a_passage_for_several_run_one_after_another():

@@ -286,8 +286,9 @@ class _Line:
 
     def _reply(self) -> dict[str, Any]:
         """The next message; none if the server has ended."""
-        gone = False
-        while not select.select([self.connection], [], [], 1.0)[0]:
+        gone, line = False, select.poll()
+        line.register(self.connection, select.POLLIN)
+        while not line.poll(1000):
             if gone:
                 return {}
             gone = self.process.poll() is not None
@@ -367,6 +368,8 @@ def _start(command: str, limit: float) -> tuple[_Line, dict[str, Any]]:
     KernelError
         If it cannot be started, ends, is late, or is no such server.
     """
+    if not hasattr(socket, "AF_UNIX") or not hasattr(socket, "send_fds"):
+        raise KernelError("kernel.solvers.petsc-system")
     words = _words(command)
     folder = Path(tempfile.mkdtemp(prefix="ssilang-petsc-"))  # its owner's alone
     output = tempfile.TemporaryFile()  # noqa: SIM115  # it lives as long as the line

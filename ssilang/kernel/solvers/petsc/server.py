@@ -14,12 +14,10 @@ ends, so does the server, in the middle of a factorisation as well.
 
 from __future__ import annotations
 
-import fcntl
 import glob
 import json
 import mmap
 import os
-import resource
 import select
 import signal
 import socket
@@ -44,6 +42,7 @@ SHARE = 0.8  # of the free memory, for factors
 RESIDUAL = 1e-12  # of the second member, where a solution is iterated
 MOST_TURNS = 500
 NO_MEMORY = frozenset({-5, -7, -8, -9, -11, -13, -14, -15, -17, -18, -19, -20})  # of MUMPS
+NOT_GIVEN = -13
 SINGULAR = frozenset({-6, -10, -40})
 
 
@@ -116,6 +115,8 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
 
 def end_with(line: socket.socket, on: bool) -> None:
     """Let the system end this process, and by it all ranks, when the client ends (SIGIO)."""
+    import fcntl  # the client imports this file, on any system
+
     flags = fcntl.fcntl(line, fcntl.F_GETFL)
     fcntl.fcntl(line, fcntl.F_SETOWN, os.getpid())
     fcntl.fcntl(line, fcntl.F_SETFL, flags | os.O_ASYNC if on else flags & ~os.O_ASYNC)
@@ -213,6 +214,8 @@ def lines_of(path: str) -> list[str]:
 
 def most_bytes() -> float:
     """The most memory that this process has held."""
+    import resource
+
     unit = 1 if sys.platform == "darwin" else 1024
     return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
 
@@ -278,21 +281,29 @@ class Factors:
             A.setOption(PETSc.Mat.Option.SPD, True)
         return A
 
+    def mumps(self, command: Message, A: Any, room: float) -> Any:
+        """What MUMPS makes of a matrix, with so many bytes a rank at most; its INFOG says more."""
+        pc = self.petsc.PC().create(self.ranks.comm)
+        pc.setOperators(A)
+        pc.setType("cholesky" if command["symmetric"] else "lu")
+        pc.setFactorSolverType("mumps")
+        pc.setFactorSetUpSolverType()
+        factor = pc.getFactorMatrix()
+        if np.isfinite(room):
+            factor.setMumpsIcntl(23, max(1, int(room / MEGABYTE)))
+        pc.setUp()
+        pc.destroy()  # the factor stays
+        return factor
+
     def direct(self, command: Message, A: Any) -> Message:
         """LL^T, LDL^T or LU by MUMPS; the memory it wants, if that is not there."""
-        pc, room = self.petsc.PC().create(self.ranks.comm), self.room()
-        try:
-            pc.setOperators(A)
-            pc.setType("cholesky" if command["symmetric"] else "lu")
-            pc.setFactorSolverType("mumps")
-            pc.setFactorSetUpSolverType()
-            factor = pc.getFactorMatrix()
-            room = min(room, command["room"] or room)
-            if np.isfinite(room):
-                factor.setMumpsIcntl(23, max(1, int(room / MEGABYTE)))
-            pc.setUp()
-        finally:
-            pc.destroy()  # the factor stays
+        room = self.room()
+        room = min(room, command["room"] or room)
+        factor = self.mumps(command, A, room)
+        if factor.getMumpsInfog(1) == NOT_GIVEN and MEGABYTE * factor.getMumpsInfog(16) <= room:
+            # told its room, MUMPS asks for all of it, which some systems do not promise
+            factor.destroy()
+            factor = self.mumps(command, A, np.inf)
         said, second = factor.getMumpsInfog(1), factor.getMumpsInfog(2)
         negative = command["positive"] and factor.getMumpsInfog(12) > 0
         if said >= 0 and not negative:
@@ -487,6 +498,8 @@ def serve(desk: Desk | None, ranks: Ranks, factors: Factors) -> None:
 
 def main(folder: str) -> None:
     """Greet the client and serve it; whatever fails on one rank ends all."""
+    import resource
+
     from mpi4py import MPI
 
     comm = MPI.COMM_WORLD

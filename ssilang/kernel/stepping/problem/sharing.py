@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.interface import Interface
+from ssilang.kernel.solvers.backends import goes_to_petsc
 from ssilang.kernel.stepping.problem.problem import Problem
 
 
@@ -18,6 +19,8 @@ def share_model(a: Problem, b: Problem) -> bool:
         return False
     if a.contact is not None or b.contact is not None:
         return False
+    if a.solver != b.solver or goes_to_petsc(a.solver, a.constraints.T.shape[1]):
+        return False  # a run's server is its own
     c, d = a.constraints, b.constraints
     if type(c) is not type(d) or c.associated != d.associated:
         return False

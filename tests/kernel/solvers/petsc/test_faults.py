@@ -99,6 +99,11 @@ def test_a_command_that_names_no_program(command, code):
     assert refusal(command)[0] == code
 
 
+def test_a_system_that_cannot_pass_files_is_told(monkeypatch):
+    monkeypatch.delattr(client.socket, "send_fds")
+    assert refusal("mpirun -n 2 python3")[0] == "petsc-system"
+
+
 def test_a_program_that_is_none(tmp_path):
     path = tmp_path / "program"
     path.write_bytes(b"\x7fELF nothing")

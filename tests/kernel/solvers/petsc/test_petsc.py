@@ -1,5 +1,7 @@
 """PETSc on two processes gives the answers of the other solvers."""
 
+import shutil
+
 import numpy as np
 import pytest
 from petsc_there import COMMAND, environment, lacking
@@ -65,6 +67,11 @@ def test_a_positive_matrix(petsc, columns):
     factor = factorise(A, True, petsc, order)
     assert factor.name == "PETSc MUMPS"
     np.testing.assert_allclose(factor.solve(b), factorise(A, True, "SuperLU").solve(b), atol=1e-12)
+
+
+def test_fewer_unknowns_than_processes(petsc):
+    x = factorise(sp.csr_array([[4.0]]), True, petsc).solve(np.array([[2.0, 8.0]]))
+    np.testing.assert_allclose(x, [[0.5, 2.0]], rtol=1e-15)
 
 
 def test_a_matrix_without_symmetry(petsc):
@@ -151,6 +158,20 @@ def test_multigrid_takes_a_matrix_whose_factor_has_no_room(cramped):
     b = right_side(8000, 2)
     x = factor.solve(b)
     assert np.linalg.norm(A @ x - b) <= 2e-12 * np.linalg.norm(b)
+    assert not factor.solve(np.zeros(8000)).any()
+
+
+@pytest.mark.skipif(shutil.which("prlimit") is None, reason="no prlimit here")
+def test_a_system_that_promises_little_memory_gives_what_a_factor_needs():
+    server = PetscServer(f"prlimit --as={3 << 30} {COMMAND}")  # less than is free
+    A, order = laplacian(12)
+    try:
+        factor = factorise(A, True, Solver(PETSC, server), order)
+        assert factor.name == "PETSc MUMPS"
+        b = right_side(1728)
+        np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-11)
+    finally:
+        server.close()
 
 
 def test_a_matrix_that_is_not_positive_and_has_no_room_is_refused(cramped):
