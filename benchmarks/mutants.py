@@ -91,7 +91,8 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
                     "numbers", "lists", "records", "optimum", "fitting", "huge_numbers",
                     "limits_and_senses", "operand_orders", "hostile_operands"))),
     "safety": (("io/run_output.py", "io/atomic.py", "language/run/session.py"),
-               ("cli/test_safety.py", "io/test_run_output.py", "operators/test_reading.py",
+               ("cli/test_safety.py", "io/test_run_output.py", "language/run/test_session.py",
+                "operators/test_reading.py",
                 "operators/test_writing.py")),
 }  # fmt: skip
 
