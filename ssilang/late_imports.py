@@ -1,8 +1,8 @@
 """Modules that libraries import at their start and a run hardly ever uses, loaded at first use.
 
-scipy takes every public name of numpy, its Fortran compiler, its tests and its masked arrays
-among them; numba looks for a YAML file of settings, mostly in vain: a tenth of a second a run.
-These modules are found as ever, and loaded when something in them is asked for.
+scipy takes every public name of numpy, its Fortran compiler and its tests among them; numba looks
+for a YAML file of settings, mostly in vain: a tenth of a second a run. These modules are found as
+ever, and loaded when something in them is asked for.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
 
-SELDOM = frozenset({"numpy.f2py", "numpy.ma", "numpy.testing", "yaml"})
+SELDOM = frozenset({"numpy.f2py", "numpy.testing", "yaml"})
 
 
 class LateFinder:

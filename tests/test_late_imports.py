@@ -29,11 +29,11 @@ def test_sparse_matrices_and_compiled_code_load_none_of_them():
 @pytest.mark.parametrize(
     ("code", "said"),
     [
-        ("import ssilang, numpy as np; print(np.ma.array([1, 2], mask=[0, 1]).sum())", ["1"]),
+        ("import ssilang, numpy as np; print(np.testing.suppress_warnings.__name__)",
+         ["suppress_warnings"]),
         ("import ssilang; from numpy.testing import assert_equal; assert_equal(1, 1)", []),
         ("import ssilang, numpy.f2py; print(callable(numpy.f2py.run_main))", ["True"]),
-        ("import ssilang, numpy.ma.mrecords as m; print(m.MaskedRecords.__name__)",
-         ["MaskedRecords"]),
+        ("import ssilang, numpy.f2py.auxfuncs as f; print(f.isscalar.__name__)", ["isscalar"]),
     ],
 )  # fmt: skip
 def test_they_are_whole_when_they_are_used(code, said):

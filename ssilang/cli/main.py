@@ -172,7 +172,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 
     if options.max_memory is not None:
         limit_memory(options.max_memory)
-    return RunOptions(
+    made = RunOptions(
         output_directory=options.out,
         allowed=[p.resolve() for p in options.allow],
         language=options.lang,
@@ -182,10 +182,15 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
     )
+    if options.petsc is not None:
+        made.petsc = options.petsc
+    return made
 
 
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
+    if not settings:
+        return {}
     from ssilang.cli.sweeping.given import GivenError, parse_setting
     from ssilang.language.say.diagnostics import render
     from ssilang.language.say.errors import SsiError
@@ -244,7 +249,7 @@ def _check(options: argparse.Namespace) -> int:
             failed = check_file(source, options.syntax_only, options.lang, sys.stdout)
             code = max(code, FAILED) if failed else code
     if options.format != "text":
-        from ssilang.cli.check_reports import report
+        from ssilang.cli.checking.reports import report
 
         failed = report(sources, options.format, options.syntax_only, options.lang, sys.stdout)
         code = max(code, FAILED) if failed else code
@@ -252,7 +257,7 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _format(options: argparse.Namespace) -> int:
-    from ssilang.cli.formatting import format_files
+    from ssilang.cli.editor.formatting import format_files
 
     return format_files(
         options.files, options.check, options.diff, options.lang, sys.stdout, sys.stderr

@@ -174,6 +174,7 @@ def _session_arguments(to: argparse.ArgumentParser) -> None:
     to.add_argument("--debug", action="store_true", help="cli.usage-debug")
     to.add_argument("--max-recursion", type=int, default=200, help="cli.usage-max-recursion")
     to.add_argument("--max-statements", type=int, help="cli.usage-max-statements")
+    to.add_argument("--petsc", metavar="COMMAND", help="cli.usage-petsc")
     to.add_argument("--max-memory", type=int, metavar="MB", help="cli.usage-max-memory")
 
 

@@ -8,13 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
-from ssilang.io.vtk.series import Series, SeriesWriter
+
+if TYPE_CHECKING:
+    from ssilang.io.vtk.series import Series
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -141,11 +143,11 @@ class RunOutput:
         self, path: Path, constants: Mapping[str, float], *, one_file: bool = False
     ) -> Series:
         """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
-        writer: Series = SeriesWriter(path, constants=constants)
-        if one_file:
-            from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+        from ssilang.io.vtk.series import SeriesWriter
+        from ssilang.io.vtk.vtkhdf import VtkHdfWriter
 
-            writer = VtkHdfWriter(path, constants=constants)
+        kind: type[Series] = VtkHdfWriter if one_file else SeriesWriter
+        writer = kind(path, constants=constants)
         self.keep_series(writer)
         return writer
 

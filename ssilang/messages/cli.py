@@ -210,6 +210,10 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "stop after so many statements", "s'arrête après ce nombre d'instructions"
     ),
     "usage-max-memory": Message("stop past so much memory", "s'arrête au-delà de cette mémoire"),
+    "usage-petsc": Message(
+        "what starts PETSc for OPTI 'SOLVEUR' 'PETSC': 'mpirun -n 4 /usr/bin/python3'",
+        "ce qui lance PETSc pour OPTI 'SOLVEUR' 'PETSC' : 'mpirun -n 4 /usr/bin/python3'",
+    ),
     "usage-error": Message("{program}: error: {problem}", "{program} : erreur : {problem}"),
     "usage-no-file": Message(
         "run needs a file, or - for standard input",

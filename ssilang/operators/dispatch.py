@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
+from ssilang.language.filled import Filled
 from ssilang.language.registry import (
     ANY,
-    OPERATORS,
     Help,
     Operator,
     arg,
@@ -28,18 +28,6 @@ if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
 
-def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, ...]) -> None:
-    """Add a paragraph, syntax lines and examples to an operator's help."""
-    made = OPERATORS[name]
-    old = made.about
-    made.about = Help(
-        "\n".join(t for t in (old.en, en) if t),
-        "\n".join(t for t in (old.fr, fr) if t),
-        "\n".join(t for t in (old.syntax, syntax) if t),
-        (*old.examples, *examples),
-    )
-
-
 def shared_operator(
     name: str,
     family: str,
@@ -48,9 +36,10 @@ def shared_operator(
     full_name: str = "",
     terminal: bool = False,
     examples: tuple[str, ...] = (),
+    syntax: str = "",
 ) -> Operator:
     """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
-    help = Help(en, fr, examples=examples)
+    help = Help(en, fr, syntax, examples)
     return shared(name, family, help, full_name=full_name, terminal=terminal)
 
 
@@ -163,9 +152,10 @@ DIME = shared_operator(
             "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\n"
             "LIST (DIME (CHAR 'MECA' F E)) ;"
         ),
+        "LIST (DIME (PROG 1. 2. 3.)) ;",
     ),
+    syntax="ENTI1 = DIME OBJ1 ;",
 )
-extend_help("DIME", "ENTI1 = DIME OBJ1 ;", "", "", ("LIST (DIME (PROG 1. 2. 3.)) ;",))
 ENLE = shared_operator(
     "ENLE",
     "objects",
@@ -464,7 +454,7 @@ INTE = shared_operator(
 )
 
 ListingEntry = Callable[[Any, bool, Teller], str]
-LISTINGS: dict[str, ListingEntry] = {}
+LISTINGS: Filled[str, ListingEntry] = Filled("listings")
 """LIST: type -> function (value, whether in brief, what makes texts of codes)."""
 
 
@@ -480,7 +470,7 @@ def listing(*types: str) -> Callable[[ListingEntry], ListingEntry]:
 
 
 UnionRule = Callable[[Any, Any], Any]
-UNIONS: dict[tuple[str, str], UnionRule] = {}
+UNIONS: Filled[tuple[str, str], UnionRule] = Filled("unions")
 """ET: (left type, right type) -> function."""
 
 
@@ -496,7 +486,7 @@ def union(*pairs: tuple[str, str]) -> Callable[[UnionRule], UnionRule]:
 
 
 WordedUnionRule = Callable[[Collection[str], Any, Any], Any]
-WORDED_UNIONS: dict[tuple[str, str], WordedUnionRule] = {}
+WORDED_UNIONS: Filled[tuple[str, str], WordedUnionRule] = Filled("unions with words")
 """ET for rules that heed the words 'TELQUEL' and 'NOER'."""
 
 

@@ -23,9 +23,9 @@ from pygls.workspace import TextDocument
 from ssilang import __version__
 from ssilang.cli.editor import complete, information, outline
 from ssilang.cli.editor.document import Document
+from ssilang.cli.editor.formatting import formatted
 from ssilang.cli.editor.names import Occurrence
 from ssilang.cli.editor.problems import Findings, Fix, Problem, find_problems
-from ssilang.cli.formatting import formatted
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import Library
 from ssilang.language.say.errors import SeveralErrors, SsiError

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -358,6 +359,59 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
+
+
+class History(Protocol):
+    """Jumps and tractions (k, n_points, d) and states (k, n_points, N_STATE) of all joints."""
+
+    @property
+    def w(self) -> FloatArray: ...
+    @property
+    def t(self) -> FloatArray: ...
+    @property
+    def state(self) -> FloatArray: ...
+
+
+def point_history(
+    interface: Interface, rows: History, kind: str, component: str, place: tuple[int, int, int]
+) -> FloatArray | None:
+    """A component (k,) of `interface_field` or `state_field` in time at one point.
+
+    Parameters
+    ----------
+    kind : 'jump', 'traction' or 'variables'
+    place : (zone, cell, point)
+        From 0.
+
+    Returns
+    -------
+    array or None
+        None if there is no such point or component.
+    """
+    zone, cell, point = place
+    sizes = [j.weights.shape for j in interface.joints]
+    if not (0 <= zone < len(sizes) and 0 <= cell < sizes[zone][0] and 0 <= point < sizes[zone][1]):
+        return None
+    j, before = interface.joints[zone], sum(a * b for a, b in sizes[:zone])
+    at = before + cell * sizes[zone][1] + point
+    w, t, state = (np.ascontiguousarray(x[:, at]) for x in (rows.w, rows.t, rows.state))
+    if kind != "variables":
+        names = j.element.strains if kind == "jump" else j.element.stresses
+        if is_macro(j):
+            names = MACRO_NAMES[kind][interface.dimension]
+        places = {names[i]: i for i in component_order(j.zone)}
+        values = w if kind == "jump" else t
+        return values[:, places[component]] if component in places else None
+    if component in COMMON_VARIABLES:
+        codes = np.full(len(w), interface.codes[at])
+        p = np.tile(interface.parameters[at], (len(w), 1))
+        common = np.vstack(
+            [point_states(codes, w, t, state, p)[None], energies_of_points(codes, w, t, state, p)]
+        )
+        found: FloatArray = common[COMMON_VARIABLES.index(component)]
+        return found
+    shown = shown_variables(law_of(j.zone.behaviour), state[:, None], interface.dimension)
+    return shown[component][:, 0] if component in shown else None
 
 
 def state_from_field(interface: Interface, field: CellField) -> FloatArray:

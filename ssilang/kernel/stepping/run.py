@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
 from ssilang.kernel.stepping.driven import Drive, Driver
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
@@ -22,14 +24,17 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
+
 CHUNK_VALUES = 4_000_000  # saved values held at once
+LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
@@ -136,14 +141,6 @@ class Integration:
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
             reaction, energies, pushing,
         )  # fmt: skip
-        tracks = [o for o in self.observers if isinstance(o, Track)]
-        whole = [o for o in self.observers if not isinstance(o, Track)]
-        if self._drive is not None:  # what it adds differs from step to step
-            tracks, whole = [], list(self.observers)
-        self.taps, self._whole = Taps(tracks, len(p.times)), whole
-        self.wanted = np.zeros(len(p.times), bool)
-        for observer in whole:
-            self.wanted |= observer.wanted
         self._choices: dict[float, Choice] = {}
         refuse_combinations(p, self.full_newton)
         self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
@@ -162,6 +159,8 @@ class Integration:
         history = History(times, np.zeros((len(times), N_ENERGIES)))
         history.kept[0] = self.motion.energies
         try:
+            inside = self._drive is None and self._choice(times[1] - times[0]).rule.inside
+            self.prepare(inside)
             self.begin()
             self._run(history)
         finally:
@@ -169,6 +168,23 @@ class Integration:
                 observer.close()
         history.seconds = time.perf_counter() - started
         return history
+
+    def prepare(self, inside: bool) -> None:
+        """See what observers want; `inside`: the loop compares the largest values itself."""
+        extremes = [o for o in self.observers if isinstance(o, Extremes)]
+        for one in extremes:
+            one.settle(inside)
+        tracks = [o for o in self.observers if isinstance(o, Track)]
+        whole = [o for o in self.observers if not isinstance(o, Track)]
+        if self._drive is not None:  # what it adds differs from step to step
+            tracks, whole = [], list(self.observers)
+        times = self.problem.times
+        self.taps, self._whole = Taps(tracks, len(times)), whole
+        for one in extremes:
+            self.taps.peaks = one.peaks if inside else self.taps.peaks
+        self.wanted = np.zeros(len(times), bool)
+        for observer in whole:
+            self.wanted |= observer.wanted
 
     def begin(self) -> None:
         """Hand over the initial instant."""
@@ -216,7 +232,11 @@ class Integration:
             )
             view = choice.loop.view(self.taps.unknowns)
             tap = view.tap(tapped, self.taps.room)
-            recorder = recorder_of(self.motion, row, energies, balance=self._balance, tap=tap)
+            peaks = self.taps.peaks
+            peaks.first[0] = first
+            recorder = recorder_of(
+                self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
+            )
             done, turns, residual = choice.loop.run(factors, recorder)
             history.worst = float(self._balance[1])
             history.seen = max(history.seen, float(np.abs(self.motion.energies).max(initial=0.0)))
@@ -243,7 +263,8 @@ class Integration:
         n, tapped = len(self.motion.u), len(self.taps.unknowns)
         last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
         most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
-        return within(self.taps.wanted, CHUNK_VALUES // (3 * most), first, last)
+        values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
+        return within(self.taps.wanted, values // (3 * most), first, last)
 
     def _choice(self, dt: float) -> Choice:
         dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)

@@ -144,6 +144,7 @@ def _run(lanes: list[Lane]) -> None:
             _alone(lane)
         return
     for lane in lanes:
+        lane.integration.prepare(inside=False)
         _guarded(lane, lane.integration.begin)
     _run_group(group)
     for lane in lanes:

@@ -53,6 +53,19 @@ class Tap(NamedTuple):
     contact: FloatArray  # (n_rows, m)
 
 
+class Peaks(NamedTuple):
+    """Values that are largest without their sign, over all steps so far, and their steps.
+
+    Arrays without entries are not kept.
+    """
+
+    first: FloatArray  # (1,) step that ended before the first of those under way
+    u: FloatArray  # (n,) displacement, with its sign
+    when: FloatArray  # (n,)
+    joints: FloatArray  # (3, n_points) opening, compression (negative), shear
+    joints_when: FloatArray  # (3, n_points)
+
+
 class Recorder(NamedTuple):
     """What some steps leave: a row of the state for steps that are kept, numbers for all.
 
@@ -74,6 +87,7 @@ class Recorder(NamedTuple):
     work: FloatArray  # (2, n_steps, k) of loads, of the joints on `lift` (k = 0: none)
     balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
     tap: Tap
+    peaks: Peaks
 
 
 class Ends(NamedTuple):
@@ -103,6 +117,7 @@ def recorder_of(
         "work": np.zeros((2, len(row), 0)),
         "balance": np.zeros(2),
         "tap": closed_tap(len(row)),
+        "peaks": peaks_of(0, 0),
     }
     return Recorder(row, energies, **(parts | more))
 
@@ -153,6 +168,12 @@ def tap_of(row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> T
 def closed_tap(n_steps: int) -> Tap:
     """A tap that takes nothing of some steps."""
     return tap_of(none_kept(n_steps), np.zeros(0, np.int64), {})
+
+
+def peaks_of(n: int, n_points: int) -> Peaks:
+    """No motion yet of n displacements and of joints; 0 keeps nothing."""
+    joints = np.zeros((3, n_points))
+    return Peaks(np.zeros(1), np.zeros(n), np.zeros(n), joints, joints.copy())
 
 
 LONGEST_CHUNK = 1 << 16  # steps at a time at most: their arrays stay in the second cache

@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.stepping.problem.equilibrium import joint_forces, reactions
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.problem.equilibrium import joint_forces
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
-from ssilang.kernel.stepping.state import Motion, Room, Tap
+from ssilang.kernel.stepping.state import Motion, Peaks, Room, Tap, peaks_of
 
 FIELDS = ("u", "v", "a")
 MOST_COORDINATES = 50_000_000
@@ -151,7 +152,7 @@ class Rows:
         """`u`, `v`, `a` or `reaction` (k, len(places)) at places among the unknowns."""
         kept: FloatArray = getattr(self.tap, name)
         if name == "reaction" and not kept.shape[1]:
-            return self._balance(np.arange(len(self.unknowns))[places])
+            return balance_of(self.problem, self.unknowns[places]).of(self)
         if self.view.map is None:
             return kept[:, places]
         return self.view.map[places](kept)
@@ -163,18 +164,11 @@ class Rows:
             return self.view.joints(self.tap)
         return JointRows(self.tap.w, self.tap.t, self.tap.state)
 
-    def _balance(self, places: IntArray) -> FloatArray:
-        """Reactions at places whose neighbours are among the unknowns too."""
-        p, at = self.problem, self.unknowns[places]
-        u, v, a = (self.values(name) for name in FIELDS)
-        loads = expand(p.loading.forces[at], self.factors)
-        if len(at) == len(self.unknowns) == p.numbering.size:
-            return reactions(p, u, v, a, self.joints.t, loads)
-        M, C, K = (A[at][:, self.unknowns] for A in (p.M, p.C, p.K))
-        found: FloatArray = (M @ a.T + C @ v.T + K @ u.T).T - loads
-        if p.interface is not None:
-            found = found + joint_forces(p, self.joints.t) @ p.interface.J[:, at]
-        return found
+    def reactions(self, balance: Balance) -> FloatArray:
+        """Reactions (k, p) of some unknowns whose neighbours were kept too."""
+        if self.tap.reaction.shape[1]:
+            return self.values("reaction", np.searchsorted(self.unknowns, balance.at))
+        return balance.of(self)
 
     def chosen(self, which: BoolArray, unknowns: IntArray) -> Rows:
         """Some of the instants (k,) at some of the unknowns."""
@@ -221,6 +215,49 @@ class Rows:
         return Snapshot(
             self.problem, step, float(one.times[0]), u, v, a, reaction, w, t, state, contact
         )
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """What reactions of a few unknowns follow from: `M a + C v + K u + J^T f - F`.
+
+    Attributes
+    ----------
+    at : array (p,)
+        The unknowns.
+    near : array (c,)
+        All that act on them.
+    M, C, K : csr arrays (p, c)
+    """
+
+    at: IntArray
+    near: IntArray
+    M: sp.csr_array
+    C: sp.csr_array
+    K: sp.csr_array
+
+    def of(self, rows: Rows) -> FloatArray:
+        """Reactions (k, p) of rows that hold what is near."""
+        p = rows.problem
+        columns: IntArray | slice = slice(None)
+        if len(self.near) < len(rows.unknowns):
+            columns = np.searchsorted(rows.unknowns, self.near)
+        parts = ((self.M, "a"), (self.C, "v"), (self.K, "u"))
+        forces = [A @ rows.values(name, columns).T for A, name in parts if A.nnz]
+        found = -expand(p.loading.forces[self.at], rows.factors)
+        for part in forces:
+            found += part.T
+        if p.interface is not None:
+            J = p.interface.J[:, self.at]
+            found = found + joint_forces(p, rows.joints.t) @ J if J.nnz else found
+        return found
+
+
+def balance_of(problem: Problem, at: IntArray) -> Balance:
+    """The balance of some unknowns."""
+    rows = [A[at] for A in (problem.M, problem.C, problem.K)]
+    near = np.unique(np.concatenate([at, *(A.indices for A in rows)])).astype(np.int64)
+    return Balance(at, near, *(A[:, near] for A in rows))
 
 
 def rows_of_snapshot(snapshot: Snapshot, unknowns: IntArray) -> Rows:
@@ -280,6 +317,7 @@ class Track:
     wanted: BoolArray
     unknowns: IntArray
     pieces: list[Rows] = field(default_factory=list)
+    keeps: ClassVar[bool] = True
 
     @cached_property
     def _count(self) -> int:
@@ -328,13 +366,16 @@ class Taps:
     wanted : array (n_times,)
     unknowns : array (p,)
         Increasing.
+    peaks : Peaks
+        The largest values, for loops that compare them.
     """
 
     tracks: Sequence[Track]
     n_times: int
+    peaks: Peaks = field(default_factory=lambda: peaks_of(0, 0))
     wanted: BoolArray = field(init=False)
     unknowns: IntArray = field(init=False)
-    room: Room = field(init=False)
+    room: Room | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         self.wanted = np.zeros(self.n_times, bool)
@@ -342,7 +383,9 @@ class Taps:
             self.wanted |= track.wanted
         asked = [track.unknowns for track in self.tracks]
         self.unknowns = np.unique(np.concatenate([np.zeros(0, np.int64), *asked]))
-        self.room = Room(int(np.count_nonzero(self.wanted)))
+        kept = len(self.tracks) == 1 and self.tracks[0].keeps
+        if kept:  # others look at rows, or take what they want of them
+            self.room = Room(int(np.count_nonzero(self.wanted)))
 
     def give(self, rows: Rows) -> None:
         """Hand rows at all the unknowns, or more, to the tracks that want them."""

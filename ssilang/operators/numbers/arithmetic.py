@@ -11,6 +11,7 @@ import numpy as np
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
+from ssilang.language.filled import Filled
 from ssilang.language.registry import ANY, SCALAR_RULES, Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
@@ -20,10 +21,11 @@ from ssilang.messages.message import Said, Sentence
 
 Rule = Callable[[Any, Any], Any]
 
-RULES: dict[tuple[str, str, str], Rule] = {}
+RULES: Filled[tuple[str, str, str], Rule] = Filled("rules")
 """(sign, left type, right type) -> function; modules of other families add theirs by `rule`."""
 
-CALL_RULES: dict[tuple[str, str, str], Callable[[Call, str, Any, Any], Any]] = {}
+CallRule = Callable[[Call, str, Any, Any], Any]
+CALL_RULES: Filled[tuple[str, str, str], CallRule] = Filled("rules that read more")
 """The same for rules that read more than two operands."""
 
 

@@ -11,6 +11,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.solvers.backends import PETSC
 from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
@@ -19,7 +20,6 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
-from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
 
 Reader = Callable[[Call, str], None]
@@ -33,7 +33,7 @@ _DEFAULTS: dict[str, Any] = {
     "ISOV": "SURFACE", "LANG": "FRAN", "LECT": 4, "LOCA": False, "NBP": 0, "NGMA": 100000,
     "NIVE": 19, "OMBR": True, "PARA": False, "PLAC": 0, "POLI": "8_BY_13", "POTR": "COURIER_14",
     "RESO": "DIRECTE", "REST": 2, "SAUV": 8, "SORT": 7, "SOUC": 0, "TRAC": "BENS", "VERI": 0,
-    "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
+    "SOLV": "AUTO", "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
     "PREC": sys.float_info.epsilon,
 }  # fmt: skip
 # cells of more than four straight sides go by one name
@@ -94,6 +94,8 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
 def _no_value(
     call: Call, option: str, said: str, words: tuple[str, ...], *, quoted: bool = False
 ) -> SsiError:
+    from ssilang.operators.vocabulary.words import told_values  # knows the kernel: slow to load
+
     told = told_values(option, words, call.session.language)
     return SsiError(
         "operators.session.no-value-of-option",
@@ -212,6 +214,14 @@ def _unit(call: Call, word: str) -> None:
     _store(call, word, Mot(said))
 
 
+@reader("SOLV")
+def _solv(call: Call, word: str) -> None:
+    said = _one_of(call, "SOLVEUR", ("AUTO", PETSC))
+    if said == PETSC and workspace(call.session).petsc is None:
+        raise call.error("kernel.solvers.petsc-no-command", call.used[-1].value)
+    _store(call, word, Mot(said))
+
+
 @reader("LANG")
 def _lang(call: Call, word: str) -> None:
     said = value_word(call).upper()
@@ -325,6 +335,8 @@ def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
         )
     meant = _ENGLISH.get((word or said).upper().strip())
     near = [meant] if meant else nearest_names(said.strip()[:4], sorted(READERS), 0.5)
+    from ssilang.operators.vocabulary.words import told_options
+
     told = told_options(near, call.session.language)
     return SsiError(
         "operators.session.unknown-option",

@@ -50,6 +50,7 @@ from ssilang.operators.statics.pasapas_steering import (
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.run import BulkRun
@@ -369,6 +370,7 @@ def _inputs(
         contact_options(entries, dynamic),
         start.of("VARIABLES_INTERNES"),
         sides.friction,
+        solver_of(entries.call.session),
     )
     return inputs, stresses
 

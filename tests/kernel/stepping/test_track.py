@@ -15,6 +15,7 @@ from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping import run_many as together
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -259,3 +260,73 @@ def test_a_motion_that_fails_side_by_side_leaves_its_rows():
     assert isinstance(found[0], Exception)
     assert 30 < len(tracks[0]) < n
     assert len(tracks[1]) == n
+
+
+def assert_largest(extremes, recorder):
+    """The extremes are those of all instants, kept whole."""
+    p = extremes.problem
+    found, numbering = extremes.found(), p.numbering
+    reactions = np.array([s.support_forces for s in recorder.snapshots])
+    u = recorder.of("u")
+    for code, (name, dual) in enumerate(zip(numbering.unknowns, numbering.duals, strict=True)):
+        mine = np.flatnonzero(numbering.codes == code)
+        for kind, label, values in (("DEPL", name, u), ("REACTIONS", dual, reactions)):
+            peak = found[kind, label]
+            top = np.abs(values[:, mine]).max()
+            scale = np.abs(values).max()
+            assert abs(abs(peak.value) - top) <= 1e-9 * scale
+            if top > 1e-6 * scale:
+                assert abs(values[peak.step, peak.place] - peak.value) <= 1e-9 * scale
+                assert numbering.codes[peak.place] == code
+    if not len(recorder.of("w")[0]):
+        return
+    w, t = recorder.of("w"), recorder.of("t")
+    shear = np.linalg.norm(t[..., :-1], axis=-1)
+    for kind, values in (
+        ("OUVERTURE", np.maximum(w[..., -1], 0.0)),
+        ("COMPRESSION", np.minimum(t[..., -1], 0.0)),
+        ("CISAILLEMENT", shear),
+    ):
+        peak, top = found[kind, ""], np.abs(values).max()
+        assert abs(peak.value) == pytest.approx(top, rel=1e-12)
+        assert values[peak.step, peak.place] == pytest.approx(peak.value, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_extremes_are_the_maximum_over_all_steps(name, monkeypatch):
+    rule, n = name.split(",")[0], STEPS + 1
+    monkeypatch.setattr(choose, "RULES", only(rule))
+    problem = CASES[name]()
+    recorder, extremes = Recorder(n), Extremes(problem=problem)
+    integrate(problem, [recorder, extremes], full_newton=rule == "full Newton")
+    assert_largest(extremes, recorder)
+    unasked = Extremes(problem=problem, asked=False)
+    integrate(problem, [unasked], full_newton=rule == "full Newton")
+    assert unasked.known is only(rule)[0].inside
+    if unasked.known:
+        assert_largest(unasked, recorder)
+
+
+def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
+    whole = large()
+    times = np.concatenate([whole.times[:91], whole.times[90] + 0.6 * whole.times[1:60]])
+    problem = replace(whole, times=times)
+    monkeypatch.setattr(run, "CHUNK_VALUES", 30_000)
+    recorder, extremes = Recorder(len(times)), Extremes(problem=problem, asked=False)
+    integrate(problem, [recorder, extremes])
+    assert extremes.known
+    assert_largest(extremes, recorder)
+
+
+def test_extremes_side_by_side_and_of_reduced_models():
+    whole = large()
+    n = len(whole.times)
+    problems = [scaled(whole, f) for f in (0.5, 1.2)]
+    observers = [[Recorder(n), Extremes(problem=p)] for p in problems]
+    together.integrate_together(problems, observers)
+    for recorder, extremes in observers:
+        assert_largest(extremes, recorder)
+    problem = soil_block(steps=STEPS, joint=FRICTION)
+    recorder, extremes = Recorder(n), Extremes(problem=problem)
+    assert integrate_reduced(problem, 1e-3, [recorder, extremes]).loop == "reduced"
+    assert_largest(extremes, recorder)

@@ -16,7 +16,7 @@ import numba
 
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.cache import folder_of
-from ssilang.kernel.base.compiled.kept import KeptCode
+from ssilang.kernel.base.compiled.kept import keep
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -58,7 +58,7 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     options |= {"fastmath": freedom, "forceinline": inline, "cache": PLAIN and kept is not None}
     made = numba.njit(**options)(function)
     if kept is not None and not PLAIN and made is not function:  # it is where nothing is compiled
-        made._cache = KeptCode(function)  # type: ignore[no-untyped-call]
+        keep(made)
     return cast(Function, made)
 
 

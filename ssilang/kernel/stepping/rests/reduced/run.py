@@ -144,6 +144,7 @@ class ReducedIntegration:
         started = time.perf_counter()
         p = self.problem
         given = Integration(p, self.observers)
+        given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
         pair = _pair_of(p, self.tolerance)
         while True:

@@ -31,7 +31,16 @@ from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Sparse,
     run_interleaved,
 )
-from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of, rows_of, tap_of
+from ssilang.kernel.stepping.state import (
+    Motion,
+    Outcome,
+    Peaks,
+    Recorder,
+    peaks_of,
+    recorder_of,
+    rows_of,
+    tap_of,
+)
 from ssilang.kernel.stepping.track import View, whole_view
 
 KEPT = ("u", "v", "a", "f", "w", "t", "state")
@@ -106,17 +115,21 @@ class InterleavedLoop:
         """Steps on the whole problem's arrays, some at a time."""
         worst, r, steps = 0, recorder, len(recorder.row)
         seen = self.seen(r.tap.at)
+        peaks = peaks_of(self.T.shape[1] if len(r.peaks.u) else 0, r.peaks.joints.shape[1])
         for first in range(0, steps, BLOCK):
             part = slice(first, min(first + BLOCK, steps))
             given = np.ascontiguousarray(factors[first : part.stop + 1])
             block = self.block(given)
-            kept = self.room(block, r, part, seen)
+            kept = self.room(block, r, part, seen)._replace(peaks=peaks)
+            peaks.first[0] = r.peaks.first[0] + first
             done, turns, residual = run_interleaved(
                 block.plan, self.joints, block.motion, block.products, self.newton, block.factors,
                 kept,
             )  # fmt: skip
             self.finish(block, given, kept, done)
             self.put(block, given, kept, r, first, done, seen)
+            if first + done == steps or turns <= 0:
+                self._compare(peaks, r.peaks)
             if turns <= 0:
                 return first + done, turns, residual
             worst = max(worst, turns)
@@ -131,6 +144,19 @@ class InterleavedLoop:
         rows = self.T[unknowns]
         at = np.unique(rows.indices).astype(np.int64)
         return Seen(unknowns, at, sp.csr_array(rows[:, at]))
+
+    def _compare(self, own: Peaks, to: Peaks) -> None:
+        """The largest values of some steps with those before, at unknowns that no support holds."""
+        if not len(to.u):
+            return
+        free = np.flatnonzero(np.diff(self.T.indptr) == 1)
+        at = self.T.indices[self.T.indptr[free]]
+        factor = self.T.data[self.T.indptr[free]]
+        values = factor * own.u[at]
+        larger = np.abs(values) > np.abs(to.u[free])
+        to.u[free[larger]], to.when[free[larger]] = values[larger], own.when[at][larger]
+        larger = own.joints > to.joints
+        to.joints[larger], to.joints_when[larger] = own.joints[larger], own.joints_when[larger]
 
     def block(self, factors: FloatArray) -> PreparedBlock:
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
@@ -232,13 +258,14 @@ class InterleavedLoop:
         steps = np.flatnonzero(kept.tap.row[:done] >= 0)
         if not len(steps):
             return
-        own, rows, tap = kept.tap, to.tap.row[first + steps], to.tap
-        count, c = len(steps), block.course
+        own, tap, count, c = kept.tap, to.tap, len(steps), block.course
+        start = int(tap.row[first + steps[0]])
+        rows = slice(start, start + count)
         for name, course in (("u", c.c), ("v", c.v), ("a", c.a)):
-            found = seen.matrix @ getattr(own, name)[:count].T
+            found = seen.of(getattr(own, name)[:count])
             if block.columns.X.shape[1]:
-                found = found + self._columns(block)[seen.unknowns] @ course[steps + 1].T
-            getattr(tap, name)[rows] = found.T
+                found += (self._columns(block)[seen.unknowns] @ course[steps + 1].T).T
+            getattr(tap, name)[rows] = found
         tap.w[rows], tap.t[rows], tap.state[rows] = own.w[:count], own.t[:count], own.state[:count]
 
 
@@ -249,6 +276,15 @@ class Seen:
     unknowns: IntArray
     at: IntArray
     matrix: sp.csr_array
+
+    def of(self, z: FloatArray) -> FloatArray:
+        """Unknowns (k, p) of entries (k, c)."""
+        entries = np.diff(self.matrix.indptr)
+        if entries.max(initial=0) > 1:
+            return np.asarray((self.matrix @ z.T).T)
+        found = np.zeros((len(z), len(entries)))
+        found[:, entries == 1] = z[:, self.matrix.indices] * self.matrix.data
+        return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ from ssilang.kernel.stepping.state import (
     WHOLE,
     Motion,
     Outcome,
+    Peaks,
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
@@ -236,6 +237,20 @@ def keep_whole(m: Motion, to: Recorder, k: int) -> None:
             getattr(to.tap, name)[tapped] = getattr(m, name)[to.tap.at]
         for name in ("w", "t", "state", "contact"):
             getattr(to.tap, name)[tapped] = getattr(m, name)
+    if len(to.peaks.u):
+        watch_whole(m, to.peaks, k)
+
+
+def watch_whole(m: Motion, to: Peaks, k: int) -> None:
+    """As the verb `watch`, of arrays at once."""
+    step = to.first[0] + k + 1.0
+    larger = np.abs(m.u) > np.abs(to.u)
+    to.u[larger], to.when[larger] = m.u[larger], step
+    if to.joints.shape[1]:
+        shear = np.linalg.norm(m.t[:, :-1], axis=1)
+        found = np.stack([m.w[:, -1], -m.t[:, -1], shear])
+        larger = found > to.joints
+        to.joints[larger], to.joints_when[larger] = found[larger], step
 
 
 @dataclass(eq=False)

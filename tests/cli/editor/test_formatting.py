@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.cli.formatting import formatted
+from ssilang.cli.editor.formatting import formatted
 from ssilang.language.text.printer import same_tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
