@@ -5,8 +5,8 @@ from ssilang.messages.message import Message
 MESSAGES: dict[str, Message] = {
     # ---- files and limits
     "missing-file": Message(
-        "the file {path} cannot be read: {reason}",
-        "le fichier {path} ne peut pas être lu : {reason}",
+        "the file {path} cannot be read: {reason:?{reason}|no such file}",
+        "le fichier {path} ne peut pas être lu : {reason:?{reason}|il n'existe pas}",
     ),
     "other-case": Message(
         "{path} is read: an earlier case left it in its own output folder",
@@ -626,8 +626,8 @@ MESSAGES: dict[str, Message] = {
         "un point dans une phrase s'écrit entre parenthèses : (0. 1.)\n",
     ),
     "any-object": Message("an object", "un objet"),
-    "a-object-of-type": Message("a {kind}", "un {kind}"),
-    "an-object-of-type": Message("an {kind}", "un {kind}"),
+    "a-object-of-type": Message("a {kind}", "{feminine:?une|un} {kind}"),
+    "an-object-of-type": Message("an {kind}", "{feminine:?une|un} {kind}"),
     "one-of-types": Message("one of {types:or}", "l'un des types {types:or}"),
     "no-keyword": Message(
         "'{word}' is no keyword of {operator}: did you mean '{near}'?\n",

@@ -37,7 +37,7 @@ _BETWEEN = {
     ";": {"en": "; ", "fr": " ; "},
 }
 _LONGEST = 40  # letters of a value that has not the form it should be shown in
-_COLON = {"en": ": ", "fr": " : "}
+COLON = {"en": ": ", "fr": " : "}
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +151,7 @@ def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
     message = find(code)
     text = filled(spoken(message.en, message.fr, language), data, language)
-    return f"{data['speaker']}{_COLON[language]}{text}" if "speaker" in data else text
+    return f"{data['speaker']}{COLON[language]}{text}" if "speaker" in data else text
 
 
 def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:

@@ -1,10 +1,10 @@
 """Whole messages of broken scripts, as their reader sees them.
 
-Each script of `scripts/` has its message beside it, in English (`.en.txt`), some in French
+Each script of `scripts/` has its message beside it, in English (`.en.txt`) and in French
 (`.fr.txt`): its error, or the warnings of a script that runs to its end. `accepted/` has, under
 the same name, the script as it should be: it runs without a word. After a deliberate change of
 wording, write the messages anew with `SSILANG_UPDATE=1 python -m pytest tests/diagnostics` and
-read every line of the difference; a new message in French begins as an empty `.fr.txt`.
+read every line of the difference.
 """
 
 from __future__ import annotations
@@ -21,9 +21,7 @@ from ssilang.language.text.source import Source
 _SCRIPTS = Path(__file__).with_name("scripts")
 _ACCEPTED = Path(__file__).with_name("accepted")
 _UPDATE = bool(os.environ.get("SSILANG_UPDATE"))
-_CASES = [(p.stem, "en") for p in sorted(_SCRIPTS.glob("*.ssi"))] + [
-    (p.name.removesuffix(".fr.txt"), "fr") for p in sorted(_SCRIPTS.glob("*.fr.txt"))
-]
+_CASES = [(p.stem, language) for language in ("en", "fr") for p in sorted(_SCRIPTS.glob("*.ssi"))]
 
 
 def run(script: Path, language: str, folder: Path) -> tuple[RunResult, str]:

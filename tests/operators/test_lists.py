@@ -282,3 +282,11 @@ def test_type_of_the_objects_of_a_list(found):
         "B = EXTR 'TYPE' (ENUM (DROI 1 (0. 0.) (1. 0.))) ;", "A", "B",
     )  # fmt: skip
     assert (str(numbers), str(meshes)) == ("ENTIER  ", "MAILLAGE")
+
+
+@pytest.mark.parametrize(("count", "reals", "integers"), [(0, [2.0], [3]), (1, [2.0, 2.5], [3, 5])])
+def test_no_steps_leave_the_first_value(count, reals, integers):
+    result = run_text(f"A = PROG 2. 'PAS' 0.5 'NPAS' {count} ; B = LECT 3 'PAS' 2 'NPAS' {count} ;")
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("A").values.tolist() == reals
+    assert result.session.root.find("B").values.tolist() == integers

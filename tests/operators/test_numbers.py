@@ -257,3 +257,43 @@ def test_what_a_list_of_integers_cannot_hold_is_refused(phrase, says):
     result = run_text(f"X = {phrase} ;")
     assert result.exit_code == 1
     assert says in result.message
+
+
+_POINT = "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; C = MANU 'CHPO' P {} ; "
+
+
+@pytest.mark.parametrize(
+    ("field", "phrase", "kept"),
+    [
+        ("1 'UX' 5.", "BORN C 'MAXI' 2.", {"UX": 2.0}),
+        ("1 'UX' 5.", "BORN C 'MINI' 2.", {"UX": 5.0}),
+        ("2 'UX' 5. 'UY' 7.", "BORN C 'UY' 'MAXI' 2.", {"UY": 2.0}),
+        ("2 'UX' 5. 'UY' 7.", "BORN C 'MAXI' 2.", None),
+    ],
+)
+def test_bounds_of_a_field_name_the_component_where_there_are_several(field, phrase, kept):
+    names = "UY" if kept is None else " ".join(kept)
+    text = _POINT.format(field) + f"D = {phrase} ; "
+    text += "".join(f"D{n} = EXTR D '{n}' P ; " for n in names.split())
+    result = run_text(text)
+    if kept is None:
+        assert [e.code for e in result.errors] == ["operators.numbers.which-component"]
+        return
+    assert result.exit_code == 0, result.message
+    assert {n: result.session.root.find(f"D{n}") for n in kept} == kept
+
+
+@pytest.mark.parametrize(("mean", "count"), [(7, 400), (0, 3), (3, 0)])
+def test_noise_of_poisson_has_its_mean(mean, count):
+    result = run_text(f"L = BRUI 'BLAN' 'POIS' {mean} {count} ;")
+    assert result.exit_code == 0, result.message
+    values = result.session.root.find("L").values
+    assert len(values) == count
+    # six deviations of the mean of so many values, whose variance is the mean
+    assert abs(values.sum() - mean * count) <= 6.0 * math.sqrt(mean * count)
+
+
+@pytest.mark.parametrize("words", ["-1 3", "1 -3"])
+def test_noise_of_poisson_refuses_negative_counts(words):
+    (error,) = run_text(f"L = BRUI 'BLAN' 'POIS' {words} ;").errors
+    assert error.code == "operators.numbers.negative-mean-or-count"

@@ -229,9 +229,13 @@ def _types_text(types: list[str], language: str) -> str:
     return message.sentence("one-of-types", {"types": types}, language)
 
 
+# words of types that are feminine in French
+_FEMININE = frozenset({"RIGIDITE", "TABLE", "EVOLUTIO", "PROCEDUR", "DEFORME", "ANNOTATI"})
+
+
 def _article(kind: str, language: str) -> str:
     code = "an-object-of-type" if kind[0] in "AEIO" else "a-object-of-type"
-    return message.sentence(code, {"kind": kind}, language)
+    return message.sentence(code, {"kind": kind, "feminine": kind in _FEMININE}, language)
 
 
 def _or(language: str) -> str:

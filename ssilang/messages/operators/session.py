@@ -91,7 +91,7 @@ MESSAGES: dict[str, Message] = {
     ),
     "no-value-of-option": Message(
         "'{said}' is no value of {option}",
-        "'{said}' n'est pas une valeur de {option}",
+        "'{said}' n'est pas une valeur pour {option}",
         "{near:?did you mean {near}? }it takes {values:words}{told}",
         "{near:?vouliez-vous dire {near} ? }valeurs possibles : {values:words}{told}",
     ),

@@ -48,7 +48,7 @@ def input_path(call: Call, name: str) -> Path:
     if path is None:
         raise forbidden_path(call, name)
     if not path.is_file():
-        raise call.error("missing-file", name, path=str(path), reason="no such file")
+        raise call.error("missing-file", name, path=str(path), reason="")
     if run_output(call.session).is_foreign(path):
         call.session.warn("other-case", call.span, path=str(path))
     return path

@@ -37,6 +37,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
+from ssilang.messages.message import COLON
 
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
@@ -303,17 +304,18 @@ def told_parameters(zone: Zone, names: Iterable[str], language: str) -> list[str
     chosen = set(names)
     rows = [r for r in parameter_rows(zone, section=True) if r.word.name in chosen]
     rows = [r for r in rows if not r.word.kind]
-    return [f"{r.word.name}: {described(r.word, language)}" for r in rows[:_LINES]]
+    return [f"{r.word.name}{COLON[language]}{described(r.word, language)}" for r in rows[:_LINES]]
 
 
 def told_options(names: Iterable[str], language: str) -> list[str]:
     """Lines that say what some options of OPTI are."""
     found = [w for n in names if (w := vocabulary.find("option", n)) is not None]
-    return [f"{w.name}: {w.meaning(language)}" for w in found]
+    return [f"{w.name}{COLON[language]}{w.meaning(language)}" for w in found]
 
 
 def told_values(option: str, words: Iterable[str], language: str) -> list[str]:
     """Lines that say what the values of an option are, where the vocabulary says it."""
     found = vocabulary.find("option", option)
     values = {v.name: v for v in found.values} if isinstance(found, Option) else {}
-    return [f"{n}: {values[n].meaning(language)}" for n in words if n in values]
+    colon = COLON[language]
+    return [f"{n}{colon}{values[n].meaning(language)}" for n in words if n in values]

@@ -96,3 +96,24 @@ def test_other_cells_are_refused() -> None:
     ids = table.add(np.array([(0.0, 0), (1, 0)]))
     with pytest.raises(OutputError, match="SEG2"):
         stl_lines(Mesh.of(table, "SEG2", ids[None, :]))
+
+
+def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path: Path) -> None:
+    path = tmp_path / "m.unv"
+    text = UNV.replace("        13", "         7")  # a node of the label that the square has
+    path.write_text(text)
+    assert read_unv(path).groups["base side"] == ([("SEG2", 0)], [2])
+    path.write_text(text.replace("8         5", "8        99"))  # which is no cell
+    assert read_unv(path).groups["base side"] == ([], [2])
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_normals_of_triangles_have_length_one(size: float) -> None:
+    nodes = NodeTable()
+    corners = size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [2, 0, 0]])
+    ids = nodes.add(corners)
+    triangles = [[ids[0], ids[1], ids[2]], [ids[0], ids[3], ids[1]], [ids[0], ids[1], ids[4]]]
+    lines = stl_lines(Mesh.of(nodes, "TRI3", np.array(triangles)))
+    found = [[float(x) for x in li.split()[2:]] for li in lines if li.startswith("facet")]
+    # the last one is flat: it has none
+    np.testing.assert_allclose(found, [[0, 0, 1], [0, 1, 0], [0, 0, 0]], atol=1e-15)

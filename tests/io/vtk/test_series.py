@@ -109,3 +109,14 @@ def test_a_series_whose_files_are_gone_is_not_listed(tmp_path: Path) -> None:
         assert refused.value.code == "io.series-files-gone"
         assert refused.value.data["names"] == [gone]
         assert not (tmp_path / "bar.pvd").exists()
+
+
+def test_a_step_is_accepted_later_and_with_the_same_parts(tmp_path: Path) -> None:
+    mesh, field = bar()
+    with SeriesWriter(tmp_path / "two") as series:
+        assert series.accepts(-5.0, ("soil",))
+        series.write_parts(1.0, {"soil": Part(mesh, {"": field})})
+        assert series.accepts(1.5, ("soil",))
+        assert not series.accepts(1.0, ("soil",))
+        assert not series.accepts(1.5, ("wall",))
+        assert not series.accepts(1.5, ("soil", "wall"))

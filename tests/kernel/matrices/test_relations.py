@@ -200,3 +200,35 @@ def test_imposed_values_from_a_field_are_taken_by_name_and_node():
         FieldError, check=lambda e: e.code == "kernel.matrices.field-values-fits-conditions"
     ):
         imposed.imposed_from_field([slanted], values)
+
+
+@pytest.mark.parametrize("mirrored", [True, False])
+def test_a_line_of_symmetry_in_the_plane_may_slope(mirrored):
+    """Symmetry leaves motions along the line, antisymmetry those along its normal."""
+    table, ids = cloud(1, 2)
+    normal = np.array([0.6, 0.8, 0.0])
+    rows, numbering = rows_of(make.mirror_rows(table, ids, normal, PLANE, ("RZ",), mirrored))
+    free = free_space(rows.C)
+    order = [numbering.index_of(0, name) for name in PLANE]
+    along = np.array([-0.8, 0.6]) if mirrored else normal[:2]
+    moved = free[:, order]
+    np.testing.assert_allclose(moved, np.outer(moved @ along, along), atol=1e-12)
+    assert np.abs(moved).max() > 0.1
+    turn = numbering.index_of(0, "RZ")
+    assert (turn >= 0) == mirrored  # symmetry holds the rotation, antisymmetry says nothing of it
+    if mirrored:
+        np.testing.assert_allclose(free[:, turn], 0.0, atol=1e-12)
+
+
+def test_positions_count_along_their_own_axis_and_rotations_nowhere():
+    table = NodeTable()
+    ids = table.add(np.array([[3.0, 5.0], [7.0, 11.0]]))
+    nodes = ids[:1]
+    for names, gap in (
+        (("UX",), -3.0), (("UY",), -5.0), (("RZ",), 0.0), (("UX", "RZ"), -3.0),
+        (("UR",), -3.0), (("UR", "UZ"), -3.0 - 2.0 * 5.0), (("UX", "UY", "RZ"), -3.0 - 2.0 * 5.0),
+    ):  # fmt: skip
+        terms = [make.Term(1.0 + k, name, nodes) for k, name in enumerate(names)]
+        rows = make.relation_rows(table, terms)
+        found = imposed.geometric_gaps(Matrix(table, (), (rows,)))
+        assert found.values_at("FLX", rows.multipliers).tolist() == [gap], names

@@ -168,3 +168,17 @@ def test_step_too_long_is_refused(scheme):
     with pytest.raises(KernelError, match="too long"):
         run(ONE, 0 * ONE, 100.0 * ONE, 1.0, 0.0, 0.3, 10, scheme=scheme)
     assert run(ONE, 0 * ONE, ONE, 1.0, 0.0, 0.3, 10, scheme=scheme).times[-1] == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "limit"),
+    [("DE_VOGELAERE", 8**0.5), ("DIFFERENCES_CENTREES", 2.0), ("FOX_GOODWIN", 6**0.5)],
+)
+@pytest.mark.parametrize("w", [0.05, 1.0, 40.0])
+def test_the_longest_step_is_a_number_over_the_highest_frequency(scheme, limit, w):
+    """Slow modes take long steps; the limits of the schemes for undamped oscillators."""
+    stiffness = np.diag([w**2, 0.25 * w**2])
+    both = (np.eye(2), np.zeros((2, 2)), stiffness, [1.0, 1.0], [0.0, 0.0])
+    run(*both, 0.99 * limit / w, 5, scheme=scheme)
+    with pytest.raises(KernelError, match="too long"):
+        run(*both, 1.01 * limit / w, 5, scheme=scheme)

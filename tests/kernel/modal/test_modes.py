@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
@@ -244,3 +245,22 @@ def test_a_load_that_is_negative_throughout_is_no_mistaken_mass():
     pull = Matrix(table, (stiffness.scaled(-1.0).blocks[0],), (), "MASSE")
     (mode,) = modes_near(K, pull, [(0.1, 1)])
     assert eigenvalue(mode.frequency) == pytest.approx(-1.0)
+
+
+@pytest.mark.parametrize("points", [1, 2])
+def test_motions_without_stiffness_and_mass_do_not_hide_the_others(points):
+    """An idle rotation at each point: K - s M is singular whatever the shift."""
+    text = (
+        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
+        "K = (RIGI 'DEPL' 8. P1) ET (0. * (RIGI 'ROTA' 1. P1)) ;"
+        "M = MASS 'DEPL' 2. P1 ;"
+    )
+    if points == 2:
+        text += (
+            "K = K ET (RIGI 'DEPL' 32. P2) ET (0. * (RIGI 'ROTA' 1. P2)) ;"
+            "M = M ET (MASS 'DEPL' 2. P2) ;"
+        )
+    text += "V = VIBR 'PROCHE' (PROG 0.3) K M ; F = V . 'MODES' . 1 . 'FREQUENCE' ;"
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("F") == pytest.approx(2.0 / (2.0 * np.pi), rel=1e-12)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.envelope import energy_envelope, mean_shock
+from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
 
 T = np.arange(12.0) * 0.5
 
@@ -53,6 +53,29 @@ def test_an_envelope_has_the_energy_of_the_signal_on_each_interval():
     assert places[-1] == x[-1]
     line = np.interp(x, places, values)
     ends = np.searchsorted(x, places)
-    for begin, end in itertools.pairwise(ends):
+    for begin, end in pairwise(ends):
         part = slice(begin + 1, end + 1)
         assert np.sum(line[part] ** 2) == pytest.approx(np.sum(y[part] ** 2), rel=1e-9)
+
+
+@pytest.mark.parametrize(("times", "duration"), [(T, 0.0), (T, -1.0), (np.zeros(12), 1.0)])
+def test_a_recording_has_a_duration_and_a_step(times, duration):
+    with pytest.raises(FieldError) as refused:
+        mean_shock(times, np.ones(12), 50.0, duration, None)
+    assert refused.value.code == "kernel.records.recording-time-shock-must"
+
+
+@pytest.mark.parametrize("step", [0.01, 1.0, 100.0])
+def test_frequencies_of_a_laplace_transform_have_one_step(step):
+    """The step is the same within a ten thousandth of itself."""
+    omega = step * np.arange(8.0)
+    values = 1.0 / (0.5 * step + 1j * omega)
+    for share, sound in ((0.5e-4, True), (2e-4, False)):
+        bent = omega.copy()
+        bent[-1] += share * step
+        if sound:
+            inverse_laplace(bent, values, 0.5 * step, 2)
+            continue
+        with pytest.raises(FieldError) as refused:
+            inverse_laplace(bent, values, 0.5 * step, 2)
+        assert refused.value.code == "kernel.records.frequencies-begin-constant-step"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from scipy.integrate import cumulative_simpson
 
-from ssilang.kernel.records.artificial import Band, motion
+from ssilang.kernel.records.artificial import Band, motion, perturbed
 
 
 def test_velocity_and_displacement_are_the_integrals_of_the_acceleration():
@@ -28,3 +29,22 @@ def test_velocity_and_displacement_are_the_integrals_of_the_acceleration():
     np.testing.assert_allclose(found[0], exact, atol=1e-12)
     np.testing.assert_allclose(found[1], velocity, atol=1e-6)
     np.testing.assert_allclose(found[2], displacement, atol=1e-6)
+
+
+@pytest.mark.parametrize("count", [2, 3, 9])
+def test_squares_that_move_to_their_neighbours_keep_their_sum(count):
+    values = np.cos(np.arange(1.0, count + 1.0))
+    found = perturbed(values, np.random.default_rng(1), False, 60.0)
+    assert np.sum(found**2) == pytest.approx(np.sum(values**2), rel=1e-14)
+    assert np.array_equal(np.sign(found), np.sign(values))
+    assert not np.allclose(found, values)
+    # a quarter at least stays where it was
+    assert (found**2 >= 0.25 * values**2 * (1.0 - 1e-12)).all()
+
+
+def test_no_angle_moves_nothing_and_signs_change_no_size():
+    values = np.array([1.0, -2.0, 3.0, 0.5])
+    generator = np.random.default_rng(2)
+    np.testing.assert_allclose(perturbed(values, generator, False, 0.0), values)
+    assert np.array_equal(perturbed(values, generator, False, None), values)
+    assert np.array_equal(np.abs(perturbed(values, generator, True, None)), np.abs(values))

@@ -81,3 +81,15 @@ def test_a_printed_script_has_its_blocks_indented():
         "  Y = X ;\n"
         "FINP Y ;\n"
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        (" * 2 3 ;", " * 2 3 ;\n"),  # in the first column it would be a comment
+        ("REPE B1 2 ; * 2 3 ; FIN B1 ;", "REPE B1 2 ;\n  * 2 3 ;\nFIN B1 ;\n"),
+        (" - 2 3 ;", "- 2 3 ;\n"),
+    ],
+)
+def test_a_printed_star_begins_no_comment(text, printed):
+    assert print_script(parse(Source("x", text))) == printed
