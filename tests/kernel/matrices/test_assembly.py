@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
@@ -10,6 +11,7 @@ from ssilang.kernel.matrices.assembly import (
     constraint_matrix,
     field_to_vector,
     imposed_values,
+    may_be_positive,
     numbering_of,
     outside,
     vector_to_field,
@@ -104,3 +106,19 @@ def test_relations_become_rows_and_repeated_ones_count_once(table):
     assert D is C
     given = NodeField.of(table, np.array([5]), {"FLX": np.array([0.25])})
     np.testing.assert_allclose(imposed_values(given, multipliers), [0.0, 0.25])
+
+
+@pytest.mark.parametrize(
+    "own", [[[2.0, 1.0], [1.0, 3.0]], [[1.0, -1.0], [-1.0, 1.0]], [[4.0, 0.0], [0.0, 0.0]]]
+)
+def test_matrices_without_a_negative_direction_may_be_positive(own):
+    assert np.linalg.eigvalsh(own).min() > -1e-12
+    assert may_be_positive(sp.csr_array(np.array(own)))
+
+
+@pytest.mark.parametrize(
+    "own", [[[2.0, 3.0], [3.0, 2.0]], [[1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [1.0, 5.0]]]
+)
+def test_matrices_of_both_signs_are_seen_by_a_minor_or_the_diagonal(own):
+    assert np.linalg.eigvalsh(own).min() < -0.1
+    assert not may_be_positive(sp.csr_array(np.array(own)))
