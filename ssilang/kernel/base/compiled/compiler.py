@@ -54,8 +54,15 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     if kept is not None:
         numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
     options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
-    made = numba.njit(fastmath=freedom, cache=kept is not None, forceinline=inline, **options)
-    return cast(Function, made(function))
+    options |= {"fastmath": freedom, "forceinline": inline}
+    if PLAIN or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return cast(Function, numba.njit(cache=kept is not None, **options)(function))
+    from ssilang.kernel.base.compiled.linked import Linked
+
+    made = Linked(function, None, options | {"nopython": True, "boundscheck": None})
+    if kept is not None:
+        made.enable_caching()
+    return cast(Function, made)
 
 
 def counts(function: Callable[..., Any]) -> bool:
