@@ -4,49 +4,63 @@
     python benchmarks/fuzz_decks.py files [COUNT] [SEED]
 
 Decks are those of `cases/` (with fewer cells and steps), the scripts of `tests/diagnostics` and the
-script texts that stand in the tests; those that take longer than a bound are left out. Words are
-swapped, deleted, doubled; numbers become 0, -1, 1.E300, NaN and their like. Files are of every
-format that is read: what the interpreter writes, damaged, then read and used.
+script texts that stand in the tests; quick ones, and those whose mutants go on for long, are taken
+more often. Words are swapped, deleted, doubled; numbers become 0, -1, 1.E300, NaN and their like.
+Files are of every format that is read: what the interpreter writes, damaged, then read and used.
 
 A child process runs some hundred mutants, so that a crash of the interpreter itself is seen, named
-and does not end the campaign. Prints the outcomes and each defect once, with the mutant that shows
-it; exits 1 if there is any. A defect: something of Python that comes out, an internal error, more
-than 20 s of processor outside of the script's own loops.
+and does not end the campaign. Mutants of a deck share what stands before their first damage: the
+deck runs once, and where a mutant begins to differ a process is split off that goes on with it.
+Prints the outcomes and each defect once, with the mutant that shows it; exits 1 if there is any.
+A defect: something of Python that comes out, an internal error, more than 20 s of processor
+outside of the script's own loops, a figure that is not finite without a word.
 """
 
 from __future__ import annotations
 
 import ast
+import gc
 import io
 import json
+import math
 import os
 import random
 import re
 import resource
+import shutil
 import signal
 import sys
 import tempfile
-import time
 import traceback
 import zipfile
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import FrameType
 
-from ssilang.cli.run import RunOptions, run_source
+if __name__ == "__main__":  # threads do not follow into a child process
+    os.environ |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+
+import ssilang.cli.run as running
+from ssilang.cli.run import RunOptions, RunResult, run_source
 from ssilang.cli.signals import interrupt
-from ssilang.language.run.session import Limits
+from ssilang.language.run.session import Limits, Session
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text import tree
 from ssilang.language.text.source import Source
+from ssilang.language.text.structure import parse
 from ssilang.operators.loader import load_operators
 
 ROOT = Path(__file__).resolve().parents[1]
 SECONDS = 20  # of processor for a mutant
 _STATEMENTS = 2000
 _MEMORY = 3 * 2**30
-_A_CHILD = 400  # mutants
-_DECK_SECONDS = 0.3  # of processor for a deck that is as it was
-_DECKS = 250  # in a campaign
+_A_CHILD = 1600  # mutants
+_LOOP_SECONDS = 4  # of processor, after which a run that turns in a loop of its own is stopped
+_SUPPOSED_SECONDS = 0.05  # of processor for a mutant of a deck that was not drawn yet
+_SPLIT_SECONDS = 0.012  # a deck that takes less is run whole: splitting a process costs as much
+_OF_A_DECK = 16  # mutants of a deck that share their beginning
 
 # ---- decks ---------------------------------------------------------------------------------------
 
@@ -56,6 +70,8 @@ _WORD = re.compile(
 )
 _NUMBER = re.compile(r"[-+]?\.?\d")
 _NUMBERS = ("0", "-1", "1.E300", "XNAN", "0.", "1", "-1.E300", "2", "1.E-300", "XINF", "1000000000")
+_GIVEN = re.compile(r"XNAN|XINF|\bNAN\b|\bINF\b", re.IGNORECASE)
+_NOT_FINITE = re.compile(r"(?<![A-Za-z])(?:nan|-?inf(?:inity)?)(?![A-Za-z])", re.IGNORECASE)
 _PICTURE = re.compile(r"^[ \t]*(?:TRAC|DESS)\b[^;]*;", re.MULTILINE | re.IGNORECASE)
 
 
@@ -83,8 +99,6 @@ def _small(text: str) -> str:
 
 def mutated(text: str, rng: random.Random) -> str:
     """A text with one to three of its words swapped, deleted, doubled, or numbers replaced."""
-    if rng.random() < 0.9:
-        text = _PICTURE.sub("", text)
     for _ in range(rng.choice((1, 1, 1, 2, 3))):
         words = [m.span() for m in _WORD.finditer(_without_comments(text))]
         if len(words) < 2:
@@ -310,21 +324,60 @@ class Found:
             self.defects[defect] = mutant
 
 
+class _Clock:
+    """Ends a run that takes too long: its own loop soon, anything else at the limit."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        self.in_own_loop = False
+
+    def start(self) -> None:
+        """Begin to count the processor time of this process."""
+        self.in_own_loop = False
+        self.left = max(self.seconds - _LOOP_SECONDS, 0.0)
+        signal.signal(signal.SIGPROF, self._ring)
+        signal.setitimer(signal.ITIMER_PROF, min(self.seconds, _LOOP_SECONDS))
+
+    def _ring(self, number: int, frame: FrameType | None) -> None:
+        self.in_own_loop = _turns_of_script(frame) > 2
+        if self.left and not self.in_own_loop:
+            signal.setitimer(signal.ITIMER_PROF, self.left)
+            self.left = 0.0
+            return
+        interrupt(number, frame)
+
+
+def _turns_of_script(frame: FrameType | None) -> int:
+    """Turns that a REPE of the script itself, not of the library, has begun; 0 outside of one."""
+    while frame is not None:
+        if frame.f_code.co_name == "_turns":
+            node = frame.f_locals.get("node")
+            if isinstance(node, tree.Loop) and node.span.source.name == _NAME:
+                return int(frame.f_locals.get("turn", 0))
+        frame = frame.f_back
+    return 0
+
+
+_NAME = "mutant.ssi"
+_SILENT = "not finite, in silence"
+
+
 def outcome(text: str, folder: Path, seconds: float = SECONDS) -> tuple[str, str]:
     """Run a script in a folder: how it ended, and the defect that it shows or ''."""
+    return _ran(text, folder, _Clock(seconds), summary=True)
+
+
+def _ran(text: str, folder: Path, clock: _Clock, *, summary: bool) -> tuple[str, str]:
     options = RunOptions(
         folder / "out",
         limits=Limits(50, _STATEMENTS),
         given={"XNAN": float("nan"), "XINF": float("inf")},
-        summary=True,
+        summary=summary,
     )
-    err = io.StringIO()
-    signal.signal(signal.SIGPROF, interrupt)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+    out, err = io.StringIO(), io.StringIO()
+    clock.start()
     try:
-        result = run_source(
-            Source("mutant.ssi", text, folder / "mutant.ssi"), options, io.StringIO(), err
-        )
+        result = run_source(Source(_NAME, text, folder / _NAME), options, out, err)
     except KeyboardInterrupt:
         return "defect", "slow, outside of the run"
     except BaseException as problem:
@@ -332,14 +385,37 @@ def outcome(text: str, folder: Path, seconds: float = SECONDS) -> tuple[str, str
         return "defect", f"crash {name} at {_place(problem)}: {_plain(str(problem))}"
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
+    how, defect = _judged(result, err.getvalue(), clock)
+    given = _GIVEN.search(text)  # who gives NaN gets NaN
+    if how == "ran" and not given and (senseless := _senseless(result, out.getvalue())):
+        return "defect", f"{_SILENT}: {senseless}"
+    return how, defect
+
+
+def _senseless(result: RunResult, printed: str) -> str:
+    """A figure, or a line that the script prints, of a number that is none; '' after a warning."""
+    if result.session.warnings:
+        return ""
+    names = [c.name for c in result.session.checks if not math.isfinite(c.value)]
+    lines = [
+        line
+        for line in printed.splitlines()
+        if _NOT_FINITE.search(line) and not _GIVEN.search(line.partition(" FLOTTANT ")[0])
+    ]
+    return _plain((names + lines + [""])[0])
+
+
+def _judged(result: RunResult, messages: str, clock: _Clock) -> tuple[str, str]:
     for error in result.errors:
         if error.code == "interrupted":
+            if clock.in_own_loop:
+                return "stopped in its own loop", ""
             word = error.span.text[:60] if error.span else ""
             return "defect", f"slow: {word}"
         if error.code == "internal":
             kind, reason = error.data["kind"], _plain(str(error.data["reason"]))
             return "defect", f"internal {kind} at {_place(error)}: {reason}"
-    if "Traceback" in err.getvalue():
+    if "Traceback" in messages:
         return "defect", "traceback in the messages"
     return ("failed with a message" if result.errors else "ran"), ""
 
@@ -360,44 +436,59 @@ def _plain(text: str) -> str:
     return re.sub(r"[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", "#", text.split("\n")[0])[:100]
 
 
-Mutant = Callable[[random.Random, Path], str]
+Told = Callable[[object], None]
+Batch = Callable[[random.Random, Path, Told], None]
+Learn = Callable[[dict[str, float], int], None]
 
 
-def campaign(make: Mutant, count: int, seed: int) -> Found:
-    """Run so many mutants in child processes, each of its own seed."""
+def campaign(
+    batch: Batch, each: int, count: int, seed: int, learn: Learn = lambda told, ran: None
+) -> Found:
+    """Run `count` mutants in batches of `each`, in child processes, each batch of its own seed."""
     found = Found()
-    began = time.monotonic()
-    for start in range(0, count, _A_CHILD):
-        numbers = range(start, min(start + _A_CHILD, count))
-        at = numbers.start
-        while at < numbers.stop:  # a child that crashes is followed by one that goes on behind
-            at = _child(make, range(at, numbers.stop), seed, found)
-        if start % (10 * _A_CHILD) == 0:
-            done, spent = numbers.stop, time.monotonic() - began
-            print(f"{done} in {spent:.0f} s, {dict(found.outcomes)}", flush=True)
+    began = _processor()
+    batches = -(-count // each)
+    in_a_child = -(-_A_CHILD // each)
+    for start in range(0, batches, in_a_child):
+        at, stop = start, min(start + in_a_child, batches)
+        while at < stop:  # a child that crashes is followed by one that goes on behind
+            at = _child(batch, range(at, stop), seed, found, learn)
+        done, spent = found.outcomes.total(), _processor() - began
+        print(f"{done} in {spent:.0f} s of processor, {dict(found.outcomes)}", flush=True)
     return found
 
 
-def _child(make: Mutant, numbers: range, seed: int, found: Found) -> int:
-    """Run mutants in a child process; the number behind the last one that was run."""
+def _processor() -> float:
+    """Seconds of processor of this process and of those it has waited for."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
+
+
+def _child(batch: Batch, numbers: range, seed: int, found: Found, learn: Learn) -> int:
+    """Run batches in a child process; the number behind the last one that was run."""
     reads, writes = os.pipe()
     pid = os.fork()
     if pid == 0:
         os.close(reads)
         with os.fdopen(writes, "w", encoding="utf-8") as told:
-            _run_numbers(make, numbers, seed, told)
+            _run_numbers(batch, numbers, seed, told)
         os._exit(0)
     os.close(writes)
     at = numbers.start
-    text = ""
+    text, ran = "", 0
     with os.fdopen(reads, encoding="utf-8") as told:
         for line in told:
             message = json.loads(line)
-            if len(message) == 1:
-                text = message[0]
-            else:
-                found.add(*message, text)
-                at, text = at + 1, ""
+            match message:
+                case int():
+                    at, text, ran = message, "", 0
+                case str():
+                    text = message
+                case dict():
+                    learn(message, ran)
+                case _:
+                    found.add(*message, text)
+                    text, ran = "", ran + (message[0] == "ran")
     _, status = os.waitpid(pid, 0)
     if status or text:
         found.add("defect", f"the interpreter ended with status {status}", text)
@@ -405,32 +496,217 @@ def _child(make: Mutant, numbers: range, seed: int, found: Found) -> int:
     return numbers.stop
 
 
-def _run_numbers(make: Mutant, numbers: range, seed: int, told: io.TextIOBase) -> None:
+def _run_numbers(batch: Batch, numbers: range, seed: int, told: io.TextIOBase) -> None:
+    """Run batches, saying the number of each, each mutant and its outcome."""
+    gc.collect()
+    gc.freeze()
     resource.setrlimit(resource.RLIMIT_DATA, (_MEMORY, _MEMORY))
     os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+
+    def tell(message: object) -> None:
+        told.write(json.dumps(message) + "\n")
+        told.flush()
+
     for number in numbers:
+        tell(number)
         with tempfile.TemporaryDirectory(prefix="fuzz_decks_") as folder:
-            text = f"* mutant {number} of {seed}\n"
-            text += make(random.Random(f"{seed} {number}"), Path(folder))
-            told.write(json.dumps([text]) + "\n")
-            told.flush()
-            told.write(json.dumps(outcome(text, Path(folder))) + "\n")
+            batch(random.Random(f"{seed} {number}"), Path(folder), tell)
 
 
-def quick(texts: list[str], rng: random.Random) -> list[str]:
-    """Some of the decks, of those that take little time as they are."""
-    kept: list[str] = []
-    for text in rng.sample(texts, len(texts)):
-        with tempfile.TemporaryDirectory(prefix="fuzz_decks_") as folder:
-            spent = 10.0
-            for _ in range(2):  # the first time may compile
-                if spent > _DECK_SECONDS and len(kept) < _DECKS:
-                    began = time.process_time()
-                    outcome(_PICTURE.sub("", text), Path(folder), 5 * _DECK_SECONDS)
-                    spent = time.process_time() - began
-        if spent < _DECK_SECONDS:
-            kept.append(text)
-    return kept
+# ---- mutants that share their beginning ----------------------------------------------------------
+
+
+_OPENED, _READ = running.make_session, running.parse
+
+
+class _Split(tuple[tree.Node, ...]):
+    """Nodes of a deck that are run in order, other processes being split off on the way.
+
+    Attributes
+    ----------
+    mutants : dict of int to list of str
+        Texts of mutants by the number of the node that is the first to differ.
+    session : Session
+        Of the run.
+    tell : function
+        Is told of each mutant and its outcome.
+    child : bool
+        Whether this process runs a mutant by now, whose text is `text`.
+    """
+
+    mutants: dict[int, list[str]]
+    session: Session
+    folder: Path
+    clock: _Clock
+    tell: Told
+    text = ""
+    named = False
+    child = False
+
+    def __iter__(self) -> Iterator[tree.Node]:
+        if not self.named:  # the names that are assigned are gathered first
+            self.named = True
+            return super().__iter__()
+        return self._run()
+
+    def _run(self) -> Iterator[tree.Node]:
+        for at, node in enumerate(super().__iter__()):
+            for text in self.mutants.pop(at, ()):
+                if self._become(text):
+                    yield from self._others(text)[at:]
+                    return
+            if not self.mutants:
+                return
+            yield node
+
+    def _become(self, text: str) -> bool:
+        """Run a mutant from here in a process of its own; True in that process."""
+        out = self.folder / "out"
+        if out.exists():  # files that the beginning has written are those of one run
+            with tempfile.TemporaryDirectory(prefix="fuzz_decks_") as folder:
+                self.tell(text)
+                self.tell(_in_a_process(text, Path(folder), self.clock))
+            return False
+        self.tell(text)
+        pid = os.fork()
+        if pid == 0:
+            self.child, self.text = True, text
+            self.clock.start()
+            return True
+        _, status = os.waitpid(pid, 0)
+        if status:
+            self.tell(("defect", f"the interpreter ended with status {status}"))
+        shutil.rmtree(out, ignore_errors=True)
+        return False
+
+    def _others(self, text: str) -> tuple[tree.Node, ...]:
+        script = parse(Source(_NAME, text, self.folder / _NAME))
+        self.session.assignments = tree.first_assignments(script.body)
+        return script.body
+
+
+def _in_a_process(text: str, folder: Path, clock: _Clock) -> tuple[str, str]:
+    """Run a mutant whole in a process of its own."""
+    reads, writes = os.pipe()
+    pid = os.fork()
+    if pid == 0:
+        running.make_session, running.parse = _OPENED, _READ
+        os.write(writes, json.dumps(_ran(text, folder, clock, summary=True)).encode())
+        os._exit(0)
+    os.close(writes)
+    with os.fdopen(reads, "rb") as answer:
+        told = answer.read()
+    _, status = os.waitpid(pid, 0)
+    if status or not told:
+        return "defect", f"the interpreter ended with status {status}"
+    how, defect = json.loads(told)
+    return how, defect
+
+
+def run_each(mutants: Iterable[str], folder: Path, tell: Told) -> None:
+    """Run mutants whole, one after the other."""
+    for mutant in mutants:
+        tell(mutant)
+        tell(outcome(mutant, folder))
+        shutil.rmtree(folder / "out", ignore_errors=True)
+
+
+def run_together(text: str, mutants: list[str], folder: Path, tell: Told) -> list[str]:
+    """Run mutants of a deck, each from where it begins to differ.
+
+    Returns
+    -------
+    list of str
+        Those that differ only where the deck does not come.
+    """
+    source = Source(_NAME, text, folder / _NAME)
+    try:
+        whole = parse(source)
+    except (SsiError, SeveralErrors):
+        return mutants
+    ends = [source.code.find(";", node.span.end - 1) for node in whole.body]
+    nodes = _Split(whole.body)
+    nodes.mutants = {}
+    for mutant in mutants:
+        pairs = enumerate(zip(text, mutant, strict=False))
+        same = next((i for i, (old, new) in pairs if old != new), min(len(text), len(mutant)))
+        at = sum(0 <= end < same for end in ends)
+        nodes.mutants.setdefault(min(at, len(ends) - 1), []).append(mutant)
+    clock = _Clock(SECONDS)
+    nodes.folder, nodes.clock, nodes.tell = folder, clock, tell
+
+    def make_session(*given: object) -> Session:
+        nodes.session = _OPENED(*given)  # type: ignore[arg-type]
+        return nodes.session
+
+    running.make_session = make_session
+    running.parse = lambda source: tree.Script(nodes, whole.span)
+    try:
+        ended = _ran(text, folder, clock, summary=False)
+    finally:
+        running.make_session, running.parse = _OPENED, _READ
+    if nodes.child:
+        silent = ended[1].startswith(_SILENT) and _GIVEN.search(nodes.text)
+        tell(("ran", "") if silent else ended)
+        os._exit(0)
+    shutil.rmtree(folder / "out", ignore_errors=True)
+    return [mutant for left in nodes.mutants.values() for mutant in left]
+
+
+class Decks:
+    """Draws decks, the more often the quicker they are, and learns on the way how quick.
+
+    Attributes
+    ----------
+    texts : list of str
+    seconds : dict of int to float
+        Processor time of a mutant by the number of its deck, of those that were drawn.
+    ran : dict of int to float
+        The part of its mutants that ran to their end.
+    """
+
+    def __init__(self, texts: list[str]) -> None:
+        self.texts = texts
+        self.seconds: dict[int, float] = {}
+        self.ran: dict[int, float] = {}
+
+    def draw(self, rng: random.Random) -> int:
+        """The number of a deck."""
+        numbers = range(len(self.texts))
+        weights = [
+            (0.1 + self.ran.get(i, 0.2)) / (0.02 + self.seconds.get(i, _SUPPOSED_SECONDS))
+            for i in numbers
+        ]
+        return rng.choices(numbers, weights)[0]
+
+    def batch(self, rng: random.Random, folder: Path, tell: Told) -> None:
+        """Run mutants of one deck."""
+        number = self.draw(rng)
+        text = self.texts[number]
+        text = _PICTURE.sub("", text) if rng.random() < 0.9 else text
+        mutants = [mutated(text, rng) for _ in range(_OF_A_DECK)]
+        began = _processor()
+        left = mutants
+        if self.seconds.get(number, 1.0) > _SPLIT_SECONDS:
+            left = run_together(text, mutants, folder, tell)
+        run_each(left, folder, tell)
+        self.seconds[number] = (_processor() - began) / _OF_A_DECK
+        tell({number: self.seconds[number]})
+
+    def learn(self, told: dict[str, float], ran: int) -> None:
+        """Take over what a child process has learnt, and how many mutants of the batch ran."""
+        for number, spent in told.items():
+            self.seconds[int(number)] = spent
+            self.ran[int(number)] = ran / _OF_A_DECK
+
+
+def of_files(files: dict[str, bytes]) -> Batch:
+    """Batches of damaged files with scripts that read them."""
+
+    def batch(rng: random.Random, folder: Path, tell: Told) -> None:
+        run_each([damaged_input(files, rng, folder)], folder, tell)
+
+    return batch
 
 
 def main() -> int:
@@ -440,14 +716,13 @@ def main() -> int:
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else 1
     load_operators()
     if what == "decks":
-        all_texts = decks()
-        texts = quick(all_texts, random.Random(seed))
-        print(f"{len(texts)} decks of {len(all_texts)}", flush=True)
-        found = campaign(lambda rng, _: mutated(rng.choice(texts), rng), count, seed)
+        drawn = Decks(decks())
+        found = campaign(drawn.batch, _OF_A_DECK, count, seed, drawn.learn)
+        print(f"{len(drawn.seconds)} decks of {len(drawn.texts)}", flush=True)
     else:
         with tempfile.TemporaryDirectory() as folder:
             files = made_files(Path(folder))
-        found = campaign(lambda rng, base: damaged_input(files, rng, base), count, seed)
+        found = campaign(of_files(files), 1, count, seed)
     print(dict(found.outcomes))
     for name, text in sorted(found.defects.items()):
         print(f"DEFECT {name}\n{text}\n")

@@ -172,7 +172,7 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
 
     if options.max_memory is not None:
         limit_memory(options.max_memory)
-    return RunOptions(
+    made = RunOptions(
         output_directory=options.out,
         allowed=[p.resolve() for p in options.allow],
         language=options.lang,
@@ -182,10 +182,15 @@ def _run_options(options: argparse.Namespace) -> RunOptions:
         limits=Limits(options.max_recursion, options.max_statements),
         given=_given(getattr(options, "set", []), options.lang),
     )
+    if options.petsc is not None:
+        made.petsc = options.petsc
+    return made
 
 
 def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
+    if not settings:
+        return {}
     from ssilang.cli.sweeping.given import GivenError, parse_setting
     from ssilang.language.say.diagnostics import render
     from ssilang.language.say.errors import SsiError
@@ -237,7 +242,7 @@ def _check(options: argparse.Namespace) -> int:
     from ssilang.language.say.errors import SsiError
     from ssilang.language.text.source_files import read_source
 
-    code = OK
+    code, sources = OK, []
     for file in options.files:
         try:
             source = read_source(Path(file))
@@ -245,9 +250,51 @@ def _check(options: argparse.Namespace) -> int:
             sys.stderr.write(render(error, options.lang) + "\n")
             code = USAGE
             continue
-        failed = check_file(source, options.syntax_only, options.lang, sys.stdout)
+        sources.append(source)
+        if options.format == "text":
+            failed = check_file(source, options.syntax_only, options.lang, sys.stdout)
+            code = max(code, FAILED) if failed else code
+    if options.format != "text":
+        from ssilang.cli.checking.reports import report
+
+        failed = report(sources, options.format, options.syntax_only, options.lang, sys.stdout)
         code = max(code, FAILED) if failed else code
     return code
+
+
+def _format(options: argparse.Namespace) -> int:
+    from ssilang.cli.editor.formatting import format_files
+
+    return format_files(
+        options.files, options.check, options.diff, options.lang, sys.stdout, sys.stderr
+    )
+
+
+def _new(options: argparse.Namespace) -> int:
+    from ssilang.cli.starters import write_starter
+
+    return write_starter(options.name, options.file, options.lang, sys.stdout, sys.stderr)
+
+
+def _completion(options: argparse.Namespace) -> int:
+    from ssilang.cli.shells import write_completion
+
+    write_completion(options.shell, parser([]), sys.stdout)
+    return OK
+
+
+def _lsp(options: argparse.Namespace) -> int:
+    try:
+        from ssilang.cli.editor.server import start
+    except ModuleNotFoundError as missing:
+        if missing.name not in ("pygls", "lsprotocol"):
+            raise
+        from ssilang.language.say.errors import SsiError
+
+        _told(SsiError("cli.lsp-extra", None), options.lang)
+        return USAGE
+    start(options.lang)
+    return OK
 
 
 def _help(options: argparse.Namespace) -> int:
@@ -271,11 +318,15 @@ def _version(options: argparse.Namespace) -> int:
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
+    "new": _new,
     "check": _check,
+    "format": _format,
     "help": _help,
     "sweep": _sweep,
     "warm": _warm,
     "repl": _repl,
+    "lsp": _lsp,
+    "completion": _completion,
     "version": _version,
 }
 

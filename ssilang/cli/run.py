@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 import traceback
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,7 +68,10 @@ class RunOptions:
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
+    away: Callable[[], float] = lambda: 0.0  # seconds that the run left to others
     on_form: FormsRan | None = None  # collects the forms of operators that run
+    petsc: str = field(default_factory=lambda: os.environ.get("SSILANG_PETSC", ""))
+    """What starts PETSc, '' if there is none."""
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
@@ -77,7 +81,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
     folder = source.path.parent if source.path is not None else Path.cwd()
     case = source.path.stem if source.path is not None else "session"
     target = options.output_directory or Path("results") / case
-    return open_session(
+    session = open_session(
         Session(
             script_directory=folder,
             output_directory=target,
@@ -87,10 +91,17 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             limits=options.limits,
             given={k: _as_object(v) for k, v in options.given.items()},
             integrate=options.integrate,
+            away=options.away,
             was_interrupted=take,
             on_form=options.on_form,
         )
     )
+    if options.petsc:
+        from ssilang.kernel.solvers.petsc.client import PetscServer
+        from ssilang.operators.workspace import workspace
+
+        workspace(session).petsc = PetscServer(options.petsc)
+    return session
 
 
 def _as_object(value: Any) -> Any:
@@ -146,6 +157,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [interruption(stop, session.evaluator.current_span)]
     except ReaderLeft:
         errors = [SsiError("reader-left", session.evaluator.current_span)]
+    _end_petsc(session)
     _tell_refused_code(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
@@ -162,6 +174,18 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         _summarise(result, source, err, options.quiet)
     _release_folder(session)
     return result
+
+
+def _end_petsc(session: Session) -> None:
+    """End PETSc's processes, if the run started some; what they were goes to the summary."""
+    from ssilang.operators.workspace import workspace
+
+    server = workspace(session).petsc
+    if server is not None:
+        report = server.report()
+        server.close()
+        if report:
+            session.statistics["petsc"] = report
 
 
 def hold_folder(session: Session) -> None:

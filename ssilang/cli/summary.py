@@ -6,7 +6,8 @@ of {`code`, `line`, `text`}), `pictures` (paths of those among the files), `figu
 list of {`name`, `value`, `expected`, `tolerance`, `ok`}: what SORT 'BILA' reported, the last three
 null where nothing was expected), `units` (the system of OPTI 'UNIT' and its units of length, force,
 mass, time, stress and energy; null without that option), `statistics` (what procedures and solvers
-left in `session.statistics`).
+left in `session.statistics`; under `petsc`, if it solved, its `command`, versions, `ranks` and
+`hosts`, a list of {`host`, `ranks`, `peak_memory_mb`, `free_memory_mb`}).
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ def write_summary(
         "deck": str(source.path) if source.path is not None else source.name,
         "version": __version__,
         "exit_code": exit_code,
-        "seconds": round(time.perf_counter() - session.started, 3),
+        "seconds": round(time.perf_counter() - session.started - session.away(), 3),
         "statements": session.evaluator.statement_count,
         "peak_memory_mb": _peak_memory(),
         "files": files,

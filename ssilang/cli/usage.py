@@ -15,8 +15,13 @@ from typing import Any, NoReturn
 
 from ssilang.messages.message import Teller, teller
 
-COMMANDS = ("run", "check", "help", "sweep", "warm", "repl", "version")
+COMMANDS = (
+    "run", "new", "check", "format", "help", "sweep", "warm", "repl", "lsp", "completion",
+    "version",
+)  # fmt: skip
 LANGUAGES = ("en", "fr")
+SHELLS = ("bash", "zsh", "fish", "words")
+REPORTS = ("text", "json", "github")
 
 _HEADINGS = {
     "positional arguments": "cli.usage-positional",
@@ -102,16 +107,29 @@ def parser(words: Sequence[str]) -> Parser:
     commands = made.add_subparsers(dest="command", metavar=f"{{{','.join(COMMANDS)}}}")
     command = partial(commands.add_parser, told=told)
     _run(command("run", help="cli.usage-run"))
+    new = command("new", help="cli.usage-new")
+    new.add_argument("name", nargs="?", default="", help="cli.usage-new-name")
+    new.add_argument("file", nargs="?", type=Path, help="cli.usage-new-file")
+    _language_argument(new)
     check = command("check", help="cli.usage-check")
     check.add_argument("files", nargs="+", help="cli.usage-files")
     check.add_argument("--syntax-only", action="store_true", help="cli.usage-syntax-only")
+    check.add_argument("--format", choices=REPORTS, default="text", help="cli.usage-check-format")
     _language_argument(check)
+    layout = command("format", help="cli.usage-format")
+    layout.add_argument("files", nargs="+", help="cli.usage-format-files")
+    layout.add_argument("--check", action="store_true", help="cli.usage-format-check")
+    layout.add_argument("--diff", action="store_true", help="cli.usage-format-diff")
+    _language_argument(layout)
     helper = command("help", help="cli.usage-help-of")
     helper.add_argument("word", nargs="*", help="cli.usage-word")
     _language_argument(helper)
     _sweep(command("sweep", help="cli.usage-sweep"))
     _warm(command("warm", help="cli.usage-warm", epilog="cli.usage-warm-example"))
     _session_arguments(command("repl", help="cli.usage-repl"))
+    _language_argument(command("lsp", help="cli.usage-lsp"))
+    shell = command("completion", help="cli.usage-completion")
+    shell.add_argument("shell", choices=SHELLS, help="cli.usage-shell")
     command("version", help="cli.usage-version")
     return made
 
@@ -164,6 +182,7 @@ def _session_arguments(to: argparse.ArgumentParser) -> None:
     to.add_argument("--debug", action="store_true", help="cli.usage-debug")
     to.add_argument("--max-recursion", type=int, default=200, help="cli.usage-max-recursion")
     to.add_argument("--max-statements", type=int, help="cli.usage-max-statements")
+    to.add_argument("--petsc", metavar="COMMAND", help="cli.usage-petsc")
     to.add_argument("--max-memory", type=int, metavar="MB", help="cli.usage-max-memory")
 
 

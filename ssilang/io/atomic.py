@@ -28,15 +28,15 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
     except OSError as error:
-        raise _unwritable(path, error) from error
+        raise cannot_write(path, error) from error
     aside = Path(name)
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
-        os.chmod(aside, 0o666 & ~_umask())
+        os.chmod(aside, usual_rights())
         os.replace(aside, path)
     except OSError as error:
-        raise _unwritable(path, error) from error
+        raise cannot_write(path, error) from error
     finally:
         with suppress(OSError):
             aside.unlink()
@@ -48,11 +48,13 @@ def write_text(path: Path, text: str) -> None:
         stream.write(text.encode("utf-8"))
 
 
-def _umask() -> int:
+def usual_rights() -> int:
+    """Rights of a file that is made in the usual way."""
     mask = os.umask(0)
     os.umask(mask)
-    return mask
+    return 0o666 & ~mask
 
 
-def _unwritable(path: Path, error: OSError) -> OutputError:
+def cannot_write(path: Path, error: OSError) -> OutputError:
+    """The error of a place that cannot be written."""
     return OutputError("io.cannot-written", path=path, strerror=error.strerror or error)

@@ -8,13 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
-from ssilang.io.vtk.series import SeriesWriter, strip_extension
+
+if TYPE_CHECKING:
+    from ssilang.io.vtk.series import Series
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -39,7 +41,7 @@ class RunOutput:
         Files written so far, each once, in order.
     pictures : Pictures
         Numbers and writes DESS's and TRAC's pictures.
-    series : dict of Path to SeriesWriter
+    series : dict of Path to Series
         VTK series that the run has begun, by their path without extension.
     opened : dict of str to object
         What an option's file holds since OPTI named it ('SORT': lines, 'ACQU': values left);
@@ -52,7 +54,7 @@ class RunOutput:
     inputs: Path
     allowed: tuple[Path, ...] = ()
     files: list[Path] = field(default_factory=list)
-    series: dict[Path, SeriesWriter] = field(default_factory=dict)
+    series: dict[Path, Series] = field(default_factory=dict)
     opened: dict[str, Any] = field(default_factory=dict)
     lock: RunLock | None = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
@@ -137,10 +139,24 @@ class RunOutput:
             write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
         self._flushed_at = monotonic()
 
-    def begin_series(self, path: Path, constants: Mapping[str, float]) -> SeriesWriter:
-        """A new VTK series, finished and listed when the run ends."""
-        writer = self.series[strip_extension(path)] = SeriesWriter(path, constants=constants)
+    def begin_series(
+        self, path: Path, constants: Mapping[str, float], *, one_file: bool = False
+    ) -> Series:
+        """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
+        from ssilang.io.vtk.series import SeriesWriter
+        from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+
+        kind: type[Series] = VtkHdfWriter if one_file else SeriesWriter
+        writer = kind(path, constants=constants)
+        self.keep_series(writer)
         return writer
+
+    def keep_series(self, writer: Series) -> None:
+        """Let a series be finished when the run ends, in place of one of that name."""
+        before = self.series.get(writer.base)
+        if before is not None and before is not writer:
+            before.release()
+        self.series[writer.base] = writer
 
     def wrote(self, *paths: Path) -> None:
         """Add files to the list of those written (those that are never written drop out)."""

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from itertools import takewhile
 
 LIKE, VERY_LIKE = 0.7, 0.8
 """Part of the letters of two words that agree."""
 
 
+@lru_cache(maxsize=1 << 16)
 def slips(a: str, b: str) -> int:
     """Letters put in, left out, changed, or swapped with their neighbour, to make b of a.
 

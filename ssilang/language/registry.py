@@ -1,17 +1,21 @@
 """The operators known to the language: signatures and help as data, functions as plain Python.
 
 Operators register themselves with the decorator `operator`; everything that needs to know them
-(evaluator, help, REPL, checker, documentation) reads `OPERATORS`.
+(evaluator, help, REPL, checker, documentation) reads `OPERATORS`, which loads them when they are
+looked for.
 """
 
 from __future__ import annotations
 
-import inspect
 import sys
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from inspect import signature
+from types import FunctionType
 from typing import Any, Literal
 
+from ssilang.language.filled import Filled
 from ssilang.messages.message import spoken
 
 ANY = "*"
@@ -374,6 +378,7 @@ class Form:
     by_hand: str = ""
     when: When | None = None
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
+    module: str = ""  # that declares it
 
     said: Keyword | Select | None = field(init=False, repr=False, compare=False)
     """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
@@ -518,6 +523,7 @@ class Operator:
         by_hand: str = "",
         when: When | None = None,
         of: Sequence[str] = (),
+        ahead: bool = False,
     ) -> Callable[[Function], Function]:
         """Decorator that adds a form; forms are tried in order of declaration.
 
@@ -541,27 +547,46 @@ class Operator:
             Condition of the session; the form is passed over where it is not met.
         of : sequence of str
             The form is meant only where an operand of one of these types stands in the phrase.
+        ahead : bool
+            The form is tried before all that were declared so far.
         """
 
         def add(function: Function) -> Function:
             help = Help(en, fr, syntax, tuple(examples))
-            self._choices = None
-            self._meant.clear()
-            self.forms.append(
-                Form(
-                    tuple(entries) if entries or not by_hand else None,
-                    function,
-                    _injected(function),
-                    _gives(gives),
-                    help,
-                    by_hand,
-                    when,
-                    tuple(of),
-                )
+            made = Form(
+                tuple(entries) if entries or not by_hand else None,
+                function,
+                _injected(function),
+                _gives(gives),
+                help,
+                by_hand,
+                when,
+                tuple(of),
+                OPERATORS.note(self.name),
             )
+            self._add(made, ahead)
             return function
 
         return add
+
+    def extend_help(self, syntax: str, en: str, fr: str, examples: Sequence[str] = ()) -> None:
+        """Add a paragraph, syntax lines and examples to what is said of the operator as a whole."""
+        OPERATORS.note(self.name)
+        old = self.about
+        self.about = Help(
+            "\n".join(t for t in (old.en, en) if t),
+            "\n".join(t for t in (old.fr, fr) if t),
+            "\n".join(t for t in (old.syntax, syntax) if t),
+            (*old.examples, *examples),
+        )
+
+    def _add(self, made: Form, ahead: bool) -> None:
+        """Put a form in its place: where it stands when all operators are loaded at once."""
+        self._choices = None
+        self._meant.clear()
+        ranks = [OPERATORS.rank(self.name, form.module) for form in self.forms]
+        place = OPERATORS.rank(self.name, made.module)
+        self.forms.insert((bisect_left if ahead else bisect_right)(ranks, place), made)
 
 
 def _gives(given: str | Sequence[str] | Like | By | None) -> Gives:
@@ -572,9 +597,19 @@ def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:
     return (given,) if isinstance(given, str) else tuple(given)
 
 
-OPERATORS: dict[str, Operator] = {}
+class Operators(Filled[str, Operator]):
+    """Operators by their names: a module brings one, or forms of one that another brings."""
 
-SCALAR_RULES: dict[str, Callable[[Any, Any], Any]] = {}
+    def in_order(self, key: str) -> tuple[str, ...]:
+        """Modules that bring forms of an operator in their order, then those that bring others."""
+        found = self[key]
+        forms = (form.module for form in found.forms)
+        return tuple(dict.fromkeys((*forms, *self.fillers[key], *self.fillers[found.name])))
+
+
+OPERATORS = Operators("operators")
+
+SCALAR_RULES: Filled[str, Callable[[Any, Any], Any]] = Filled("rules of scalars")
 """What signs (and EGA, ET ...) do on two scalars; must raise TypeError for a LOGIQUE that does
 not fit. Registered by the operators that own the signs, used by the short way for scalars."""
 
@@ -639,7 +674,12 @@ def shared(
 
 
 def _injected(function: Function) -> tuple[str, ...]:
-    names = inspect.signature(function).parameters
+    """Those parameters of a function that the session or the call is handed for."""
+    if isinstance(function, FunctionType) and not hasattr(function, "__wrapped__"):
+        code = function.__code__  # looking at it takes a tenth of the time of a signature
+        names: Collection[str] = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    else:
+        names = signature(function).parameters
     return tuple(n for n in ("session", "call", "word") if n in names)
 
 

@@ -1,12 +1,12 @@
 """Objects of the language itself: words, texts, lists, tables, procedures; and the type words.
 
 ENTIER, FLOTTANT and LOGIQUE are Python's int, float and bool. Classes of the kernel become
-objects of the language by `register_type`.
+objects of the language by `name_types`, which needs their names alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -220,21 +220,37 @@ class LazyRows(Table):
     """TABLE whose entries 1, 2 ... are tables made of their rows when they are first asked for.
 
     `make` turns a row into its table; `rows` holds those that nobody asked for, by index.
-    `stand_ins` gives their times and what serves instead of an entry's value that is not made
-    yet, for readers that know it (empty: nothing does).
+    `stand_ins` gives what serves instead of the values at an index of entries none of which is
+    made yet, and their times, for readers that know it (None: nothing does). `source` holds rows
+    by their places from 0, that stand before all others; they are listed when someone asks for one.
     """
 
-    __slots__ = ("_make", "_words", "rows", "stand_ins")
+    __slots__ = ("_make", "_source", "_words", "rows", "stand_ins")
 
     def __init__(
         self,
         make: Callable[[Any], Table],
         words: dict[tuple[object, ...], tuple[object, object]],
-        stand_ins: Callable[[str], list[tuple[float, Any]]],
+        stand_ins: Callable[[str], tuple[Sequence[Any], Any] | None],
+        source: Sized = (),
     ) -> None:
         super().__init__()
         self._make, self._words, self.stand_ins = make, words, stand_ins
+        self._source: Sized | None = source
         self.rows: dict[int, Any] = {}
+
+    @property
+    def untouched(self) -> bool:
+        """Whether no entry was made or replaced yet, and nothing else was put in."""
+        waits = self._source is not None and len(self._source) > 0
+        return waits or 0 < len(self.rows) == len(self._items)
+
+    def _list(self) -> None:
+        """Rows of the source as entries."""
+        if self._source is not None and len(self._source):
+            source, self._source = self._source, None
+            for place in range(len(source)):
+                self.append(place)
 
     def append(self, row: Any) -> None:
         """One more entry."""
@@ -244,25 +260,40 @@ class LazyRows(Table):
 
     def promises(self, index: object) -> bool:
         """Whether there are entries not made yet, that will hold the index."""
-        return bool(self.rows) and key_of(index) in self._words
+        waits = self._source is not None and len(self._source) > 0
+        return (waits or bool(self.rows)) and key_of(index) in self._words
 
     def get(self, index: object, default: object = None) -> object:
         """Value at an index, `default` if there is none."""
+        if type(index) is int:
+            self._list()
         value = super().get(index, default)
         return self._made(index) if value is PENDING else value
 
+    def has(self, index: object) -> bool:
+        """Whether the index exists."""
+        self._list()
+        return super().has(index)
+
+    def __len__(self) -> int:
+        self._list()
+        return super().__len__()
+
     def set(self, index: object, value: object) -> None:
         """Create or replace a value."""
+        self._list()
         self._forget(index)
         super().set(index, value)
 
     def remove(self, index: object) -> None:
         """Forget an index; nothing happens if it does not exist."""
+        self._list()
         self._forget(index)
         super().remove(index)
 
     def items(self) -> list[tuple[object, object]]:
         """Pairs (index, value), in order of creation."""
+        self._list()
         for index in list(self.rows):
             self._made(index)
         return super().items()
@@ -323,9 +354,23 @@ _TYPE_WORDS: dict[type, str] = {
 }
 
 
-def register_type(cls: type, word: str) -> None:
-    """Make a class an object of the language: `word` is its type, 8 characters at most."""
-    _TYPE_WORDS[cls] = word
+_NAMED: dict[str, str] = {}
+"""Further classes by module and name, 'ssilang.kernel.mesh.mesh:Mesh', so that none is imported."""
+
+
+def name_types(words: Mapping[str, str]) -> None:
+    """Make classes objects of the language: by 'module:Class' their type, 8 characters at most."""
+    _NAMED.update(words)
+
+
+def _word_of(cls: type) -> str | None:
+    """Type word of a class itself."""
+    word = _TYPE_WORDS.get(cls)
+    if word is None:
+        word = _NAMED.get(f"{cls.__module__}:{cls.__qualname__}")
+        if word is not None:
+            _TYPE_WORDS[cls] = word
+    return word
 
 
 def type_of(value: object) -> str:
@@ -334,19 +379,21 @@ def type_of(value: object) -> str:
     if word is not None:
         return word
     for cls in type(value).__mro__:
-        if cls in _TYPE_WORDS:
-            return _TYPE_WORDS[cls]
+        word = _word_of(cls)
+        if word is not None:
+            return word
     return type(value).__name__.upper()[:8]
 
 
 def known_types() -> frozenset[str]:
     """All type words."""
-    return frozenset(_TYPE_WORDS.values())
+    return frozenset({*_TYPE_WORDS.values(), *_NAMED.values()})
 
 
-def known_classes() -> dict[type, str]:
-    """Classes that are objects of the language, with their type words."""
-    return dict(_TYPE_WORDS)
+def words_of_classes() -> dict[str, str]:
+    """Type words by the name of a class."""
+    named = {name.partition(":")[2]: word for name, word in _NAMED.items()}
+    return {cls.__name__: word for cls, word in _TYPE_WORDS.items()} | named
 
 
 def normalised(value: object) -> object:

@@ -20,16 +20,14 @@ MESSAGES: dict[str, Message] = {
         "{folder} n'est pas un répertoire d'accélérogrammes",
     ),
     "no-file": Message(
-        "there is no file in {folder}",
-        "il n'y a pas de fichier dans {folder}",
+        "there is no ground motion in {folder}",
+        "il n'y a pas d'accélérogramme dans {folder}",
+        "a motion is a text with lines of numbers: .AT2, .csv ...",
+        "un accélérogramme est un texte avec des lignes de nombres : .AT2, .csv ...",
     ),
     "set-twice": Message(
         "{name} is set twice",
         "{name} est donné deux fois",
-    ),
-    "sweep-writes-parquet-pip": Message(
-        "a sweep writes Parquet: pip install 'ssilang[sweep]'",
-        "un balayage écrit du Parquet : pip install 'ssilang[sweep]'",
     ),
     "cluster-needs-dask-distributed": Message(
         "a cluster needs dask.distributed: pip install 'ssilang[cluster]'",
@@ -46,6 +44,10 @@ MESSAGES: dict[str, Message] = {
     "runs-done": Message(
         "{done} of {total} runs are done already",
         "{done} calculs sur {total} sont déjà faits",
+    ),
+    "files-no-motions": Message(
+        "left out, no {count:motion|motions}: {names}",
+        "{count:laissé de côté, pas un mouvement|laissés de côté, pas des mouvements} : {names}",
     ),
     "run-failed": Message(
         "run {number} failed: {error} (runs/{folder})",
@@ -241,6 +243,10 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "stop after so many statements", "s'arrête après ce nombre d'instructions"
     ),
     "usage-max-memory": Message("stop past so much memory", "s'arrête au-delà de cette mémoire"),
+    "usage-petsc": Message(
+        "what starts PETSc for OPTI 'SOLVEUR' 'PETSC': 'mpirun -n 4 /usr/bin/python3'",
+        "ce qui lance PETSc pour OPTI 'SOLVEUR' 'PETSC' : 'mpirun -n 4 /usr/bin/python3'",
+    ),
     "usage-error": Message("{program}: error: {problem}", "{program} : erreur : {problem}"),
     "usage-no-file": Message(
         "run needs a file, or - for standard input",
@@ -271,5 +277,70 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-ambiguous": Message(
         "ambiguous option: {name} could match {choices}",
         "option ambiguë : {name} peut être {choices}",
+    ),
+    "fix-quote": Message("close the quote", "fermer l'apostrophe"),
+    "fix-semicolon": Message("end the statement with ;", "terminer l'instruction par ;"),
+    "fix-parenthesis": Message("close the parenthesis", "fermer la parenthèse"),
+    "fix-remove": Message("take it out", "l'enlever"),
+    "fix-replace": Message("replace by {near}", "remplacer par {near}"),
+    "name-variable": Message("first given at line {line}", "donné d'abord à la ligne {line}"),
+    "name-parameter": Message("argument, line {line}", "argument, ligne {line}"),
+    "name-procedure": Message("procedure of line {line}", "procédure de la ligne {line}"),
+    "name-loop": Message("loop of line {line}", "boucle de la ligne {line}"),
+    "formatted": Message("{file}: laid out", "{file} : mis en forme"),
+    "would-format": Message("{file} would be laid out", "{file} serait mis en forme"),
+    "rename-taken": Message(
+        "{name} is no name, or names something else",
+        "{name} n'est pas un nom, ou désigne autre chose",
+    ),
+    "lsp-extra": Message(
+        "the language server needs pygls: pip install 'ssilang[editor]'",
+        "le serveur de langage demande pygls : pip install 'ssilang[editor]'",
+    ),
+    "usage-lsp": Message(
+        "language server for editors, over standard input and output",
+        "serveur de langage pour les éditeurs, par l'entrée et la sortie standard",
+    ),
+    "usage-format": Message("lay out scripts", "met des scripts en forme"),
+    "usage-format-files": Message(
+        "scripts; - reads standard input and prints", "scripts ; - lit l'entrée standard et affiche"
+    ),
+    "usage-format-check": Message(
+        "write nothing; exit code 1 if a script would change",
+        "n'écrit rien ; code de sortie 1 si un script changerait",
+    ),
+    "usage-format-diff": Message(
+        "print the changes instead of making them",
+        "affiche les changements au lieu de les faire",
+    ),
+    "usage-check-format": Message(
+        "how problems are printed: text, json, or github (notes beside the lines of a change)",
+        "forme des problèmes : text, json, ou github (notes à côté des lignes d'un changement)",
+    ),
+    "no-starter": Message(
+        "there is no starter '{word}'",
+        "il n'y a pas de modèle '{word}'",
+        "{near:?did you mean {near}?|there are {known:and}}",
+        "{near:?vouliez-vous dire {near} ?|il y a {known:and}}",
+    ),
+    "starter-there": Message(
+        "{path} is there already",
+        "{path} existe déjà",
+        "give another name: ssilang new NAME FILE",
+        "donnez un autre nom : ssilang new NOM FICHIER",
+    ),
+    "starter-written": Message(
+        "{path}: run it with   ssilang {path}", "{path} : à exécuter par   ssilang {path}"
+    ),
+    "usage-new": Message(
+        "write a commented deck to begin with", "écrit un jeu de données commenté pour commencer"
+    ),
+    "usage-new-name": Message("which one; none lists all", "lequel ; sans nom, la liste"),
+    "usage-new-file": Message("file to write (NAME.ssi here)", "fichier à écrire (NOM.ssi, ici)"),
+    "usage-completion": Message(
+        "print the completion of a shell", "affiche la complétion d'un interpréteur de commandes"
+    ),
+    "usage-shell": Message(
+        "bash, zsh, fish; words: what help knows", "bash, zsh, fish ; words : ce que l'aide connaît"
     ),
 }

@@ -91,6 +91,20 @@ MESSAGES: dict[str, Message] = {
         "the series has the parts ({old}), the step brings ({new})",
         "la série a les parties ({old}), le pas apporte ({new})",
     ),
+    "series-mesh-changed": Message(
+        "{path} has one mesh for all its steps, and this step's mesh{part} is another",
+        "{path} a un seul maillage pour tous ses pas, et le maillage de ce pas{part} en est un "
+        "autre",
+        "begin another file, or write .vtu files, whose meshes may differ from step to step: 'VTU'",
+        "commencez un autre fichier, ou écrivez des fichiers .vtu, dont les maillages peuvent "
+        "changer d'un pas à l'autre : 'VTU'",
+    ),
+    "series-array-changed": Message(
+        "in {path} {names} had another number of components in the steps before",
+        "dans {path}, {names} n'avait pas ce nombre de composantes aux pas précédents",
+        "give the field another name from here on, or write .vtu files: 'VTU'",
+        "donnez un autre nom au champ à partir d'ici, ou écrivez des fichiers .vtu : 'VTU'",
+    ),
     "cells-no-vtk-counterpart": Message(
         "cells {cell_type} have no VTK counterpart",
         "les éléments {cell_type} n'ont pas d'équivalent VTK",

@@ -196,8 +196,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "donnez la distance, ou une densité (DENS) dont le dixième est pris",
     ),
     "kernel.mesh.line-cells-not-follow": (
-        "join its parts with ET, and turn the reversed ones with INVE",
-        "réunissez ses parties par ET, et retournez par INVE celles qui sont inversées",
+        "{twice:?make both parts with the same point, or merge the nodes: ELIM GEO1 0.001|"
+        "join its parts with ET, and turn the reversed ones with INVE}",
+        "{twice:?faites les deux parties avec le même point, ou fusionnez les noeuds : ELIM GEO1 "
+        "0.001|réunissez ses parties par ET, et retournez par INVE celles qui sont inversées}",
     ),
     "kernel.mesh.cells-not-divided": (
         "{value:words} are: CHAN LINE makes cells linear",

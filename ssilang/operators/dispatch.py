@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
+from ssilang.language.filled import Filled
 from ssilang.language.registry import (
     ANY,
-    OPERATORS,
     Help,
     Operator,
     arg,
@@ -21,23 +21,11 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListMots, Mot, type_of
+from ssilang.language.values import ListMots, ListObje, Mot, type_of
 from ssilang.messages.message import Teller
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
-
-
-def extend_help(name: str, syntax: str, en: str, fr: str, examples: tuple[str, ...]) -> None:
-    """Add a paragraph, syntax lines and examples to an operator's help."""
-    made = OPERATORS[name]
-    old = made.about
-    made.about = Help(
-        "\n".join(t for t in (old.en, en) if t),
-        "\n".join(t for t in (old.fr, fr) if t),
-        "\n".join(t for t in (old.syntax, syntax) if t),
-        (*old.examples, *examples),
-    )
 
 
 def shared_operator(
@@ -48,9 +36,10 @@ def shared_operator(
     full_name: str = "",
     terminal: bool = False,
     examples: tuple[str, ...] = (),
+    syntax: str = "",
 ) -> Operator:
     """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
-    help = Help(en, fr, examples=examples)
+    help = Help(en, fr, syntax, examples)
     return shared(name, family, help, full_name=full_name, terminal=terminal)
 
 
@@ -163,9 +152,10 @@ DIME = shared_operator(
             "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\n"
             "LIST (DIME (CHAR 'MECA' F E)) ;"
         ),
+        "LIST (DIME (PROG 1. 2. 3.)) ;",
     ),
+    syntax="ENTI1 = DIME OBJ1 ;",
 )
-extend_help("DIME", "ENTI1 = DIME OBJ1 ;", "", "", ("LIST (DIME (PROG 1. 2. 3.)) ;",))
 ENLE = shared_operator(
     "ENLE",
     "objects",
@@ -464,7 +454,7 @@ INTE = shared_operator(
 )
 
 ListingEntry = Callable[[Any, bool, Teller], str]
-LISTINGS: dict[str, ListingEntry] = {}
+LISTINGS: Filled[str, ListingEntry] = Filled("listings")
 """LIST: type -> function (value, whether in brief, what makes texts of codes)."""
 
 
@@ -480,7 +470,7 @@ def listing(*types: str) -> Callable[[ListingEntry], ListingEntry]:
 
 
 UnionRule = Callable[[Any, Any], Any]
-UNIONS: dict[tuple[str, str], UnionRule] = {}
+UNIONS: Filled[tuple[str, str], UnionRule] = Filled("unions")
 """ET: (left type, right type) -> function."""
 
 
@@ -496,7 +486,7 @@ def union(*pairs: tuple[str, str]) -> Callable[[UnionRule], UnionRule]:
 
 
 WordedUnionRule = Callable[[Collection[str], Any, Any], Any]
-WORDED_UNIONS: dict[tuple[str, str], WordedUnionRule] = {}
+WORDED_UNIONS: Filled[tuple[str, str], WordedUnionRule] = Filled("unions with words")
 """ET for rules that heed the words 'TELQUEL' and 'NOER'."""
 
 
@@ -548,6 +538,8 @@ def _unite(call: Call) -> Any:
     left = call.read("*")
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
         return _unite_table(call, left.value)
+    if left is not None and not call.operands and isinstance(left.value, ListObje):
+        return _unite_all(call, left.value, list(left.value.values))
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator="ET")
@@ -555,13 +547,18 @@ def _unite(call: Call) -> Any:
         words.add(said)
     if "TELQ" in words and isinstance(left.value, str) and isinstance(right.value, str):
         return Mot(left.value + right.value)
+    if isinstance(left.value, bool) and isinstance(right.value, bool):
+        return all([left.value, right.value, *call.all("LOGIQUE")])
     return united(call, left.value, right.value, left.span.to(right.span), words)
 
 
 def _unite_table(call: Call, table: Any) -> Any:
-    values = [v for index, v in table.items() if type(index) is int]
+    return _unite_all(call, table, [v for index, v in table.items() if type(index) is int])
+
+
+def _unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
     if not values:
-        raise call.error("operators.tables.empty-table", table)
+        raise call.error("operators.tables.empty-table", holder)
     total = values[0]
     if len(values) == 1:
         return total
@@ -578,7 +575,7 @@ operator(
         en="words with their blanks, meshes in the order given",
         fr="mots avec leurs blancs, maillages dans l'ordre donné",
     ),
-    arg("first", en="object, or a table of objects", fr="objet, ou table d'objets"),
+    arg("first", en="object, or a table or list of them", fr="objet, table ou liste d'objets"),
     opt("second", en="object joined to it", fr="objet qui s'y joint"),
     flag("merged", "NOER", en="doubles are no error", fr="les doublons ne sont pas une erreur"),
     gives=ANY,
@@ -586,11 +583,13 @@ operator(
     help=Help(
         "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
         "Réunit deux objets : union de maillages, somme de rigidités, suite de listes, et logique.",
-        "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 ;",
+        "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 | LOBJ1 ; "
+        "LOG4 = ET LOG1 LOG2 LOG3 ... ;",
         (
             "l = (PROG 1. 2.) ET 3. ; LIST l ;",
             "SI (VRAI ET FAUX) ; ERRE 5 ; FINSI ;",
             "LIST (ET 'TELQUEL' 'a ' 'b') ;",
+            "LIST (ET (ENUM (PROG 1.) (PROG 2. 3.))) ; MESS (ET VRAI VRAI FAUX) ;",
         ),
     ),
     reads_itself="the types of its operands, words too, choose a rule, which may read more",

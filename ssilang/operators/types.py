@@ -1,23 +1,24 @@
-"""Type words of the kernel's classes."""
+"""Type words of the classes that scripts hold besides those of the language itself."""
 
 from __future__ import annotations
 
-from ssilang.kernel.curves.curve import Curve, Load
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.values import register_type
+from ssilang.language.values import name_types
 
-for _cls, _word in (
-    (Point, "POINT"),
-    (Mesh, "MAILLAGE"),
-    (NodeField, "CHPOINT"),
-    (CellField, "MCHAML"),
-    (Model, "MMODEL"),
-    (Matrix, "RIGIDITE"),
-    (Curve, "EVOLUTIO"),
-    (Load, "CHARGEME"),
-):
-    register_type(_cls, _word)
+name_types(
+    {
+        "ssilang.kernel.mesh.mesh:Point": "POINT",
+        "ssilang.kernel.mesh.mesh:Mesh": "MAILLAGE",
+        "ssilang.kernel.fields.node_field:NodeField": "CHPOINT",
+        "ssilang.kernel.fields.cell_field:CellField": "MCHAML",
+        "ssilang.kernel.materials.model:Model": "MMODEL",
+        "ssilang.kernel.matrices.matrix:Matrix": "RIGIDITE",
+        "ssilang.kernel.curves.curve:Curve": "EVOLUTIO",
+        "ssilang.kernel.curves.curve:Load": "CHARGEME",
+        "ssilang.kernel.curves.cloud:Cloud": "NUAGE",
+        "ssilang.kernel.matrices.superelement:SuperElement": "SUPERELE",
+        "ssilang.kernel.fields.deformed:Deformed": "DEFORME",
+        "ssilang.kernel.fields.deformed:Arrows": "VECTEUR",
+        "ssilang.io.plots.labels:Annotation": "ANNOTATI",
+        "ssilang.operators.session.configurations:Configuration": "CONFIGUR",
+    }
+)

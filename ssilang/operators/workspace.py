@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -11,8 +11,12 @@ from ssilang.io.run_output import RunOutput
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.solvers.factor import Solver
 from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.petsc.client import PetscServer
 
 
 @dataclass
@@ -40,6 +44,8 @@ class Workspace:
         Every other option of OPTI, as set, for VALE.
     output : RunOutput or None
         Files of the run; made when first asked for (`ssilang.operators.files.outputs.run_output`).
+    petsc : PetscServer or None
+        What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     """
 
     nodes: NodeTable = field(default_factory=NodeTable)
@@ -52,6 +58,7 @@ class Workspace:
     title: str = ""
     options: dict[str, Any] = field(default_factory=dict)
     output: RunOutput | None = None
+    petsc: PetscServer | None = None
 
     @property
     def units(self) -> UnitSystem | None:
@@ -74,6 +81,13 @@ def workspace(session: Session) -> Workspace:
     return cast(Workspace, session.workspace)
 
 
+def solver_of(session: Session) -> Solver:
+    """Which solver takes the systems of calculations, OPTI 'SOLVEUR'."""
+    ws = workspace(session)
+    said = ws.options.get("SOLV", "AUTO")
+    return Solver(None if said == "AUTO" else str(said), ws.petsc)
+
+
 def units_in_si(session: Session) -> dict[str, float]:
     """The units that OPTI 'UNIT' declares with their sizes, nothing without it."""
     units = workspace(session).units
@@ -81,12 +95,12 @@ def units_in_si(session: Session) -> dict[str, float]:
 
 
 def open_session(session: Session) -> Session:
-    """Give a session its evaluator and its workspace, and load all operators."""
+    """Give a session its evaluator, its workspace and its operators."""
     from ssilang.language.run.evaluator import Evaluator
-    from ssilang.operators.loader import load_operators
+    from ssilang.operators.loader import prepare_operators
     from ssilang.operators.tables.soundness import flaw_of
 
-    load_operators()
+    prepare_operators()
     Evaluator(session)
     made = Workspace()
     session.workspace = made

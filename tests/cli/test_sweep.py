@@ -1,5 +1,6 @@
 """Sweeps: values, all runs in one table, failures, resumption, motions, clusters."""
 
+import csv
 import io
 import os
 
@@ -8,7 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ssilang.cli.sweeping.given import GivenError, cases_of, parse_setting, parse_values
+from ssilang.cli.sweeping.given import (
+    GivenError,
+    cases_of,
+    folder_names,
+    parse_setting,
+    parse_values,
+)
 from ssilang.cli.sweeping.pool import run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.trunk import run_grown
@@ -130,6 +137,76 @@ def test_each_motion_is_a_run_that_may_read_its_file(tmp_path):
     assert "1 of 3 runs are done already" in said
     rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
     assert [(r["run"], r["peak"]) for r in rows] == [(1, 5.5), (2, 1.5), (3, 4.5)]
+
+
+def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
+    folder = tmp_path / "motions"
+    folder.mkdir()
+    (folder / "m1.AT2").write_text("PEER\nACCELERATION\nNPTS= 2, DT= 0.1 SEC\n  1.0E-3 -.2D0\n")
+    (folder / "m2.csv").write_text("time;value\n0.;1.\n")
+    (folder / "notes 1.md").write_text("# Records\nof 2024, 12 of them\n")
+    (folder / "map.png").write_bytes(b"\x89PNG\0\n1 2 3\n")
+    deck = tmp_path / "case.ssi"
+    deck.write_text("MOTION = 'none' ; AG = 1. ; T = TABL ; @VERIFIE T 'ag' AG 0. 10. ;")
+    options = SweepOptions(deck, ["AG=0.5,0.75"], folder, tmp_path / "out", jobs=1)
+    code, _, wrong = run(options)
+    assert code == 0
+    assert wrong == "left out, no motions: map.png, notes 1.md\n"
+    runs = sorted(p.name for p in (tmp_path / "out" / "runs").iterdir())
+    assert runs == ["AG=0.5_m1", "AG=0.5_m2", "AG=0.75_m1", "AG=0.75_m2"]
+    for name in ("m1.AT2", "m2.csv"):
+        (folder / name).unlink()
+    code, _, wrong = run(options)
+    assert code == 2
+    assert "no ground motion" in wrong
+
+
+def test_folders_say_what_runs_them_apart(tmp_path):
+    motions = tmp_path / "motions"
+    motions.mkdir()
+    for name in ("m.csv", "m.txt"):
+        (motions / name).write_text("0 1\n")
+    cases = cases_of(["B=VRAI", "A=1.5"], motions)
+    assert folder_names(cases) == ["A=1.5_B=VRAI_m.csv", "A=1.5_B=VRAI_m.txt"]
+    odd = folder_names(cases_of(["W=a/b,a-b," + "x" * 200], None))
+    assert odd[1] == "W=a-b"
+    assert odd[0].startswith("W=a-b_")
+    assert all("/" not in name and len(name) < 130 for name in odd)
+    assert len(set(odd)) == 3
+
+
+def test_another_script_makes_the_runs_of_a_folder_anew(deck, tmp_path):
+    options = SweepOptions(deck, ["AG=0.2"], out=tmp_path / "out", jobs=1)
+    run(options)
+    deck.write_text(DECK.replace("AG * AG * N", "AG"))
+    code, said, _ = run(options)
+    assert code == 0
+    assert "done already" not in said
+    assert pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()[0]["square"] == 0.2
+    deck.write_text("ERRE 'wrong' ;")  # a run that fails leaves no row of the one before
+    assert run(options)[0] == 1
+    deck.write_text(DECK)
+    assert "done already" not in run(options)[1]
+
+
+def test_the_table_is_a_csv_file_too(deck, tmp_path, monkeypatch):
+    out = tmp_path / "out"
+    run(SweepOptions(deck, ["AG=0.5,0.9", "N=1"], out=out, jobs=1))
+    with (out / "sweep.csv").open(newline="") as stream:
+        plain = list(csv.DictReader(stream, delimiter=";"))
+    rows = pq.read_table(out / "sweep.parquet").to_pylist()
+    assert [list(r) for r in plain] == [list(r) for r in rows]
+    for mine, theirs in zip(plain, rows, strict=True):
+        for name, value in theirs.items():
+            if isinstance(value, float):
+                assert float(mine[name]) == value
+            else:
+                assert mine[name] == ("" if value is None else str(value))
+    # without the library that writes Parquet, it is all there is
+    monkeypatch.setattr("ssilang.cli.sweeping.sweep.can_write", lambda: False)
+    _, said, _ = run(SweepOptions(deck, ["AG=0.5"], out=tmp_path / "plain", jobs=1))
+    assert "sweep.csv" in said
+    assert not (tmp_path / "plain" / "sweep.parquet").exists()
 
 
 def dies_once(task: Task) -> dict[str, object]:

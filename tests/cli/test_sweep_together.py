@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import time
 
 import pyarrow.parquet as pq
 import pytest
@@ -192,3 +193,36 @@ def test_together_1_runs_each_alone(deck, tmp_path):
     assert run(options)[0] == 0
     for row in pq.read_table(tmp_path / "o" / "sweep.parquet").to_pylist():
         assert together_of(row, tmp_path / "o" / "runs") == [1]
+
+
+def test_seconds_of_a_run_are_its_own(monkeypatch, tmp_path):
+    """By a clock that stands still unless a run works: its own work, and its share of the rest."""
+    now = [100.0]
+
+    def integrated(problems, observers, progress):
+        now[0] += 6.0
+        return [f"history of {p}" for p in problems]
+
+    def work(task):
+        began = now[0]
+        now[0] += 10.0 * task.number  # before it meets the others
+        history = task.meeting.integrate(task.number, [], None)
+        now[0] += task.number
+        return {"history": history, "seconds": now[0] - began - task.meeting.away()}
+
+    monkeypatch.setattr("ssilang.cli.sweeping.gathering.perf_counter", lambda: now[0])
+    monkeypatch.setattr("ssilang.kernel.stepping.run_many.integrate_together", integrated)
+    rows = run_together(tasks_of(tmp_path / "x.ssi", tmp_path, [{}, {}, {}]), work)
+    assert [r["history"] for r in rows] == ["history of 1", "history of 2", "history of 3"]
+    assert [r["seconds"] for r in rows] == [11.0 + 2.0, 22.0 + 2.0, 33.0 + 2.0]
+
+
+def test_seconds_of_runs_that_meet_add_up(deck, tmp_path):
+    """Rows and summaries leave out what a run waited for the others."""
+    began = time.perf_counter()
+    rows = run_together(tasks_of(deck, tmp_path, [{"AG": 0.1 * i} for i in range(1, 5)]))
+    lasted = time.perf_counter() - began
+    assert sum(r["seconds"] for r in rows) < 1.05 * lasted + 0.1
+    for row in rows:
+        summary = json.loads((tmp_path / row["folder"] / "summary.json").read_text())
+        assert summary["seconds"] == pytest.approx(row["seconds"], abs=0.25 * lasted)

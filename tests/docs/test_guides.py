@@ -28,5 +28,5 @@ def test_script_runs(script, tmp_path):
     result = run_text(script, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
     if "PAS_SAUVES_VTK" in script:
-        assert list(tmp_path.glob("*.pvd"))
+        assert [*tmp_path.glob("*.pvd"), *tmp_path.glob("*.vtkhdf")]
         assert list(tmp_path.glob("*.png"))

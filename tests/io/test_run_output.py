@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import shutil
@@ -205,3 +206,44 @@ def test_a_folder_that_takes_no_lock_is_used_without(output: RunOutput, tmp_path
     (tmp_path / "results").write_text("")  # a file where the folder should be
     output.hold()
     assert output.lock is None
+
+
+def test_files_below_the_run_s_folders_are_its_own(output: RunOutput, tmp_path: Path) -> None:
+    output = RunOutput(output.directory, output.inputs, (tmp_path / "allowed",))
+    for own in (output.directory, output.inputs, tmp_path / "allowed"):
+        assert not output.is_foreign(own / "sub" / "x.csv")
+    assert output.is_foreign(output.directory.parent / "before" / "x.csv")
+
+
+@pytest.mark.parametrize(("length", "shown"), [(59, 59), (60, 60), (61, 60)])
+def test_a_refused_name_is_shown_up_to_sixty_letters(
+    output: RunOutput, length: int, shown: int
+) -> None:
+    name = "a" * (length - 2) + "\0"  # which is shown as two letters
+    with pytest.raises(OutputError) as refused:
+        output.target(name)
+    plain = "a" * (length - 2) + "\\0"
+    assert refused.value.data["name"] == plain[:shown] + ("..." if shown < length else "")
+
+
+@pytest.mark.parametrize(("mask", "mode"), [(0o022, 0o644), (0o077, 0o600), (0o002, 0o664)])
+def test_files_have_the_rights_that_the_user_gives(output: RunOutput, mask: int, mode: int) -> None:
+    target = output.target("log.txt")
+    assert target is not None
+    before = os.umask(mask)
+    try:
+        output.add_lines("SORT", target, ["text"])
+        output.close()
+        assert os.umask(mask) == mask  # which is left as it was
+    finally:
+        os.umask(before)
+    assert target.stat().st_mode & 0o777 == mode
+
+
+def test_what_cannot_be_written_is_told_in_the_system_s_words(output: RunOutput) -> None:
+    target = output.target("log.txt")
+    assert target is not None
+    target.mkdir(parents=True)
+    with pytest.raises(OutputError) as refused:
+        output.add_lines("SORT", target, ["text"])
+    assert refused.value.data["strerror"] == os.strerror(errno.EISDIR)

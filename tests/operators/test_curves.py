@@ -270,3 +270,23 @@ def test_all_ordinates_of_a_curve_that_goes_back(found):
     for phrase in ("0.5 L M 'TOUS'", "'TOUS' L M 0.5"):
         made = found(f"L = PROG 0. 1. 0. ; M = PROG 2. 4. 8. ; X = IPOL {phrase} ;", "X")
         assert made.values.tolist() == [3.0, 6.0]
+
+
+@pytest.mark.parametrize(
+    ("names", "kept"),
+    [
+        (("F(T)", "G(T)"), ("F(T)", "G(T)")),
+        (("'TIME'", "'FORCE'"), ("TIME", "FORCE")),
+        (("TIME", ""), ("TIME", "")),
+        (("'F (T)'", "X"), ("F (T)", "X")),
+    ],
+)
+def test_one_name_stands_before_each_list(found, names, kept):
+    text = "E = EVOL 'MANU' {} (PROG 0. 1.) {} (PROG 2. 3.) ;"
+    part = found(text.format(*names), "E").parts[0]
+    assert (part.abscissa_name, part.ordinate_name) == kept
+
+
+@pytest.mark.parametrize("names", ["'TIME' 's'", "TIME s", "F (T)", "F(T) s", "'F'(T)"])
+def test_two_names_before_a_list_are_refused(refused, names):
+    assert "one name may stand" in refused(f"E = EVOL 'MANU' {names} (PROG 0. 1.) (PROG 2. 3.) ;")

@@ -135,6 +135,46 @@ def test_vtk_series_and_csv_file(tmp_path):
     assert set(table(result).get(1).get("DEPL").components) == {"UX", "UY"}
 
 
+@pytest.mark.parametrize(
+    ("every", "asked", "one_file"),
+    [(10, "", True), (11, "", False), (10, "VTU", False), (100, "VTKHDF", True)],
+)
+def test_more_than_50_instants_are_one_file_unless_said(every, asked, one_file, tmp_path):
+    text = HOPPER + f"T1 . 'PAS_SAUVES_VTK' = {every} ; T1 . 'MAILLAGE_VTK' = J ;"
+    text += f"T1 . 'FORMAT_VTK' = '{asked}' ;" if asked else ""
+    run(text + "T2 = DYNAMIC T1 ;", tmp_path)
+    instants = -(-501 // every)  # of 501, and the last one
+    instants += (501 - 1) % every != 0
+    assert (tmp_path / "dynamic.vtkhdf").is_file() == one_file
+    assert (tmp_path / "dynamic.pvd").is_file() == (not one_file)
+    assert len(list(tmp_path.glob("*.vtu"))) == (0 if one_file else instants)
+
+
+def test_both_kinds_of_series_have_the_same_fields_and_names(tmp_path):
+    import pyvista
+    import vtk
+
+    series = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'MAILLAGE_VTK' = J ;"
+    for name in ("VTU", "VTKHDF"):
+        run(series + f"T1 . 'FORMAT_VTK' = '{name}' ; T2 = DYNAMIC T1 ;", tmp_path)
+    reader = vtk.vtkHDFReader()
+    reader.SetFileName(str(tmp_path / "dynamic.vtkhdf"))
+    reader.UpdateInformation()
+    for step, path in enumerate(sorted(tmp_path.glob("dynamic.*.vtu"))):
+        reader.SetStep(step)
+        reader.Update()
+        one, two = pyvista.wrap(reader.GetOutput()), pyvista.read(path)
+        for mine, theirs in ((one.point_data, two.point_data), (one.cell_data, two.cell_data)):
+            assert set(mine) == set(theirs) != set()
+            for name in mine:
+                np.testing.assert_array_equal(mine[name], theirs[name])
+        (group,) = (n for n in two.field_data if n.startswith("group_"))
+        assert group == "group_J"
+        assert set(one.cell_data["group"]) == set(two.field_data[group])
+        assert set(one.field_data) - {"Time"} == set(two.field_data) - {"TimeValue"}
+    assert reader.GetNumberOfSteps() == 6
+
+
 def test_lists_asked_for_without_a_file_are_written_to_one(tmp_path):
     asked = "T1 . 'PAS_SAUVES_CSV' = 'TOUS' ; T1 . 'MAILLAGE_CSV' = MANU 'POI1' P ;"
     result = run(HOPPER + asked + "T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;", tmp_path)

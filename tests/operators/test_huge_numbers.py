@@ -63,6 +63,72 @@ def test_a_number_that_is_too_large_or_none_is_told(text, code, tmp_path):
     assert found.endswith(code) if code else found == ""
 
 
+_LARGE = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 2 (0 0) (1 0)) TRAN 2 (0 1.) ; P = S POIN 1 ;"
+    "C = MANU 'CHPO' S 1 'UX' 1.E300 ; A = CHAN 'CHAM' C S ; L = PROG 1. 1.E300 ; U = MOTS 'UX' ;"
+    "E = EVOL 'MANU' 'T' (PROG 0. 1.) 'A' L ; K = RIGI 'DEPL' 1.E300 P ; "
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("Z = C * C ;", "arithmetic"),
+        ("Z = C * 1.E300 ;", "arithmetic"),
+        ("Z = C / 1.E-300 ;", "arithmetic"),
+        ("Z = 1.E300 / (C * 1.E-300 / 1.E300) ;", "arithmetic"),
+        ("Z = C ** 2 ;", "arithmetic"),
+        ("Z = C * 1.5E8 ; Z = Z + Z ;", "arithmetic"),
+        ("Z = A * A ;", "arithmetic"),
+        ("Z = A * 1.E300 ;", "arithmetic"),
+        ("Z = E * E ;", "arithmetic"),
+        ("Z = 1.E300 * E ;", "arithmetic"),
+        ("Z = K * C ;", "arithmetic"),
+        ("Z = C * K ;", "arithmetic"),
+        ("Z = L * L ;", "arithmetic"),
+        ("Z = L ** 2 ;", "arithmetic"),
+        ("Z = SINH L ;", "number-too-large"),
+        ("Z = SINH 1000. ;", "number-too-large"),
+        ("Z = PSCA C C U U ;", "number-too-large"),
+        ("Z = PSCA A A U U ;", "number-too-large"),
+        ("Z = RESU (C * 1.7E8) ;", "number-too-large"),
+        ("Z = XTX C ;", "number-too-large"),
+        ("Z = XTY C C U U ;", "number-too-large"),
+        ("Z = SOMM (L * 0. + 1.E308) ;", "number-too-large"),
+        ("Z = INTG (E * 0. + 1.5E308) ;", "number-too-large"),
+        ("Z = NORM ((1.E99 0.) * 1.) ;", ""),
+        ("Z = L * 1.E8 + 1. ;", ""),
+        ("Z = C * 1.E-300 * C ;", ""),
+        ("Z = C * 1.E-200 * (C * 1.E-200) * 1.E-300 ;", ""),
+        ("Z = TANH L ;", ""),
+        ("Z = EXP (L * -1.) ;", ""),
+    ],
+)
+def test_a_result_past_all_reals_is_refused_wherever_it_stands(text, code, tmp_path):
+    """A real holds up to 1.8E308; what is smaller than 1.E-300 and vanishes is no error."""
+    assert code_of(_LARGE + text, tmp_path) == code
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Z = (PROG 1. 2. 0.) / (PROG 1. 0. 0.) ;", {"count": 2, "item": 2, "sign": "/"}),
+        ("Z = (PROG 2. 0.) ** -1 ;", {"count": 1, "item": 2, "sign": "**"}),
+        ("Z = (PROG 1. 2.) / 0. ;", {"count": 2, "item": 1, "sign": "/"}),
+        ("Z = (PROG 1. 0.) / (PROG 2. 3.) ;", None),
+    ],
+)
+def test_a_list_divided_by_zero_is_told(text, told, tmp_path):
+    result = run_text(text, tmp_path)
+    assert result.exit_code == 0, result.message
+    found = [w.data for w in result.session.warnings]
+    if told is None:
+        assert found == []
+    else:
+        assert [w.code for w in result.session.warnings] == ["operators.numbers.list-not-finite"]
+        assert {k: found[0][k] for k in told} == told
+
+
 def test_an_operator_that_fails_over_nan_names_the_operand(tmp_path):
     curve = "E = EVOL 'MANU' (PROG 0. PAS 0.02 NPAS 100) (PROG 101 * 1.) ; "
     text = curve + "R = ONDE 5 E 'CRMO' 'FMIN' 1. 'FMAX' 3. 'NFRQ' {} ;"

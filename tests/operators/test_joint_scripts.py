@@ -422,3 +422,44 @@ def test_surface_joints_have_no_anisotropy_and_moduli_must_be_positive(tmp_path)
     )
     assert refused.exit_code == 1
     assert "negative energy" in refused.message
+
+
+SHEARED = """
+OPTI DIME 3 ELEM QUA4 MODE TRID ;
+P = 0. 0. 0. ; UP = P DROI 1 (1. 0. 0.) TRAN 1 (0. 1. 0.) ;
+DOWN = (0. 0. 0.) DROI 1 (1. 0. 0.) TRAN 1 (0. 1. 0.) ;
+OPTI ELEM CUB8 ; BODY = UP VOLU 1 TRAN (0. 0. 1.) ;
+OPTI ELEM LIA4 ; J = LIAI 1.E-3 UP DOWN ;
+M = (MODE BODY 'MECANIQUE' 'ELASTIQUE')
+    ET (MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'COULOMB' 'JOI4') ;
+A = MATE M 'YOUN' 100. 'NU' 0. 'KS' 100. 'KN' 100. 'EF' 150. 'ECN' 0.05 'COHE' 2. 'FRIC' 45. ;
+PUSH = BLOQ 'UX' UP ;
+T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' DOWN) ET PUSH ;
+T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI PUSH 0.1) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1. 2. ;
+T . 'MES_SAUVEGARDES' = TABL ; T . 'MES_SAUVEGARDES' . 'DEFTO' = VRAI ;
+"""
+
+
+def test_a_sheared_dilatant_joint_lifts_what_stands_on_it(found):
+    """Shear at the cohesion, slip of 0.1 - 2/100 at 45 degrees: lifted by 0.08, no pressure.
+
+    All of the slip and all of the lift are plastic; the words of tables are written bare, as
+    published scripts write them, longer than a name may be.
+    """
+    names = found(
+        SHEARED + "PASAPAS T ; U = EXTR (T . deplacements . 2) 'UZ' P ;\n"
+        "S = T . contraintes . 2 ; D = T . deformations_inelastiques . 2 ;\n"
+        "E = T . deformations . 2 ; S1 = EXTR S 'SMN' 2 1 1 ; S2 = EXTR S 'SMS1' 2 1 1 ;\n"
+        "D1 = EXTR (REDU D J) 'DIN' 1 1 1 ; D2 = EXTR (REDU D J) 'DIS1' 1 1 1 ;\n"
+        "E1 = EXTR (REDU E J) 'DRS1' 1 1 1 ; E2 = MAXI 'ABS' (EXCO 'EPXX' E) ;",
+        *("U", "S1", "S2", "D1", "D2", "E1", "E2"),
+    )
+    expected = [0.08, 0.0, 2.0, 0.08, 0.08, 0.1, 0.0]
+    np.testing.assert_allclose(np.abs(names), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_strains_are_kept_of_small_displacements_only(refused):
+    said = refused(SHEARED + "T . 'GRANDS_DEPLACEMENTS' = VRAI ; PASAPAS T ;")
+    assert "linear strains" in said

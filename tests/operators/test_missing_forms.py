@@ -138,3 +138,65 @@ def test_table_of_fields_is_reduced_to_a_model(found, refused):
     )
     assert total == pytest.approx(0.5)
     assert "no fields in cells" in refused(start + "X = REDU T M ;")
+
+
+# --- lists and loadings by lists ----------------------------------------------------------------
+
+
+def test_lists_are_taken_from_tables_by_their_integers(found):
+    script = (
+        "T = TABL ; T . 3 = 3. ; T . 'A' = 9. ; T . 1 = 1 ; T . 2 = 2. ; L = PROG 'TABL' T ;"
+        "U = TABL ; U . 2 = PROG 5. ; U . 1 = PROG 4. 3. ; O = ENUM 'TABL' U ; A = EXTR O 1 ;"
+        "R = ENUM 3 * A ; N = DIME R ; J = ET O ; K = ET (ENUM 2 7) ; B = ET VRAI VRAI FAUX ;"
+    )
+    numbers, first, n, joined, integers, both = found(script, *"LANJKB")
+    np.testing.assert_array_equal(numbers.values, [1.0, 2.0, 3.0])
+    np.testing.assert_array_equal(first.values, [4.0, 3.0])
+    assert n == 3
+    np.testing.assert_array_equal(joined.values, [4.0, 3.0, 5.0])
+    np.testing.assert_array_equal(integers.values, [2, 7])
+    assert both is False
+
+
+def test_a_table_with_a_word_gives_no_list_of_numbers(refused):
+    said = refused("T = TABL ; T . 1 = 'A' ; L = PROG 'TABL' T ;")
+    assert "index 1 of the table holds no number but an object of type MOT" in said
+
+
+def test_a_loading_by_lists_is_that_by_tables(found):
+    """3 N half way from 0 to 6 N, whichever way the instants are given."""
+    script = (
+        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -6.) P) ;"
+        "C = CHAR 'MECA' (PROG 1. 3.) L ; F = EXTR (TIRE C 2.) 'FY' P ; T = EXTR C 'LREE' ;"
+        "O = EXTR C 'LOBJ' 1 ; G = EXTR (EXTR O 2) 'FY' P ; S = CHAR 'MECA' (PROG 1. 3.) (SUIT "
+        "(EXTR L 1) (EXTR L 2)) ; H = EXTR (TIRE S 2.) 'FY' P ; A = EXIS C 'MECA' 'LISTOBJE' ;"
+        "B = EXIS C 'MECA' 'CHPOINT' ;"
+    )
+    half, times, last, other, yes, no = found(script, *"FTGHAB")
+    assert (half, last, other, yes, no) == (-3.0, -6.0, -3.0, True, False)
+    np.testing.assert_array_equal(times.values, [1.0, 3.0])
+
+
+def test_a_loading_has_an_object_for_each_time(refused):
+    script = "OPTI DIME 2 ; P = 0. 0. ; C = CHAR 'MECA' (PROG 1. 3.) (ENUM (FORC (0. 1.) P)) ;"
+    assert "2 times for 1 object" in refused(script)
+    script = "C = CHAR 'MECA' (PROG 1.) (ENUM (PROG 2.)) ;"
+    assert "objects of type LISTREEL" in refused(script)
+
+
+# --- what there is ------------------------------------------------------------------------------
+
+
+def test_whether_an_object_is_of_a_type_and_a_file_there(found, tmp_path):
+    (tmp_path / "here.txt").write_text("1\n")
+    script = (
+        "X = 2. ; A = EXIS X * FLOTTANT ; B = EXIS X*'ENTIER' ; C = EXIS UNKNOWN * MOT ;"
+        "OPTI SORT 'there.csv' ; SORT 'EXCE' (EVOL 'MANU' (PROG 1.) (PROG 2.)) ;"
+        "D = EXIS 'there.csv' * 'FICHIER' ; E = EXIS 'gone.csv' * FICHIER ;"
+    )
+    assert found(script, *"ABCDE") == (True, False, True, True, False)
+
+
+def test_the_worst_error_passed_over_is_told(found):
+    script = "A = VALE 'ERMA' ; OPTI ERRE IGNORE ; ERRE 21 ; ERRE 5 ; B = VALE 'ERMA' ;"
+    assert found(script, "A", "B") == (0, 21)

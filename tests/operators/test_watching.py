@@ -65,6 +65,38 @@ def test_extremes_are_those_of_all_steps_kept(step):
     assert table.get("REACTIONS").get("FY").get("VALEUR") == pytest.approx(peak, rel=1e-9)
 
 
+UNASKED = {
+    "on modes": OSCILLATOR,
+    "on a spring's line": OSCILLATOR + "T . 'BETA' = 0.3 ;",
+    "reduced": BLOCK.format(g=-9.81) + "T . 'REDUCTION' = 1.E-2 ;",
+    "large": BLOCK.format(g=-9.81),
+}
+
+
+@pytest.mark.parametrize("text", UNASKED.values(), ids=UNASKED)
+def test_extremes_that_nobody_asked_for_are_there_when_they_are_read(text):
+    asked = ran(text + "R = DYNAMIC T ;").session.root.find("T").get("RESULTATS_EXTREMES")
+    later = "T . 'EXTREMES' = FAUX ; R = DYNAMIC T ; X = T . 'RESULTATS_EXTREMES' ;"
+    read = "U = X . 'DEPL' . 'UX' . 'VALEUR' ; F = X . 'REACTIONS' . 'FY' . 'VALEUR' ;"
+    found = ran(text + later + read).session.root.find
+    assert found("U") == asked.get("DEPL").get("UX").get("VALEUR")
+    assert found("F") == asked.get("REACTIONS").get("FY").get("VALEUR")
+    words = [str(i).rstrip() for i, _ in found("X").items()]
+    assert words == [str(i).rstrip() for i, _ in asked.items()]
+
+
+def test_extremes_of_forces_that_a_procedure_adds_must_be_asked_for():
+    push = (
+        "DEBP CHARMECA TAB1*TABLE T1*FLOTTANT ; R = TABL ; R . 'ADDI_FNL' = FORC 'FX' 1. P1 ; "
+        "FINP R ; T . 'CHARMECA' = VRAI ; "
+    )
+    asked = ran(OSCILLATOR + push + "R = DYNAMIC T ;").session.root.find("T")
+    peak = asked.get("RESULTATS_EXTREMES").get("DEPL").get("UX")
+    assert peak.get("VALEUR") == pytest.approx(0.04, rel=1e-5)
+    text = OSCILLATOR + push + "T . 'EXTREMES' = FAUX ; R = DYNAMIC T ;"
+    assert not ran(text).session.root.find("T").has("RESULTATS_EXTREMES")
+
+
 @pytest.mark.parametrize(("g", "warned"), [("9.81", True), ("-9.81", False)])
 def test_a_structure_that_leaves_the_ground_for_good_is_told(g, warned):
     result = ran(BLOCK.format(g=g) + "R = DYNAMIC T ;")

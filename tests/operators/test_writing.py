@@ -160,3 +160,80 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
     assert result.exit_code == 1
     assert said.lower() in result.message.lower()
     assert not (tmp_path / "out").exists()
+
+
+def steps_of(path: Path) -> list[object]:
+    """What VTK reads of each step of a .vtkhdf."""
+    import pyvista
+    import vtk
+
+    reader = vtk.vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    found = []
+    for step in range(reader.GetNumberOfSteps()):
+        reader.SetStep(step)
+        reader.Update()
+        made = reader.GetOutput().NewInstance()
+        made.DeepCopy(reader.GetOutput())
+        found.append(pyvista.wrap(made))
+    return found
+
+
+def test_times_go_to_one_file_on_demand(tmp_path: Path) -> None:
+    # said once, the series goes on as it began
+    run(
+        "SORT 'VTK ' S (U * 1) 'u' 'VTKHDF' 'TEMP' 0.5 ; SORT 'VTK ' S (U * 2) 'u' 'TEMP' 1. ; "
+        "SORT 'VTK ' S (U * 3) 'u' 'TEMP' 2. 'VTKHDF' ;",
+        tmp_path,
+    )
+    assert names(tmp_path) == ["out.vtkhdf"]
+    steps = steps_of(tmp_path / "out.vtkhdf")
+    assert len(steps) == 3
+    for i, grid in enumerate(steps, start=1):
+        assert np.allclose(grid.point_data["u"][:, 0], 0.01 * i * grid.points[:, 0])
+        assert grid.n_cells == 8
+
+
+def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
+    one = "SORT 'VTK ' S 'VTKHDF' 'TEMP' {} {} ; "
+    run(one.format("1.", "") + one.format("2.", "") + one.format("3.", "'NOUV'"), tmp_path)
+    assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
+    run(one.format("1.", "") + "SORT 'VTK ' S 'VTU' 'TEMP' 2. ;", tmp_path)
+    assert names(tmp_path) == ["out.0001.0001.vtu", "out.pvd", "out.vtkhdf"]
+
+
+@pytest.mark.parametrize("word", ["FORM", "BINA", "SUIT", "NPVD"])
+def test_words_of_files_are_refused_for_one_file(tmp_path: Path, word: str) -> None:
+    result = run_text(PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path)
+    assert result.exit_code == 1
+    assert f"'{word}' is for .vtu files" in result.message
+    assert names(tmp_path) == []
+
+
+def test_another_mesh_in_one_file_is_refused(tmp_path: Path) -> None:
+    text = "SORT 'VTK ' S 'VTKHDF' 'TEMP' 1. ; SORT 'VTK ' L 'VTKHDF' 'TEMP' 2. ;"
+    result = run_text(PLATE + text, tmp_path)
+    assert result.exit_code == 1
+    assert "out.vtkhdf has one mesh for all its steps" in result.message
+    assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
+
+
+def test_cells_have_the_names_that_the_script_gives_them(tmp_path: Path) -> None:
+    run(
+        "UP = TRAN (DROI 4 (0. 1.) (2. 1.)) 1 (0. 1.5) ; ALL = S ET UP ; T = TABL ; "
+        "T . 'TOP' = UP ; OUBL UP ; SORT 'VTK ' ALL ; "
+        "OPTI SORT 'two' ; SORT 'VTK ' S 'low' ALL 'whole' ;",
+        tmp_path,
+    )
+    read = meshio.read(tmp_path / "out.vtu")
+    told = {name: value[0] for name, value in read.field_data.items()}
+    names_of = {value: name for name, value in told.items() if name.startswith("group_")}
+    height = read.points[read.cells[0].data][:, :, 1].mean(axis=1)
+    for at, number in zip(height, read.cell_data["group"][0], strict=True):
+        assert names_of[number] == ("group_S" if at < 1 else "group_TOP")
+    assert set(read.cell_data["material"][0][height < 1]) == {told["material_MO"]}
+    assert set(read.cell_data["material"][0][height > 1]) == {0}
+    assert "part" not in read.cell_data
+    read = meshio.read(tmp_path / "two.0001.whole.vtu")
+    assert set(read.cell_data["part"][0]) == {read.field_data["part_whole"][0]} == {2}

@@ -26,3 +26,33 @@ def test_modes_increase_then_keep_their_shape():
     moved = np.sqrt(np.array([16.0, 9.0]) - 0.05**2) / (2 * np.pi)
     np.testing.assert_allclose(find("L2").values, [-moved[1], -moved[0], moved[0], moved[1]])
     assert find("F") == find("L2").values[2]
+
+
+def test_modes_of_a_projected_problem_stand_on_the_body():
+    """As VIBC gives them itself where the real modes stand behind the matrices."""
+    script = SCRIPT + (
+        "RECOVIBC T B ; S = VIBC MP (PJBA B (K1 ET K2)) CP B ; ORDOVIBC S ; E = 0. ; "
+        "REPE L 4 ; A1 = T . 'MODES' . &L ; A2 = S . 'MODES' . &L ; "
+        "D1 = (A1 . 'DEFORMEE_MODALE_REELLE') - (A2 . 'DEFORMEE_MODALE_REELLE') ; "
+        "D2 = (A1 . 'DEFORMEE_MODALE_IMAGINAIRE') - (A2 . 'DEFORMEE_MODALE_IMAGINAIRE') ; "
+        "E = E + (MAXI 'ABS' D1) + (MAXI 'ABS' D2) ; FIN L ; "
+        "X = XTX (T . 'MODES' . 1 . 'DEFORMEE_MODALE_REELLE') ; "
+        "N1 = NBNO (T . 'MODES' . 'MAILLAGE') ; C = EXTR (A1 . 'DEFORMEE_MODALE_REELLE_P') 'COMP' ;"
+        "RECOVIBC T B ; X2 = XTX (T . 'MODES' . 1 . 'DEFORMEE_MODALE_REELLE') ;"
+    )
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert find("E") <= 1e-12
+    assert find("X") > 0.1
+    assert find("X2") == find("X")  # again: nothing changes
+    assert list(find("C").values) == ["ALFA"]
+
+
+def test_complex_modes_without_masses_are_told_and_drawn(tmp_path):
+    shown = "RECOVIBC T B ; POSTVIBR T (MOTS 'TABL' 'LIST' 'DEFO') ; L = T . 'LISTE_FREQUENCES' ;"
+    result = run_text(SCRIPT + shown, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    np.testing.assert_array_equal(find("L").values, find("L1").values)
+    assert f"{find('L1').values[0]:.5E}" in result.output

@@ -309,7 +309,7 @@ class PhraseReader:
             return Operand(procedure, item.span, item.text)
         if scope.open and find_operator(item.text) is None:
             return Operand(UNKNOWN, item.span, item.text)
-        return Operand(Mot(item.text), item.span)
+        return Operand(Mot(item.word), item.span)
 
     def _paren(self, item: tree.Paren, scope: Scope) -> list[Operand]:
         if not item.items:

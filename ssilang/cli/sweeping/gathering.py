@@ -12,6 +12,7 @@ import threading
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
@@ -32,6 +33,8 @@ class Request:
     observers: Sequence[Observer]
     progress: Progress | None
     found: History | Exception | None = None
+    seconds: float = 0.0
+    """Its share of the time that the integration took."""
 
 
 class Gathering:
@@ -46,6 +49,7 @@ class Gathering:
     def __init__(self, runs: int) -> None:
         self._awake, self._waiting = runs, list[Request]()
         self._turn = threading.Condition()
+        self._own = threading.local()
 
     def run(self, work: Callable[[], Row]) -> Row:
         """Do a run's work, in a thread of its own, when it is its turn."""
@@ -60,15 +64,20 @@ class Gathering:
         self, problem: Problem, observers: Sequence[Observer], progress: Progress | None
     ) -> History:
         """As the kernel's `integrate`, with what the other runs integrate."""
-        request = Request(problem, observers, progress)
+        request, began = Request(problem, observers, progress), perf_counter()
         self._waiting.append(request)
         self._awake -= 1
         self._settle()
         self._turn.wait_for(lambda: request.found is not None)
+        self._own.away = self.away() + perf_counter() - began - request.seconds
         if isinstance(request.found, Exception):
             raise request.found
         assert request.found is not None
         return request.found
+
+    def away(self) -> float:
+        """Seconds that the run of this thread left to others so far."""
+        return float(getattr(self._own, "away", 0.0))
 
     def _settle(self) -> None:
         """Integrate what waits if no run is awake that could add to it."""
@@ -77,14 +86,16 @@ class Gathering:
         from ssilang.kernel.stepping.run_many import integrate_together
 
         requests, self._waiting = self._waiting, []
+        began = perf_counter()
         parts = [(r.problem, r.observers, r.progress) for r in requests]
         found: Sequence[History | Exception]
         try:
             found = integrate_together(*(list(p) for p in zip(*parts, strict=True)))
         except Exception as problem:
             found = [problem] * len(requests)
+        share = (perf_counter() - began) / len(requests)
         for request, result in zip(requests, found, strict=True):
-            request.found = result
+            request.found, request.seconds = result, share
         self._awake += len(requests)
         self._turn.notify_all()
 

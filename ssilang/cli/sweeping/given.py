@@ -18,6 +18,10 @@ MOTION = "MOTION"
 
 _NAME = re.compile(r"@?[A-Za-z][A-Za-z0-9_]*")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
+_ROW = re.compile(rf"[\s,;]*{_NUMBER.pattern}([\s,;]+{_NUMBER.pattern})*[\s,;]*")
+_LOOKED_AT = 1 << 16  # bytes of a file: heads of records are much shorter
+_UNFIT = re.compile(r"[^\w.+=-]")
+_LONGEST_NAME = 120
 MOST_VALUES = 1_000_000
 
 
@@ -94,8 +98,42 @@ class Case:
         return digest.hexdigest()[:12]
 
 
-def cases_of(settings: Sequence[str], motions: Path | None) -> list[Case]:
+def folder_names(cases: Sequence[Case]) -> list[str]:
+    """A folder's name for each case, that says its values and its motion: 'AG=0.5_m1'."""
+    names = [_name(case, whole=False) for case in cases]
+    if len(set(names)) < len(names):  # motions that differ in their endings alone
+        names = [_name(case, whole=True) for case in cases]
+    return names
+
+
+def _name(case: Case, *, whole: bool) -> str:
+    said = [f"{n}={_shown(v)}" for n, v in sorted(case.values.items()) if n != MOTION]
+    if MOTION in case.values:
+        path = Path(str(case.values[MOTION]))
+        said.append(path.name if whole else path.stem)
+    name = "_".join(said)
+    plain = _UNFIT.sub("-", name)
+    if plain == name and len(name) <= _LONGEST_NAME:
+        return name
+    digest = hashlib.sha256(name.encode()).hexdigest()[:6]
+    return f"{plain[:_LONGEST_NAME]}_{digest}"
+
+
+def _shown(value: Value) -> str:
+    if isinstance(value, bool):
+        return "VRAI" if value else "FAUX"
+    return str(value)
+
+
+def cases_of(
+    settings: Sequence[str], motions: Path | None, left: list[Path] | None = None
+) -> list[Case]:
     """All combinations of the settings' values and the motions, the last one fastest.
+
+    Parameters
+    ----------
+    left : list of Path, optional
+        Gets the files of `motions` that are none.
 
     Raises
     ------
@@ -109,17 +147,32 @@ def cases_of(settings: Sequence[str], motions: Path | None) -> list[Case]:
             raise GivenError("cli.set-twice", name=name)
         axes[name] = values
     if motions is not None:
-        axes[MOTION] = [*_files_of(motions)]
+        axes[MOTION] = [*_files_of(motions, [] if left is None else left)]
     if not axes:
         raise GivenError("cli.nothing-sweep-set-name")
     rows = itertools.product(*axes.values())
     return [Case(i, dict(zip(axes, row, strict=True))) for i, row in enumerate(rows, start=1)]
 
 
-def _files_of(folder: Path) -> list[str]:
+def _files_of(folder: Path, left: list[Path]) -> list[str]:
     if not folder.is_dir():
         raise GivenError("cli.not-folder-ground-motions", folder=folder)
     files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
-    if not files:
+    motions = [p for p in files if is_motion(p)]
+    left += [p for p in files if p not in motions]
+    if not motions:
         raise GivenError("cli.no-file", folder=folder)
-    return [str(p.resolve()) for p in files]
+    return [str(p.resolve()) for p in motions]
+
+
+def is_motion(path: Path) -> bool:
+    """Whether a file may be a ground motion: a text that can be read and soon has numbers."""
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(_LOOKED_AT)
+    except OSError:
+        return False
+    if b"\0" in head:
+        return False
+    lines = head.decode("utf-8", errors="replace").splitlines()
+    return any(_ROW.fullmatch(line) for line in lines)

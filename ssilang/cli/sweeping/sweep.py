@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-from ssilang.cli.sweeping.given import Case, GivenError, cases_of
+from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
-from ssilang.cli.sweeping.table import can_write, draw_figures, write_table
+from ssilang.cli.sweeping.table import (
+    can_write,
+    draw_figures,
+    write_plain_table,
+    write_table,
+)
 from ssilang.cli.sweeping.trunk import run_all
-from ssilang.cli.sweeping.worker import ROW, Task
+from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
 from ssilang.messages.message import Teller, sentence, teller
 
-TABLE = "sweep.parquet"
+TABLE, PLAIN_TABLE = "sweep.parquet", "sweep.csv"
 TOGETHER = 8
 """Runs that go side by side in a process: more gain little and hold more memory."""
 
@@ -44,7 +48,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     Runs that an earlier sweep of the same folder finished are taken from there.
     """
     try:
-        cases = _checked_cases(options)
+        cases = _checked_cases(options, err)
         text = options.deck.read_text(encoding="utf-8", errors="replace")
     except GivenError as problem:
         err.write(render(SsiError.of(problem, None), options.language) + "\n")
@@ -54,8 +58,11 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         err.write(render(lost, options.language) + "\n")
         return 2
     folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
-    tasks = [_task(case, options, folder / "runs" / case.key(text)) for case in cases]
-    rows = {task.number: row for task in tasks if (row := _done(task)) is not None}
+    tasks = [
+        _task(case, options, folder / "runs" / name, case.key(text))
+        for case, name in zip(cases, folder_names(cases), strict=True)
+    ]
+    rows = {task.number: row for task in tasks if (row := row_of(task)) is not None}
     if rows:
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
@@ -70,26 +77,21 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     return 1 if made["failed"] else 0
 
 
-def _checked_cases(options: SweepOptions) -> list[Case]:
-    if not can_write():
-        raise GivenError("cli.sweep-writes-parquet-pip")
+def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
     if options.scheduler and not dask_installed():
         raise GivenError("cli.cluster-needs-dask-distributed")
-    return cases_of(options.settings, options.motions)
+    left: list[Path] = []
+    cases = cases_of(options.settings, options.motions, left)
+    if left:
+        told = {"count": len(left), "names": [p.name for p in left]}
+        err.write(sentence("cli.files-no-motions", told, options.language) + "\n")
+    return cases
 
 
-def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
+def _task(case: Case, options: SweepOptions, folder: Path, key: str) -> Task:
     allowed = tuple(p.resolve() for p in options.allowed)
-    return Task(case.number, options.deck.resolve(), folder, case.values, allowed, options.language)
-
-
-def _done(task: Task) -> dict[str, Any] | None:
-    """The row of a run that ended well before, with its number in this sweep."""
-    try:
-        row: dict[str, Any] = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return {**row, "run": task.number} if row["exit_code"] == 0 else None
+    deck = options.deck.resolve()
+    return Task(case.number, deck, folder, case.values, allowed, options.language, key=key)
 
 
 def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
@@ -114,13 +116,17 @@ def _progress(
 
 
 def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path) -> dict[str, object]:
-    """Write table and pictures; what to say of them."""
-    write_table(rows, folder / TABLE)
+    """Write tables and pictures; what to say of them."""
+    table = folder / PLAIN_TABLE
+    write_plain_table(rows, table)
+    if can_write():
+        table = folder / TABLE
+        write_table(rows, table)
     pictures = draw_figures(rows, swept, folder)
     failed = sum(row["exit_code"] != 0 for row in rows)
     return {
         "runs": len(rows),
         "failed": failed,
-        "table": folder / TABLE,
+        "table": table,
         "pictures": len(pictures),
     }

@@ -1,4 +1,4 @@
-"""The table of a sweep: one Parquet file, and a picture of each figure against what was swept."""
+"""The table of a sweep, CSV and Parquet, and a picture of each figure against what was swept."""
 
 from __future__ import annotations
 
@@ -42,6 +42,20 @@ def write_table(rows: Sequence[Row], path: Path) -> None:
         columns[name] = pa.array(values)
     with replacing(path) as stream:
         pq.write_table(pa.table(columns), stream)
+
+
+def write_plain_table(rows: Sequence[Row], path: Path) -> None:
+    """Write rows as CSV between semicolons, titles first; what a run does not have is empty."""
+    import csv
+    import io
+
+    from ssilang.io.atomic import write_text
+
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns_of(rows), delimiter=";", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_text(path, text.getvalue())
 
 
 def draw_figures(rows: Sequence[Row], swept: Sequence[str], folder: Path) -> list[Path]:

@@ -26,6 +26,8 @@ class Task:
     allowed: tuple[Path, ...] = ()
     language: str = "en"
     limits: dict[str, Any] = field(default_factory=dict)
+    key: str = ""
+    """What the run computes; a row with the same key holds for it."""
     meeting: Any = None
     """Where its time integrations meet those of other runs; see `gathering`."""
 
@@ -57,7 +59,9 @@ def run_task(task: Task) -> Row:
         limits=Limits(**task.limits),
         given=dict(task.values),
         integrate=None if task.meeting is None else task.meeting.integrate,
+        away=_never if task.meeting is None else task.meeting.away,
     )
+    (task.folder / ROW).unlink(missing_ok=True)  # of another script, or a run that failed
     started = time.perf_counter()
     result = run_file(task.deck, options)
     write_text(task.folder / "output.txt", result.output + result.message + "\n")
@@ -65,13 +69,29 @@ def run_task(task: Task) -> Row:
         "run": task.number,
         **task.values,
         "exit_code": result.exit_code,
-        "seconds": round(time.perf_counter() - started, 3),
+        "seconds": round(time.perf_counter() - started - options.away(), 3),
         "error": result.message.partition("\n")[0],
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }
-    write_text(task.folder / ROW, json.dumps(row, ensure_ascii=False) + "\n")
+    kept = {"key": task.key, "row": row}
+    write_text(task.folder / ROW, json.dumps(kept, ensure_ascii=False) + "\n")
     return row
+
+
+def row_of(task: Task) -> Row | None:
+    """The row of a run that computed the same and ended well, with its number in this sweep."""
+    try:
+        kept = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
+        row: Row = kept["row"]
+        good = kept["key"] == task.key and row["exit_code"] == 0
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return {**row, "run": task.number} if good else None
+
+
+def _never() -> float:
+    return 0.0
 
 
 def lost_row(task: Task, reason: str) -> Row:

@@ -1,4 +1,4 @@
-"""VTK files (.vtu, .pvd) that ParaView and pyvista open."""
+"""VTK files that ParaView and pyvista open: .vtu, .pvd; `vtkhdf` writes one for a series."""
 
 from ssilang.io.vtk.grid import Grid, grid_of
 from ssilang.io.vtk.series import Part, SeriesWriter

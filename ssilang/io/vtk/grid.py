@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,6 +113,17 @@ def grid_of(
     OutputError
         For a cell type that VTK has no cell for.
     """
+    return with_fields(bare_grid(mesh), mesh, point_fields, cell_fields)
+
+
+def bare_grid(mesh: Mesh) -> Grid:
+    """The grid of a mesh without fields.
+
+    Raises
+    ------
+    OutputError
+        For a cell type that VTK has no cell for.
+    """
     nodes = mesh.sorted_node_ids
     rows, types, sizes = [], [], []
     for block in mesh.blocks:
@@ -123,18 +134,30 @@ def grid_of(
         types.append(np.full(len(block), number, dtype=np.uint8))
         sizes.append(np.full(len(block), len(order), dtype=np.int64))
     empty = np.empty(0, dtype=np.int64)
-    grid = Grid(
+    return Grid(
         nodes,
         mesh.nodes.coordinates[nodes],
         np.concatenate([empty, *rows]),
         np.cumsum(np.concatenate([empty, *sizes])),
         np.concatenate([np.empty(0, dtype=np.uint8), *types]),
     )
+
+
+def with_fields(
+    bare: Grid,
+    mesh: Mesh,
+    point_fields: Mapping[str, NodeField] | None = None,
+    cell_fields: Mapping[str, CellField] | None = None,
+) -> Grid:
+    """The grid of a mesh where its nodes are now, with these fields: see `grid_of`."""
+    points: dict[str, DataArray] = {}
+    cells: dict[str, DataArray] = {}
     for name, node_field in (point_fields or {}).items():
-        grid.point_data.update(point_arrays(node_field, nodes, name))
+        points |= point_arrays(node_field, bare.nodes, name)
     for name, cell_field in (cell_fields or {}).items():
-        grid.cell_data.update(cell_arrays(cell_field, mesh, name))
-    return grid
+        cells |= cell_arrays(cell_field, mesh, name)
+    here = mesh.nodes.coordinates[bare.nodes]
+    return replace(bare, points=here, point_data=points, cell_data=cells)
 
 
 def point_arrays(chpoint: NodeField, nodes: IntArray, name: str = "") -> dict[str, DataArray]:

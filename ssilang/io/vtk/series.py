@@ -7,19 +7,23 @@ from __future__ import annotations
 
 import re
 import time as clock
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
+from typing import Self
 
 from ssilang.io.errors import OutputError
-from ssilang.io.vtk.grid import grid_of
+from ssilang.io.vtk.grid import DataArray, Grid, bare_grid, with_fields
+from ssilang.io.vtk.labels import Labels
 from ssilang.io.vtk.pvd import Entry, read_pvd, write_pvd
 from ssilang.io.vtk.vtu import Encoding, write_vtu
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 
+_EXTENSIONS = (".pvd", ".vtu", ".vtk", ".vtkhdf")
 _LIST_EVERY = 2.0  # seconds between two updates of the .pvd: a long run stays linear in time
 
 
@@ -30,25 +34,133 @@ class Part:
     mesh: Mesh
     point_fields: Mapping[str, NodeField] = field(default_factory=dict)
     cell_fields: Mapping[str, CellField] = field(default_factory=dict)
+    labels: Labels = field(default_factory=Labels)
 
 
-class SeriesWriter:
-    """Writes one .vtu a part and step, and the .pvd that lists them.
+class Series(ABC):
+    """Steps of named parts over time, in files that begin with one name.
 
-    Use it as a context manager, or call `close`. Each file appears whole; if the run breaks, the
-    .pvd lists the steps that were finished.
+    Use it as a context manager, or call `close`.
 
     Parameters
     ----------
     base : Path
-        Directory and name without extension; an extension .pvd, .vtu or .vtk is dropped.
+        Directory and name without extension; an extension of VTK's is dropped.
+    constants : mapping of str to float, optional
+        Field data of each file.
+
+    Attributes
+    ----------
+    files : list of Path
+        What has been written.
+    labels : dict of str to (Mesh, Labels)
+        Meshes of the parts of the last step, and what their cells are called.
+    one_file : bool
+        Whether all steps are in one file.
+    """
+
+    one_file = False
+
+    def __init__(self, base: Path, constants: Mapping[str, float] | None = None) -> None:
+        self.base = strip_extension(base)
+        self.constants = constants or {}
+        self.files: list[Path] = []
+        self.labels: dict[str, tuple[Mesh, Labels]] = {}
+        self._bare: dict[str, tuple[Mesh, int, Grid]] = {}
+
+    @property
+    @abstractmethod
+    def last_time(self) -> float | None:
+        """Time of the last step, None before the first."""
+
+    @property
+    @abstractmethod
+    def part_names(self) -> tuple[str, ...]:
+        """Names of the parts of the last step."""
+
+    def write_parts(self, time: float, parts: Mapping[str, Part]) -> None:
+        """Write a step of several named parts ('': the only one).
+
+        Raises
+        ------
+        OutputError
+            If it cannot follow the step before, or cannot be written.
+        """
+        self._check_next(time, tuple(parts))
+        self._write(time, parts)
+        self.labels = {name: (part.mesh, part.labels) for name, part in parts.items()}
+
+    @abstractmethod
+    def _write(self, time: float, parts: Mapping[str, Part]) -> None:
+        """Write a step that can follow."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Finish what is written."""
+
+    def release(self) -> None:
+        """Let go of what is held open: another series takes this one's place."""
+        return
+
+    def accepts(self, time: float, parts: tuple[str, ...]) -> bool:
+        """Whether a step at that time with these parts can follow."""
+        later = self.last_time is None or time > self.last_time
+        return later and (self.last_time is None or self.part_names == parts)
+
+    def _check_next(self, time: float, parts: tuple[str, ...]) -> None:
+        if self.last_time is None:
+            return
+        if time <= self.last_time:
+            raise OutputError("io.step-time-comes-after", time=time, last_time=self.last_time)
+        if self.part_names != parts:
+            old, new = ", ".join(self.part_names), ", ".join(parts)
+            raise OutputError("io.series-parts-step-brings", old=old, new=new)
+
+    def grid(self, name: str, part: Part) -> Grid:
+        """The grid of a part; what the mesh of the step before has is not made again."""
+        mesh = part.mesh
+        before, version, bare = self._bare.get(name, (None, 0, None))
+        if bare is None or before is not mesh or version != mesh.nodes.version:
+            bare = bare_grid(mesh)
+            self._bare[name] = (mesh, mesh.nodes.version, bare)
+        return with_fields(bare, mesh, part.point_fields, part.cell_fields)
+
+    def write(
+        self,
+        time: float,
+        mesh: Mesh,
+        point_fields: Mapping[str, NodeField] | None = None,
+        cell_fields: Mapping[str, CellField] | None = None,
+    ) -> None:
+        """Write a step of one part."""
+        self.write_parts(time, {"": Part(mesh, point_fields or {}, cell_fields or {})})
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+class SeriesWriter(Series):
+    """Writes one .vtu a part and step, and the .pvd that lists them.
+
+    Each file appears whole; if the run breaks, the .pvd lists the steps that were finished.
+
+    Parameters
+    ----------
+    base, constants
+        See `Series`.
     encoding : Encoding
     resume : bool
         Go on after the last step of the .pvd that is there.
     listed : bool
         False: no .pvd is written.
-    constants : mapping of str to float, optional
-        Field data of each file.
 
     Raises
     ------
@@ -66,11 +178,9 @@ class SeriesWriter:
         listed: bool = True,
         constants: Mapping[str, float] | None = None,
     ) -> None:
-        self.base = strip_extension(base)
+        super().__init__(base, constants)
         self.encoding = encoding
         self.listed = listed
-        self.constants = constants or {}
-        self.files: list[Path] = []
         self._entries = read_pvd(self.list_path) if resume else []
         self._listed_at = clock.monotonic()
 
@@ -89,37 +199,15 @@ class SeriesWriter:
         """Names of the parts of the last step."""
         return tuple(e.part for e in self._entries if e.time == self.last_time)
 
-    def accepts(self, time: float, parts: tuple[str, ...]) -> bool:
-        """Whether a step at that time with these parts can follow."""
-        later = self.last_time is None or time > self.last_time
-        return later and (not self._entries or self.part_names == parts)
-
     def write_single(self, part: Part, time: float = 0.0) -> None:
         """Write the only file of a series: BASE.vtu, without a step's number."""
         path = self.base.with_name(self.base.name + ".vtu")
-        grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
-        write_vtu(path, grid, self.encoding, constants=self.constants)
+        write_vtu(path, self._labelled("", part), self.encoding, constants=self._told(part))
         self.files.append(path)
         self._entries = [Entry(time, "", path.name)]
         self.close()
 
-    def write(
-        self,
-        time: float,
-        mesh: Mesh,
-        point_fields: Mapping[str, NodeField] | None = None,
-        cell_fields: Mapping[str, CellField] | None = None,
-    ) -> None:
-        """Write a step of one part."""
-        self.write_parts(time, {"": Part(mesh, point_fields or {}, cell_fields or {})})
-
-    def write_parts(self, time: float, parts: Mapping[str, Part]) -> None:
-        """Write a step of several named parts."""
-        if self.last_time is not None and time <= self.last_time:
-            raise OutputError("io.step-time-comes-after", time=time, last_time=self.last_time)
-        if self._entries and self.part_names != tuple(parts):
-            old, new = ", ".join(self.part_names), ", ".join(parts)
-            raise OutputError("io.series-parts-step-brings", old=old, new=new)
+    def _write(self, time: float, parts: Mapping[str, Part]) -> None:
         self._check(self._entries[-1:])
         number = len({e.time for e in self._entries}) + 1
         made = [self._write_part(time, number, name, part) for name, part in parts.items()]
@@ -132,25 +220,21 @@ class SeriesWriter:
         if self._entries and self.listed:
             self._list()
 
-    def __enter__(self) -> SeriesWriter:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def _write_part(self, time: float, number: int, name: str, part: Part) -> Entry:
         tag = re.sub(r"[^\w\-]+", "_", name)
         suffix = f".{number:04d}.{tag}" if tag else f".{number:04d}"
         path = self.base.with_name(f"{self.base.name}{suffix}.vtu")
-        grid = grid_of(part.mesh, part.point_fields, part.cell_fields)
-        write_vtu(path, grid, self.encoding, time, self.constants)
+        write_vtu(path, self._labelled(name, part), self.encoding, time, self._told(part))
         self.files.append(path)
         return Entry(time, name, path.name)
+
+    def _labelled(self, name: str, part: Part) -> Grid:
+        grid = self.grid(name, part)
+        grid.cell_data.update((what, DataArray(n)) for what, n in part.labels.numbers.items())
+        return grid
+
+    def _told(self, part: Part) -> dict[str, float]:
+        return {**self.constants, **part.labels.names}
 
     def _check(self, entries: list[Entry]) -> None:
         """Check that files of the series are still there."""
@@ -168,4 +252,4 @@ class SeriesWriter:
 
 def strip_extension(path: Path) -> Path:
     """`path` without an extension of VTK's."""
-    return path.with_suffix("") if path.suffix.lower() in (".pvd", ".vtu", ".vtk") else path
+    return path.with_suffix("") if path.suffix.lower() in _EXTENSIONS else path

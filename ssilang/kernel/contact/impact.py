@@ -97,6 +97,7 @@ def _mass_motions(problem: Problem, effective: Effective, rows: sp.csr_array) ->
     """`M^-1 rows^T` on the admissible motions (n, m)."""
     T, V = problem.constraints.T, problem.constraints.V
     mass = problem.M + (MASSLESS * 0.25 * effective.dt**2) * effective.A
-    inverse = invert(sp.csr_array(V.T @ mass @ T), problem.constraints.associated)
+    mass = sp.csr_array(V.T @ mass @ T)
+    inverse = invert(mass, problem.constraints.associated, problem.solver)
     found: FloatArray = T @ inverse.solve(V.T @ rows.T.toarray())
     return found

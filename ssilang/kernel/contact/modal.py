@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.active_set import ActiveSet, active_set_of
 from ssilang.kernel.contact.impact import MASSLESS
 from ssilang.kernel.contact.modal_loop import (
@@ -18,7 +18,6 @@ from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.arrays import joints_of
 from ssilang.kernel.stepping.rests.dense.still_supports import (
     keep_reactions,
     react,
@@ -26,7 +25,8 @@ from ssilang.kernel.stepping.rests.dense.still_supports import (
 )
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.modes import Modes, modes_of
-from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, Tap, recorder_of
+from ssilang.kernel.stepping.track import JointRows, Matrix, View, expand
 
 MOST = 400
 """Motions that supports leave, up to which all modes are made and steps are compiled."""
@@ -107,7 +107,6 @@ class ContactLoop:
         self._rows = rows
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
-        self._joints = joints_of(problem)
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
@@ -116,13 +115,24 @@ class ContactLoop:
             self._z = self.modes.coordinates(np.stack([m.u, m.v, m.a], axis=1)).T.copy()
         u, v, a = self._z
         few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0))
-        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "contact"))
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "contact"), tap=r.tap)
         outcome = run_contact(self.stops, self._rows, few, factors, kept)
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
         for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
-            np.matmul(z, X.T, out=part)
+            part[:] = expand(X, z)
         r.contact[:] = kept.contact
-        keep_reactions(self.problem, self._joints, factors, r)
-        react(self.problem, self._joints, m, factors[outcome[0]])
+        keep_reactions(self.problem, factors, r)
+        react(self.problem, m, factors[outcome[0]])
         return outcome
+
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns follow from all modes."""
+        n, m = self.modes.size, self.motion
+        shapes: dict[str, tuple[int, ...]] = {"u": (n,), "v": (n,), "a": (n,)}
+        shapes["contact"] = m.contact.shape
+        return View(np.arange(n), shapes, Matrix(self.modes.X[unknowns]), self._no_joints)
+
+    def _no_joints(self, tap: Tap) -> JointRows:
+        m, rows = self.motion, len(tap.u)
+        return JointRows(*(np.zeros((rows, *x.shape)) for x in (m.w, m.t, m.state)))

@@ -29,7 +29,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     sweep_of,
 )
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep
+from ssilang.kernel.stepping.verbs import keep, tap
 
 ROUNDING = 1e-12  # of the largest gap, or of a pivot
 
@@ -212,4 +212,6 @@ def run_contact(
         copy_state(x.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
+        if to.tap.row[k] >= 0:
+            tap(x, to.tap, to.tap.row[k])
     return len(to.row), worst, 0.0

@@ -12,6 +12,7 @@ from ssilang.kernel.elements.beams.bar import Bar
 from ssilang.kernel.elements.beams.beam import Beam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_beam import FibreBeam
 from ssilang.kernel.elements.beams.fibre_section import Fibre
+from ssilang.kernel.elements.beams.hoop import Hoop
 from ssilang.kernel.elements.beams.pipe import Pipe
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import (
@@ -40,6 +41,7 @@ FAMILIES: dict[str, ElementFamily] = {
     "incompressible": Incompressible(),
     "one point": OnePoint(),
     "bar": Bar(),
+    "hoop": Hoop(),
     "beam": Beam(),
     "timoshenko": Timoshenko(),
     "pipe": Pipe(),

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, Parameter
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import (
     Law,
     elastic_tangent,
@@ -286,6 +287,12 @@ def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:
 # --- results ---------------------------------------------------------------------------------
 
 
+_SLIDING = (LawCode.SDM, LawCode.MOHR)
+_TITLES = {
+    "jump": "DEFORMATIONS",
+    "plastic jump": "DEFORMATIONS INELASTIQUES",
+    "traction": "CONTRAINTES",
+}
 COMMON_VARIABLES = ("ETAT", "ESTO", "EPER")
 """Results at the points of all joints: state, energy stored, energy lost."""
 
@@ -301,23 +308,33 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
 
     Parameters
     ----------
-    kind : 'jump' or 'traction'
-        Which names the components get.
+    kind : 'jump', 'plastic jump' or 'traction'
+        Which names the components get; joints whose law keeps no plastic jump are left out.
     """
     blocks, start = [], 0
     for j in interface.joints:
         n, g = j.weights.shape
         local = values[start : start + n * g].reshape(n, g, -1)
         start += n * g
-        names = j.element.strains if kind == "jump" else j.element.stresses
+        if kind == "plastic jump" and law_of(j.zone.behaviour).code not in _SLIDING:
+            continue
+        names = j.element.stresses if kind == "traction" else j.element.strains
         if is_macro(j):
             names = MACRO_NAMES[kind][interface.dimension]
+        if kind == "plastic jump":
+            names = tuple(name[0] + "I" + name[2:] for name in names)
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }
         blocks.append(_block(j, components))
-    title = "DEFORMATIONS" if kind == "jump" else "CONTRAINTES"
-    return CellField(tuple(blocks), title)
+    return CellField(tuple(blocks), _TITLES[kind])
+
+
+def plastic_jumps(interface: Interface, w: FloatArray, t: FloatArray) -> FloatArray:
+    """What of the jumps (n_points, d) the springs of the faces do not explain."""
+    d = interface.dimension
+    stiffness = np.diagonal(elastic_tangent(interface.parameters, d), axis1=1, axis2=2)
+    return w - np.divide(t, stiffness, out=np.zeros_like(t), where=stiffness > 0)
 
 
 def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: FloatArray) -> CellField:
@@ -342,6 +359,59 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
+
+
+class History(Protocol):
+    """Jumps and tractions (k, n_points, d) and states (k, n_points, N_STATE) of all joints."""
+
+    @property
+    def w(self) -> FloatArray: ...
+    @property
+    def t(self) -> FloatArray: ...
+    @property
+    def state(self) -> FloatArray: ...
+
+
+def point_history(
+    interface: Interface, rows: History, kind: str, component: str, place: tuple[int, int, int]
+) -> FloatArray | None:
+    """A component (k,) of `interface_field` or `state_field` in time at one point.
+
+    Parameters
+    ----------
+    kind : 'jump', 'traction' or 'variables'
+    place : (zone, cell, point)
+        From 0.
+
+    Returns
+    -------
+    array or None
+        None if there is no such point or component.
+    """
+    zone, cell, point = place
+    sizes = [j.weights.shape for j in interface.joints]
+    if not (0 <= zone < len(sizes) and 0 <= cell < sizes[zone][0] and 0 <= point < sizes[zone][1]):
+        return None
+    j, before = interface.joints[zone], sum(a * b for a, b in sizes[:zone])
+    at = before + cell * sizes[zone][1] + point
+    w, t, state = (np.ascontiguousarray(x[:, at]) for x in (rows.w, rows.t, rows.state))
+    if kind != "variables":
+        names = j.element.strains if kind == "jump" else j.element.stresses
+        if is_macro(j):
+            names = MACRO_NAMES[kind][interface.dimension]
+        places = {names[i]: i for i in component_order(j.zone)}
+        values = w if kind == "jump" else t
+        return values[:, places[component]] if component in places else None
+    if component in COMMON_VARIABLES:
+        codes = np.full(len(w), interface.codes[at])
+        p = np.tile(interface.parameters[at], (len(w), 1))
+        common = np.vstack(
+            [point_states(codes, w, t, state, p)[None], energies_of_points(codes, w, t, state, p)]
+        )
+        found: FloatArray = common[COMMON_VARIABLES.index(component)]
+        return found
+    shown = shown_variables(law_of(j.zone.behaviour), state[:, None], interface.dimension)
+    return shown[component][:, 0] if component in shown else None
 
 
 def state_from_field(interface: Interface, field: CellField) -> FloatArray:

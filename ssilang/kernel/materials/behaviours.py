@@ -16,8 +16,8 @@ OTHER_FORMULATIONS = (
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "beam", "timoshenko", "pipe",
-        "joint", "fibre",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "beam", "timoshenko",
+        "pipe", "joint", "fibre",
     ),
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
@@ -37,12 +37,12 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "fibre", "plate")
+PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "hoop", "fibre", "plate")
 """Families of elements that have plastic laws."""
 
 UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL")
 """Plastic laws that fibres of sections alone have."""
-CREEP_FAMILIES = ("solid", "incompressible", "bar")
+CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop")
 """Families of elements that creep."""
 
 CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)

@@ -62,6 +62,7 @@ _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
 _GEOMETRY: dict[str, Names] = {
     **dict.fromkeys(SOLID_FAMILIES, Names((), ("DIM3",))),
     "bar": Names(("SECT",)),
+    "hoop": Names(("SECT",)),
     "fibre": Names(("ALPY", "ALPZ"), ("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(

@@ -94,8 +94,10 @@ def rows_from_table(
     Raises
     ------
     FieldError
-        If every coefficient of a row is zero.
+        If every coefficient of a row is zero, or one is no finite number.
     """
+    for column, name in enumerate(unknowns):
+        _finite(table, nodes[:, column], name, coefficients[:, column])
     kept = coefficients != 0.0
     counts = kept.sum(axis=1)
     if (counts == 0).any():
@@ -112,6 +114,14 @@ def rows_from_table(
         _multiplier_nodes(table, nodes[:, 0]),
         np.full(len(nodes), sense, dtype=np.int8),
     )
+
+
+def _finite(table: NodeTable, nodes: IntArray, unknown: str, factors: FloatArray) -> None:
+    """Refuse factors that are NaN or infinite."""
+    wrong = np.flatnonzero(~np.isfinite(factors))
+    if len(wrong):
+        node = table.told(int(nodes[wrong[0]]))
+        raise FieldError("kernel.matrices.factor-not-finite", unknown=unknown, node=node)
 
 
 def _multiplier_nodes(table: NodeTable, beside: IntArray) -> IntArray:
@@ -197,8 +207,10 @@ def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = N
     Raises
     ------
     FieldError
-        If the field has no value other than zero.
+        If the field has no value other than zero, or one that is no finite number.
     """
+    for name, part in field.components.items():
+        _finite(field.table, part.nodes, name, part.values)
     parts = [(name, p.nodes[p.values != 0], p.values[p.values != 0])
              for name, p in field.components.items()]  # fmt: skip
     nodes = np.concatenate([n for _, n, _ in parts] or [np.empty(0, np.int64)])

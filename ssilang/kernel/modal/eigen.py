@@ -19,7 +19,7 @@ from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import may_be_positive
 from ssilang.kernel.modal.reduced import ReducedProblem
-from ssilang.kernel.solvers.backends import dissection_pays, factorise
+from ssilang.kernel.solvers.backends import dissection_pays, factorise, goes_to_petsc
 from ssilang.kernel.solvers.cholesky.inverse import accurate, invert
 from ssilang.kernel.solvers.factor import Factor
 
@@ -122,7 +122,7 @@ def _regular(A: sp.csr_array, problem: ReducedProblem) -> Solve | None:
         return None
     scale, size = 1.0 / np.sqrt(top), problem.size
     S = sp.diags_array(scale)
-    factor = _factor(sp.csr_array(S @ A @ S), problem)
+    factor = _factor(sp.csr_array(S @ A @ S), problem, scale)
     if factor is None:
         return None
     x = np.random.default_rng(3).standard_normal(A.shape[0])
@@ -142,7 +142,7 @@ def _regular(A: sp.csr_array, problem: ReducedProblem) -> Solve | None:
     return solve
 
 
-def _factor(A: sp.csr_array, problem: ReducedProblem) -> Factor | None:
+def _factor(A: sp.csr_array, problem: ReducedProblem, scale: FloatArray) -> Factor | None:
     """A factor of `K - s M` (scaled); None if it is exactly singular.
 
     With the shift below all eigenvalues the matrix is positive; above some, a factor without row
@@ -150,11 +150,13 @@ def _factor(A: sp.csr_array, problem: ReducedProblem) -> Factor | None:
     unknowns has a fifth of the entries of a factor with exchanges.
     """
     n = A.shape[0]
+    if goes_to_petsc(problem.solver, n):
+        return _by_petsc(A, problem, scale)
     if n > DENSE and n == problem.size:
-        orderings = [None] if not dissection_pays(n) else [problem.ordering, None]
+        orderings = [None] if not dissection_pays(n) else [problem.ordering.scaled(scale), None]
         for ordering in orderings:
             try:
-                factor = factorise(A, True, None if ordering else "SuperLU", ordering)
+                factor = factorise(A, True, problem.solver if ordering else "SuperLU", ordering)
             except SingularFactorError:
                 continue
             if accurate(A, factor):
@@ -163,6 +165,19 @@ def _factor(A: sp.csr_array, problem: ReducedProblem) -> Factor | None:
         return factorise(A, False)
     except SingularFactorError:
         return None
+
+
+def _by_petsc(A: sp.csr_array, problem: ReducedProblem, scale: FloatArray) -> Factor | None:
+    """A factor of PETSc's: positive, else any; None if it is singular."""
+    for positive in (True, False) if (A.diagonal() > 0.0).all() else (False,):
+        ordering = None
+        if positive and A.shape[0] == problem.size:
+            ordering = problem.ordering.scaled(scale)
+        try:
+            return factorise(A, positive, problem.solver, ordering)
+        except SingularFactorError:
+            continue
+    return None
 
 
 def _all(problem: ReducedProblem, moved: float, solve: Solve) -> tuple[FloatArray, FloatArray]:

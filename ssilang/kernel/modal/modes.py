@@ -13,6 +13,7 @@ from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.eigen import Pairs, between, nearest
 from ssilang.kernel.modal.reduced import ReducedProblem, reduced_problem
+from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 
 ROUNDING = 1e-9
 TRANSLATIONS = ({"UX", "UR"}, {"UY"}, {"UZ"})
@@ -50,7 +51,12 @@ def frequency_of(value: float) -> float:
     return float(np.sign(value) * np.sqrt(abs(value)) / (2.0 * np.pi))
 
 
-def modes_near(stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, int]]) -> list[Mode]:
+def modes_near(
+    stiffness: Matrix,
+    mass: Matrix,
+    wanted: Sequence[tuple[float, int]],
+    solver: Solver = FIRST_FIT,
+) -> list[Mode]:
     """For each (frequency, number): the modes nearest by the square of frequency; increasing.
 
     That is the order in which iterations on the inverse at the frequency find them.
@@ -60,7 +66,7 @@ def modes_near(stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, in
     KernelError
         If nothing can move, no mass moves, or the matrices are not symmetric.
     """
-    problem = reduced_problem(stiffness, mass)
+    problem = reduced_problem(stiffness, mass, solver=solver)
     found: list[Mode] = []
     for frequency, count in wanted:
         # a few more, so that none is missed
@@ -69,9 +75,15 @@ def modes_near(stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, in
     return sorted(found, key=lambda m: m.frequency)
 
 
-def modes_between(stiffness: Matrix, mass: Matrix, low: float, high: float) -> list[Mode]:
+def modes_between(
+    stiffness: Matrix,
+    mass: Matrix,
+    low: float,
+    high: float,
+    solver: Solver = FIRST_FIT,
+) -> list[Mode]:
     """All modes of frequencies in [low, high] Hz, increasing."""
-    problem = reduced_problem(stiffness, mass)
+    problem = reduced_problem(stiffness, mass, solver=solver)
     return _modes(problem, between(problem, eigenvalue(low), eigenvalue(high)))
 
 

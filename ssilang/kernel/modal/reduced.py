@@ -19,7 +19,8 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
-from ssilang.kernel.solvers.factor import Ordering
+from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
+from ssilang.kernel.statics.linear_motion import rigid_motions
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,8 @@ class ReducedProblem:
     T : csr array (n, r)
     multipliers : array (n_rows,)
         Multiplier nodes of all conditions.
+    solver : Solver
+        Which solver takes `K - s M`.
     """
 
     numbering: Numbering
@@ -50,6 +53,7 @@ class ReducedProblem:
     symmetric: bool
     elimination: Elimination
     multipliers: IntArray
+    solver: Solver = FIRST_FIT
 
     @property
     def size(self) -> int:
@@ -67,7 +71,10 @@ class ReducedProblem:
         """Places of the unknowns that stay, for solvers that go by them."""
         own = np.asarray(abs(self.T).argmax(axis=0)).ravel()
         points = self.numbering.table.coordinates[self.numbering.nodes[own]]
-        return Ordering(points, np.zeros(0, np.int64))
+        rigid = None
+        if self.solver.petsc is not None:  # it may have no memory for a factor
+            rigid = rigid_motions(self.numbering)[own]
+        return Ordering(points, np.zeros(0, np.int64), rigid)
 
     def restricted(self, kept: IntArray) -> ReducedProblem:
         """The problem with only the unknowns `kept` (k,), the others held at zero."""
@@ -86,7 +93,10 @@ class ReducedProblem:
 
 
 def reduced_problem(
-    stiffness: Matrix, mass: Matrix, damping: Matrix | None = None
+    stiffness: Matrix,
+    mass: Matrix,
+    damping: Matrix | None = None,
+    solver: Solver = FIRST_FIT,
 ) -> ReducedProblem:
     """Eliminate the conditions of all matrices (unilateral ones taken for equalities).
 
@@ -123,4 +133,5 @@ def reduced_problem(
         is_symmetric(stiffness) and is_symmetric(mass),
         elimination,
         rows.multipliers,
+        solver,
     )

@@ -193,7 +193,7 @@ class FollowingSolver(BulkSolver):
             size = float(np.abs(reduced.diagonal()).max(initial=0.0))
             reduced = sp.csr_array(reduced + shift * size * sp.eye_array(reduced.shape[0]))
         try:
-            factor = factorise(reduced, False)
+            factor = factorise(reduced, False, self.solver)
         except SingularFactorError:
             return None
         parts = []

@@ -48,9 +48,10 @@ class BulkSnapshot(Snapshot):
 
     @property
     def plastic_strains(self) -> CellField:
-        """Plastic strains of the bodies."""
+        """Plastic strains of the bodies and plastic jumps of the joints."""
         blocks = self.bulk.plastic_strains(self.bulk_state)
-        return CellField(tuple(blocks), "DEFORMATIONS INELASTIQUES")
+        joints = _blocks(super().plastic_strains)
+        return CellField((*blocks, *joints), "DEFORMATIONS INELASTIQUES")
 
 
 def _blocks(field: CellField | None) -> tuple[CellFieldBlock, ...]:

@@ -37,7 +37,7 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)
-    bar = ELEMENTS[zone.element].family == "bar"
+    bar = ELEMENTS[zone.element].family in ("bar", "hoop")
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [

@@ -2,6 +2,8 @@
 
 A backend factorises once and solves many times. `factorise` picks the first backend of
 `BACKENDS` that is installed and takes the matrix; whoever adds one writes a class and a line.
+PETSc, on as many machines as its command says, takes what a run hands to it by name, and what is
+too large for the others.
 """
 
 from __future__ import annotations
@@ -18,13 +20,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.factor import Factor, Ordering
+from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 from ssilang.kernel.solvers.multigrid import MultigridFactor
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
+PETSC = "PETSC"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
+DISTRIBUTED = 1_000_000  # unknowns from which several machines are used where a run has them
 
 
 class SuperLUFactor:
@@ -156,6 +160,13 @@ def dissection_pays(n: int) -> bool:
     return n >= DISSECTED and choose(n, True) != "PARDISO"
 
 
+def goes_to_petsc(solver: Solver, n: int) -> bool:
+    """Whether a system of n unknowns is PETSc's: by name, or by size where a run has a server."""
+    return solver.name == PETSC or (
+        solver.name is None and solver.petsc is not None and n >= DISTRIBUTED
+    )
+
+
 def choose(n: int, positive: bool) -> str:
     """Name of the backend for n unknowns."""
     return next(k for k, b in BACKENDS.items() if b.suits(n, positive) and b.installed)
@@ -186,14 +197,19 @@ def _content(A: sp.csr_array, name: str, positive: bool, ordering: Ordering | No
 
 
 def factorise(
-    A: sp.csr_array, positive: bool, backend: str | None = None, ordering: Ordering | None = None
+    A: sp.csr_array,
+    positive: bool,
+    solver: Solver | str | None = None,
+    ordering: Ordering | None = None,
 ) -> Factor:
     """Factorise A (n, n), symmetric positive if `positive` (else any).
 
     Parameters
     ----------
+    solver : Solver, str or None
+        The one asked for, by its name or with the server of PETSc that the run has.
     ordering : Ordering or None
-        Given for a positive matrix, and if no backend is asked for, it is factorised by nested
+        Given for a positive matrix, and if no solver is asked for, it is factorised by nested
         dissection.
 
     Raises
@@ -201,10 +217,13 @@ def factorise(
     SingularFactorError
         If a pivot is exactly zero, or not positive by nested dissection.
     KernelError
-        If the backend asked for is not installed.
+        If the solver asked for is not installed.
     """
-    dissected = ordering is not None and positive and backend in (None, DISSECTION)
-    name = DISSECTION if dissected else backend or choose(A.shape[0], positive)
+    asked = Solver.of(solver)
+    if goes_to_petsc(asked, A.shape[0]):
+        return _by_petsc(A, positive, asked, ordering)
+    dissected = ordering is not None and positive and asked.name in (None, DISSECTION)
+    name = DISSECTION if dissected else asked.name or choose(A.shape[0], positive)
     if not dissected and name not in BACKENDS:
         raise KernelError("kernel.solvers.no-solver-called", name=name, backends=BACKENDS)
     if not dissected and not BACKENDS[name].installed:
@@ -217,7 +236,7 @@ def factorise(
 
     def make() -> Factor:
         if dissected and ordering is not None:
-            return _dissected(A, ordering)
+            return _dissected(A, ordering, asked)
         if name == MULTIGRID and positive and ordering is not None:
             return MultigridFactor(A, True, ordering.rigid)
         return BACKENDS[name].make(A, positive)
@@ -233,7 +252,14 @@ def factorise(
     return _kept[key]
 
 
-def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
+def _by_petsc(A: sp.csr_array, positive: bool, asked: Solver, ordering: Ordering | None) -> Factor:
+    """A factor on the run's server, which ends with the run: no process keeps it."""
+    if asked.petsc is None:
+        raise KernelError("kernel.solvers.petsc-no-command")
+    return asked.petsc.factorise(A, positive, None if ordering is None else ordering.rigid)
+
+
+def _dissected(A: sp.csr_array, ordering: Ordering, asked: Solver) -> Factor:
     from ssilang.kernel.base.memory import available_bytes, gigabytes
     from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
     from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError, TooLargeError
@@ -244,6 +270,8 @@ def _dissected(A: sp.csr_array, ordering: Ordering) -> Factor:
         raise SingularFactorError(str(error)) from None
     except TooLargeError as error:
         needed = error.n_bytes
+    if asked.petsc is not None:
+        return _by_petsc(A, True, asked, ordering)
     if not BACKENDS[MULTIGRID].installed:
         raise KernelError(
             "kernel.solvers.factor-unknowns-takes-memory",

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.petsc.client import PetscServer
 
 
 class Factor(Protocol):
@@ -18,6 +21,31 @@ class Factor(Protocol):
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, same shape as b."""
         ...
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Which solver takes the systems of a calculation.
+
+    Attributes
+    ----------
+    name : str or None
+        The one asked for; None for the first that suits.
+    petsc : PetscServer or None
+        The run's server of PETSc, if it has one.
+    """
+
+    name: str | None = None
+    petsc: PetscServer | None = field(default=None, compare=False)
+
+    @classmethod
+    def of(cls, asked: Solver | str | None) -> Solver:
+        """The solver with a name, if only that is said."""
+        return asked if isinstance(asked, Solver) else cls(asked)
+
+
+FIRST_FIT = Solver()
+"""None is asked for."""
 
 
 @dataclass(frozen=True, eq=False)

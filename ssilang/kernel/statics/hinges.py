@@ -87,8 +87,7 @@ def _not_held(
     nodes = np.unique(np.concatenate(list(loose.values()))) if loose else found[:0]
     if not len(nodes):
         return None
-    first = tuple(name for name, at in loose.items() if nodes[0] in at)
-    return Hinge(nodes, first, bool(shell[nodes[0]]))
+    return Hinge(nodes, tuple(n for n, at in loose.items() if len(at)), bool(shell[nodes[0]]))
 
 
 def _dimension(block: ElementMatrices) -> int:

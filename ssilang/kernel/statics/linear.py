@@ -35,10 +35,10 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
-from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays
+from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays, goes_to_petsc
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
-from ssilang.kernel.solvers.factor import Ordering
+from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
     bodies_of,
@@ -65,15 +65,15 @@ class SolveOptions:
         True leaves out the loads that work on free motions instead of refusing them ('NOID').
     stabilise : bool
         True adds to the diagonal until the matrix is positive ('STAB').
-    backend : str or None
-        Name of the direct solver, None to choose.
+    solver : Solver
+        Which solver takes the system.
     """
 
     unilateral: bool = True
     eliminate: bool = True
     project: bool = False
     stabilise: bool = False
-    backend: str | None = None
+    solver: Solver = FIRST_FIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +112,11 @@ class LinearSystem:
     _flexibility: FloatArray | None = field(default=None, repr=False)
 
     # --- the reduced system, unknowns z = (masters, multipliers of the saddle rows)
+
+    @property
+    def lost(self) -> bool:
+        """Whether the factor went with the process that held it."""
+        return bool(getattr(self.inverse.factor, "lost", False))
 
     @property
     def n_masters(self) -> int:
@@ -244,7 +249,7 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
     key = f"linear:{options}"
     numbering = numbering_of(matrix)
     kept = matrix.cache.get(key)
-    if isinstance(kept, LinearSystem) and kept.numbering is numbering:
+    if isinstance(kept, LinearSystem) and kept.numbering is numbering and not kept.lost:
         return kept
     system = _prepare(matrix, numbering, options)
     matrix.cache[key] = system
@@ -267,16 +272,15 @@ def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> Lin
         reduced = stabilised(reduced, len(elimination.masters))
     order = None
     if symmetric and len(saddle) == 0:
-        order = _ordering(numbering, elimination, options.backend)
-    inverse = invert(reduced, symmetric, options.backend, order)
+        order = _ordering(numbering, elimination, options.solver)
+    inverse = invert(reduced, symmetric, options.solver, order)
     return LinearSystem(numbering, K, rows, elimination, saddle, contact, inverse)
 
 
-def _ordering(
-    numbering: Numbering, elimination: Elimination, backend: str | None
-) -> Ordering | None:
+def _ordering(numbering: Numbering, elimination: Elimination, solver: Solver) -> Ordering | None:
     """Places of the unknowns left, where a solver that goes by them is the best there is."""
-    if backend != MULTIGRID and not dissection_pays(len(elimination.masters)):
+    n = len(elimination.masters)
+    if solver.name != MULTIGRID and not goes_to_petsc(solver, n) and not dissection_pays(n):
         return None
     nodes = numbering.nodes[elimination.masters]
     rigid = rigid_motions(numbering)[elimination.masters]

@@ -1,7 +1,8 @@
 """Which loop a problem gets: a table of rules, the first that fits is taken.
 
 `python -m ssilang.kernel.stepping.choose` prints the table. What a loop needs besides (the step's
-system, the modes) is made once, when a rule asks for it.
+system, the modes) is made once, when a rule asks for it. A problem loads the loops that it may get:
+each brings compiled functions, a hundredth of a second or two.
 """
 
 from __future__ import annotations
@@ -9,28 +10,29 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
-from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.solvers.backends import PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
-from ssilang.kernel.stepping.rests.conserving import ConservingLoop
-from ssilang.kernel.stepping.rests.dense.still_supports import ReducedLoop, supports_are_still
-from ssilang.kernel.stepping.rests.dense.whole import DenseLoop
-from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
-from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
+from ssilang.kernel.stepping.track import View
 from ssilang.messages.message import Sentence
+
+if TYPE_CHECKING:
+    from ssilang.kernel.contact.modal import ContactLoop
+    from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
+    from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 
 
 class Loop(Protocol):
@@ -38,6 +40,10 @@ class Loop(Protocol):
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps between the rows of `factors` (n_steps + 1, k)."""
+        ...
+
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns of the problem follow from what the loop keeps of steps."""
         ...
 
 
@@ -74,12 +80,16 @@ class Case:
     def small(self) -> bool:
         """Whether dense matrices serve."""
         p = self.problem
-        return p.small and (p.numbering.size <= SMALL or supports_are_still(p))
+        return p.small and (p.numbering.size <= SMALL or _supports_are_still(p))
 
     @cached_property
     def modal(self) -> SmallLoop | None:
         """The loop on all modes of a small problem, if its damping is diagonal in them."""
-        modes = modes_of(self.problem, self.effective) if self.small else None
+        if not self.small:
+            return None
+        from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
+
+        modes = modes_of(self.problem, self.effective)
         if modes is None:
             return None
         return SmallLoop(self.problem, self.motion, self.effective, modes)
@@ -87,16 +97,30 @@ class Case:
     @cached_property
     def stops(self) -> ContactLoop | None:
         """The compiled loop of unilateral relations, if it can run the problem."""
+        if self.problem.contact is None:
+            return None
+        from ssilang.kernel.contact.modal import contact_loop, takes
+
         if not takes(self.problem):
             return None
         return contact_loop(self.problem, self.motion, self.effective, self.closed)
 
 
+def _supports_are_still(problem: Problem) -> bool:
+    from ssilang.kernel.stepping.rests.dense.still_supports import supports_are_still
+
+    return supports_are_still(problem)
+
+
 def _adaptive(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
+
     return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed)
 
 
 def _conserving(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.conserving import ConservingLoop
+
     return ConservingLoop(case.problem, case.motion, case.effective)
 
 
@@ -110,16 +134,20 @@ def _by(way: str) -> Callable[[Case], Loop]:
 
     def make(case: Case) -> Loop:
         assert case.modal is not None
-        return case.modal.using(getattr(case.modal, way))
+        return case.modal.using(way)
 
     return make
 
 
 def _still(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.dense.still_supports import ReducedLoop
+
     return ReducedLoop(case.problem, case.motion, case.effective)
 
 
 def _dense(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.dense.whole import DenseLoop
+
     return DenseLoop(case.problem, case.motion, case.effective)
 
 
@@ -167,6 +195,8 @@ class Rule:
         Whether a run without its energies costs much less.
     factorises : bool
         Whether the step's matrix is factorised at each iteration.
+    inside : bool
+        Whether the loop compares the largest values as it steps.
     """
 
     name: str
@@ -178,6 +208,7 @@ class Rule:
     renewable: bool = False
     light: bool = False
     factorises: bool = False
+    inside: bool = False
 
 
 RULES = (
@@ -187,21 +218,21 @@ RULES = (
         "kernel.stepping.loop-adaptive",
         lambda c: c.problem.scheme.adaptive
         and not (c.problem.interface is None and c.problem.contact is None),
-        _adaptive, renewable=True,
+        _adaptive, renewable=True, inside=True,
     ),
     Rule(
         "conserving", "conserving",
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        _conserving, renewable=True,
+        _conserving, renewable=True, inside=True,
     ),
     Rule(
         "full Newton", "full Newton",
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True,
+        _full_newton, renewable=True, factorises=True, inside=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -215,41 +246,41 @@ RULES = (
         "unilateral relations",
         "kernel.stepping.loop-relations",
         lambda c: c.problem.contact is not None,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
     Rule(
         "one mode", "compiled",
         "small, diagonal damping, one mode that moves and at most one joint that only opens",
         "kernel.stepping.loop-one-mode",
         lambda c: c.modal is not None and c.modal.active == 1,
-        _by("by_one_mode"), light=True,
+        _by("one_mode"), light=True,
     ),
     Rule(
         "one spring", "compiled",
         "small, diagonal damping, a few modes and at most one joint that only opens",
         "kernel.stepping.loop-one-spring",
         lambda c: c.modal is not None and c.modal.active > 1,
-        _by("by_one_spring"), light=True,
+        _by("one_spring"), light=True,
     ),
     Rule(
         "springs", "compiled",
         "small, diagonal damping, joints that only push",
         "kernel.stepping.loop-springs",
         lambda c: c.modal is not None and c.modal.springs is not None,
-        _by("by_springs"),
+        _by("springs"),
     ),
     Rule(
         "modes", "compiled",
         "small, diagonal damping, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
-        _by("by_modes"),
+        _by("modes"),
     ),
     Rule(
         "still supports", "compiled",
         "small, supports at rest",
         "kernel.stepping.loop-still-supports",
-        lambda c: c.small and supports_are_still(c.problem),
+        lambda c: c.small and _supports_are_still(c.problem),
         _still,
     ),
     Rule(
@@ -257,21 +288,21 @@ RULES = (
         "small",
         "kernel.stepping.loop-dense",
         lambda c: c.small,
-        _dense,
+        _dense, inside=True,
     ),
     Rule(
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
         lambda c: fits(c.problem, c.effective),
-        _interleaved,
+        _interleaved, inside=True,
     ),
     Rule(
         "condensed", "condensed",
         "all others",
         "kernel.stepping.loop-condensed",
         lambda c: True,
-        _condensed, renewable=True,
+        _condensed, renewable=True, inside=True,
     ),
 )  # fmt: skip
 
@@ -306,11 +337,16 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     """The loop of a case; see `rule_of`."""
     rule = rule_of(case, renewable)
     loop = rule.make(case)
-    if isinstance(loop, AdaptiveLoop):
-        solver = loop.solver
+    if rule.make is _adaptive:
+        solver = cast("AdaptiveLoop", loop).solver
     else:
-        solver = "SuperLU" if rule.factorises else case.effective.inverse.factor.name
+        solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name
     return Choice(rule, loop, solver)
+
+
+def _each_time(problem: Problem) -> str:
+    """The solver of a loop that factorises at each iteration."""
+    return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
 def only(name: str) -> tuple[Rule, ...]:

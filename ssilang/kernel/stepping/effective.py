@@ -21,7 +21,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import Ordering
-from ssilang.kernel.statics.linear_motion import singular
+from ssilang.kernel.statics.linear_motion import rigid_motions, singular
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
@@ -106,11 +106,11 @@ def effective_of(
     R = np.zeros((q, q))
     right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
     order = _ordering(problem, right)
-    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
+    inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and joints is not None:
         R = share * joints.closed_stiffness()
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
-        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, ordering=order)
+        inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and not (free and joints is None):
         motions = T @ inverse.kernel
         raise singular("kernel.stepping.motions-without-mass", problem.numbering, motions)
@@ -144,7 +144,10 @@ def _ordering(problem: Problem, right: sp.csc_array) -> Ordering | None:
     T = problem.constraints.T
     own = np.asarray(abs(T).argmax(axis=0)).ravel()
     points = problem.numbering.table.coordinates[problem.numbering.nodes[own]]
-    return Ordering(points, np.unique(right.indices).astype(np.int64))
+    rigid = None
+    if problem.solver.petsc is not None:  # it may have no memory for a factor
+        rigid = rigid_motions(problem.numbering)[own]
+    return Ordering(points, np.unique(right.indices).astype(np.int64), rigid)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,13 +5,15 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.stepping.choose import Case, Choice, choose, method_of, refuse_combinations
 from ssilang.kernel.stepping.driven import Drive, Driver
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
@@ -22,15 +24,18 @@ from ssilang.kernel.stepping.problem.initial import (
     with_contact,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
-from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
+from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
+from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
+
 CHUNK_VALUES = 4_000_000  # saved values held at once
+LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
-LONGEST_CHUNK = 1 << 16  # steps of a chunk at most: its arrays stay in the second cache
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -112,6 +117,8 @@ class Integration:
     driver: Driver | None = None
     light: bool = True
     motion: Motion = field(init=False)
+    taps: Taps = field(init=False)
+    wanted: BoolArray = field(init=False)
 
     def __post_init__(self) -> None:
         p, self._drive = self.problem, None
@@ -151,27 +158,50 @@ class Integration:
         times, started = self.problem.times, time.perf_counter()
         history = History(times, np.zeros((len(times), N_ENERGIES)))
         history.kept[0] = self.motion.energies
-        wanted = np.zeros(len(times), bool)
-        for observer in self.observers:
-            wanted |= observer.wanted
         try:
-            if wanted[0]:
-                self.hand_over(snapshot_of(self.problem, self.motion, 0))
-            self._run(history, wanted)
+            inside = self._drive is None and self._choice(times[1] - times[0]).rule.inside
+            self.prepare(inside)
+            self.begin()
+            self._run(history)
         finally:
             for observer in self.observers:
                 observer.close()
         history.seconds = time.perf_counter() - started
         return history
 
-    def _run(self, history: History, wanted: np.ndarray) -> None:
+    def prepare(self, inside: bool) -> None:
+        """See what observers want; `inside`: the loop compares the largest values itself."""
+        extremes = [o for o in self.observers if isinstance(o, Extremes)]
+        for one in extremes:
+            one.settle(inside)
+        tracks = [o for o in self.observers if isinstance(o, Track)]
+        whole = [o for o in self.observers if not isinstance(o, Track)]
+        if self._drive is not None:  # what it adds differs from step to step
+            tracks, whole = [], list(self.observers)
+        times = self.problem.times
+        self.taps, self._whole = Taps(tracks, len(times)), whole
+        for one in extremes:
+            self.taps.peaks = one.peaks if inside else self.taps.peaks
+        self.wanted = np.zeros(len(times), bool)
+        for observer in whole:
+            self.wanted |= observer.wanted
+
+    def begin(self) -> None:
+        """Hand over the initial instant."""
+        if self.wanted[0] or self.taps.wanted[0]:
+            snapshot = snapshot_of(self.problem, self.motion, 0)
+            for observer in self.observers:
+                if observer.wanted[0]:
+                    observer.receive(snapshot)
+
+    def _run(self, history: History) -> None:
         times, done = self.problem.times, 0
         longest = 4096 if self.problem.small else 64
         while done < len(times) - 1:
             run = next(runs_of(times[done : done + longest + 1], longest))
             before = time.perf_counter()
             run = Run(done + run.first, done + run.last, run.dt)
-            self._steps(run, history, wanted)
+            self._steps(run, history)
             spent = time.perf_counter() - before
             done = run.last
             if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
@@ -182,10 +212,10 @@ class Integration:
             if self.progress is not None:
                 self.progress(done, len(times) - 1)
 
-    def _steps(self, run: Run, history: History, wanted: np.ndarray) -> None:
+    def _steps(self, run: Run, history: History) -> None:
         first = run.first
         while first < run.last:
-            last = self._within_memory(first, run.last, wanted)
+            last = self._within_memory(first, run.last)
             factors = self.problem.loading.at(history.times[first : last + 1])
             if self._drive is None:
                 choice = self._choice(run.dt)
@@ -197,8 +227,16 @@ class Integration:
             energies = history.kept[first + 1 : last + 1]
             if self.light and choice.rule.light:
                 energies, history.again = energies[:0], self._energies
-            row = rows_of(wanted[first + 1 : last + 1])
-            recorder = recorder_of(self.motion, row, energies, balance=self._balance)
+            row, tapped = (
+                rows_of(x[first + 1 : last + 1]) for x in (self.wanted, self.taps.wanted)
+            )
+            view = choice.loop.view(self.taps.unknowns)
+            tap = view.tap(tapped, self.taps.room)
+            peaks = self.taps.peaks
+            peaks.first[0] = first
+            recorder = recorder_of(
+                self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
+            )
             done, turns, residual = choice.loop.run(factors, recorder)
             history.worst = float(self._balance[1])
             history.seen = max(history.seen, float(np.abs(self.motion.energies).max(initial=0.0)))
@@ -207,6 +245,10 @@ class Integration:
             problem = self.problem if self._drive is None else self._drive.problem
             for k in np.flatnonzero(row[:done] >= 0).tolist():
                 self.hand_over(kept_instant(problem, recorder, int(row[k]), first + 1 + k))
+            unknowns = self.taps.unknowns
+            rows = rows_of_tap(problem, unknowns, view, tap, factors, first, done)
+            if rows is not None:
+                self.taps.give(rows)
             if done < last - first:
                 raise self.diverged(first + done + 1, turns, residual)
             first = last
@@ -215,14 +257,14 @@ class Integration:
         """Energies at all times, by stepping again."""
         return Integration(self.problem, light=False).run().kept
 
-    def _within_memory(self, first: int, last: int, wanted: np.ndarray) -> int:
+    def _within_memory(self, first: int, last: int) -> int:
         if self._drive is not None:
             return first + 1
-        room = max(CHUNK_VALUES // max(4 * len(self.motion.u), 1), 1)
-        if last - first <= room:
-            return last
-        saved = np.flatnonzero(wanted[first + 1 : last + 1])
-        return last if len(saved) <= room else first + max(int(saved[room]), 1)
+        n, tapped = len(self.motion.u), len(self.taps.unknowns)
+        last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
+        most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
+        values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
+        return within(self.taps.wanted, values // (3 * most), first, last)
 
     def _choice(self, dt: float) -> Choice:
         dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)
@@ -235,7 +277,8 @@ class Integration:
         return found
 
     def hand_over(self, snapshot: Snapshot) -> None:
-        for observer in self.observers:
+        """Hand an instant to those that want whole ones."""
+        for observer in self._whole:
             if observer.wanted[snapshot.step]:
                 observer.receive(snapshot)
 
@@ -263,6 +306,15 @@ class Integration:
         )
 
 
+def within(wanted: BoolArray, room: int, first: int, last: int) -> int:
+    """The step up to which there is room for those that are wanted after `first`."""
+    room = max(room, 1)
+    if last - first <= room:
+        return last
+    saved = np.flatnonzero(wanted[first + 1 : last + 1])
+    return last if len(saved) <= room else first + max(int(saved[room]), 1)
+
+
 def integrate(
     problem: Problem,
     observers: Sequence[Observer] = (),
@@ -275,7 +327,7 @@ def integrate(
     Parameters
     ----------
     observers : sequence of Observer
-        Each receives the instants it wants.
+        Each receives the instants it wants; a `Track` takes rows.
     full_newton : bool
         Refactorise at each iteration instead of condensing the interface (comparison).
     driver : callable, optional

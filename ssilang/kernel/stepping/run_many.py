@@ -10,12 +10,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from operator import attrgetter
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.stepping.choose import Case, method_of, rule_of
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -23,9 +24,10 @@ from ssilang.kernel.stepping.problem.sharing import grouped
 from ssilang.kernel.stepping.rests.modal.batch import springs_batch
 from ssilang.kernel.stepping.rests.sparse.interleaved_batch import interleaved_batch
 from ssilang.kernel.stepping.run import CHUNK_SECONDS, CHUNK_VALUES, History, Integration, Progress
-from ssilang.kernel.stepping.snapshot import Instants, Observer, Snapshot, snapshot_of
-from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, rows_of
+from ssilang.kernel.stepping.snapshot import Instants, Observer
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Tap, rows_of
 from ssilang.kernel.stepping.times import SAME, runs_of
+from ssilang.kernel.stepping.track import View, rows_of_tap
 from ssilang.messages.message import Sentence
 
 
@@ -37,9 +39,16 @@ class Engine(Protocol):
 
     def run(
         self, factors: list[FloatArray], rows: list[IntArray], history: list[FloatArray],
-        times: FloatArray,
+        times: FloatArray, taps: list[Tap],
     ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
-        """Steps of each problem: load factors, rows of kept steps, energies; kept instants."""
+        """Steps of each problem: load factors, rows of kept steps, energies; kept instants.
+
+        The taps, of one length, take rows of their own.
+        """
+        ...
+
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns of the problems follow from what is tapped."""
         ...
 
 
@@ -49,7 +58,6 @@ class Lane:
 
     integration: Integration
     history: History
-    wanted: NDArray[np.bool_]
     problem_found: Exception | None = None
 
     @property
@@ -125,10 +133,7 @@ def _lane(integration: Integration) -> Lane:
     times = integration.problem.times
     history = History(times, np.zeros((len(times), N_ENERGIES)))
     history.kept[0] = integration.motion.energies
-    wanted = np.zeros(len(times), bool)
-    for observer in integration.observers:
-        wanted |= observer.wanted
-    return Lane(integration, history, wanted)
+    return Lane(integration, history)
 
 
 def _run(lanes: list[Lane]) -> None:
@@ -139,9 +144,8 @@ def _run(lanes: list[Lane]) -> None:
             _alone(lane)
         return
     for lane in lanes:
-        if lane.wanted[0]:
-            i = lane.integration
-            _give(lane, snapshot_of(i.problem, i.motion, 0))
+        lane.integration.prepare(inside=False)
+        _guarded(lane, lane.integration.begin)
     _run_group(group)
     for lane in lanes:
         lane.history.seconds = (time.perf_counter() - started) / len(lanes)
@@ -188,11 +192,21 @@ def _run_group(group: Group) -> None:
 
 
 def _within_memory(group: Group, first: int, last: int) -> int:
-    n = len(group.lanes[0].integration.motion.u)
-    room = max(CHUNK_VALUES // max(4 * n * len(group.lanes), 1), 1)
-    counts = np.cumsum(np.sum([lane.wanted[first + 1 : last + 1] for lane in group.lanes], axis=0))
-    over = np.flatnonzero(counts > room * len(group.lanes))
-    return last if len(over) == 0 else first + max(int(over[0]), 1)
+    one, count = group.lanes[0].integration, len(group.lanes)
+    n, tapped = len(one.motion.u), len(_tapped(group))
+    most = max(n if one.problem.small else tapped, 1)
+    for wanted, values in (("wanted", 4 * n), ("taps.wanted", 3 * most)):
+        room = max(CHUNK_VALUES // max(values * count, 1), 1)
+        asked = [attrgetter(wanted)(lane.integration) for lane in group.lanes]
+        counts = np.cumsum(np.sum([x[first + 1 : last + 1] for x in asked], axis=0))
+        over = np.flatnonzero(counts > room * count)
+        last = last if len(over) == 0 else first + max(int(over[0]), 1)
+    return last
+
+
+def _tapped(group: Group) -> IntArray:
+    """Unknowns that any lane's tracks ask for."""
+    return np.unique(np.concatenate([lane.integration.taps.unknowns for lane in group.lanes]))
 
 
 def _steps(group: Group, dt: float, first: int, last: int) -> None:
@@ -200,31 +214,50 @@ def _steps(group: Group, dt: float, first: int, last: int) -> None:
     assert engine is not None
     factors, rows, history = [], [], []
     times = group.lanes[0].integration.problem.times
+    unknowns = _tapped(group)
+    view = engine.view(unknowns)
+    asked = [lane.integration.taps.wanted[first + 1 : last + 1] for lane in group.lanes]
+    taps = _taps(view, asked)
     for lane in group.lanes:
         lane.history.solver, lane.history.loop = engine.solver, engine.name
         lane.history.method = group.method
         factors.append(lane.integration.problem.loading.at(times[first : last + 1]))
-        rows.append(rows_of(lane.wanted[first + 1 : last + 1]))
+        rows.append(rows_of(lane.integration.wanted[first + 1 : last + 1]))
         history.append(lane.history.kept[first + 1 : last + 1])
-    outcomes, instants = engine.run(factors, rows, history, times)
-    for lane, (done, turns, residual), instant in zip(group.lanes, outcomes, instants, strict=True):
+    outcomes, instants = engine.run(factors, rows, history, times, taps)
+    for lane, (done, turns, residual), instant, tap, given in zip(
+        group.lanes, outcomes, instants, taps, factors, strict=True
+    ):
         if not lane.alive:
             continue
+        i = lane.integration
         lane.history.iterations = max(lane.history.iterations, turns)
-        steps = first + 1 + np.flatnonzero(lane.wanted[first + 1 : first + 1 + done])
+        steps = first + 1 + np.flatnonzero(i.wanted[first + 1 : first + 1 + done])
         for row, step in enumerate(steps):
-            _give(lane, instant(row, int(step)))
+            _guarded(lane, partial(i.hand_over, instant(row, int(step))))
+        rows_seen = rows_of_tap(i.problem, unknowns, view, tap, given, first, done)
+        if rows_seen is not None:
+            _guarded(lane, partial(i.taps.give, rows_seen))
         if lane.alive and done < last - first:
-            i = lane.integration
             lane.problem_found = i.diverged(first + done + 1, turns, residual)
 
 
-def _give(lane: Lane, snapshot: Snapshot) -> None:
-    """Hand an instant to the lane's observers, if they took all before."""
+def _taps(view: View, asked: Sequence[BoolArray]) -> list[Tap]:
+    """Taps of all lanes, with as many rows as the fullest."""
+    found = [view.tap(rows_of(x)) for x in asked]
+    fullest = max(found, key=lambda tap: len(tap.u))
+    parts = {name: getattr(fullest, name) for name in view.shapes}
+    return [
+        tap._replace(**{name: np.zeros_like(part) for name, part in parts.items()}) for tap in found
+    ]
+
+
+def _guarded(lane: Lane, action: Callable[[], None]) -> None:
+    """What hands something to the lane's observers, if they took all before."""
     if lane.problem_found is not None:
         return
     try:
-        lane.integration.hand_over(snapshot)
+        action()
     except Exception as problem:
         lane.problem_found = problem
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.interface import interface_field, state_field
+from ssilang.kernel.interface.interface import interface_field, plastic_jumps, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import Motion, Recorder
@@ -101,6 +101,14 @@ class Snapshot:
         """Tractions at the joints' points, None without joints."""
         joints = self.problem.interface
         return None if joints is None else interface_field(joints, self.t, "traction")
+
+    @property
+    def plastic_strains(self) -> CellField | None:
+        """Plastic jumps of the joints, None without joints."""
+        joints = self.problem.interface
+        if joints is None:
+            return None
+        return interface_field(joints, plastic_jumps(joints, self.w, self.t), "plastic jump")
 
     @property
     def variables(self) -> CellField | None:

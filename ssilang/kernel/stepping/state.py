@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -33,6 +34,38 @@ class Motion(NamedTuple):
     contact: FloatArray  # (m,) reactions of unilateral relations
 
 
+class Tap(NamedTuple):
+    """Rows of some steps that hold few entries of the fields, and the joints.
+
+    `row` (n_steps,) is the row of each step, -1 for none; parts without rows are not kept.
+    """
+
+    row: IntArray
+    at: IntArray  # (c,) entries of u, v, a and reaction
+    u: FloatArray  # (n_rows, c)
+    v: FloatArray
+    a: FloatArray
+    reaction: FloatArray
+    f: FloatArray  # (n_rows, q)
+    w: FloatArray  # (n_rows, n_points, d)
+    t: FloatArray
+    state: FloatArray
+    contact: FloatArray  # (n_rows, m)
+
+
+class Peaks(NamedTuple):
+    """Values that are largest without their sign, over all steps so far, and their steps.
+
+    Arrays without entries are not kept.
+    """
+
+    first: FloatArray  # (1,) step that ended before the first of those under way
+    u: FloatArray  # (n,) displacement, with its sign
+    when: FloatArray  # (n,)
+    joints: FloatArray  # (3, n_points) opening, compression (negative), shear
+    joints_when: FloatArray  # (3, n_points)
+
+
 class Recorder(NamedTuple):
     """What some steps leave: a row of the state for steps that are kept, numbers for all.
 
@@ -53,6 +86,8 @@ class Recorder(NamedTuple):
     jumps: FloatArray  # (n_steps, n_points, d) of all steps, or none
     work: FloatArray  # (2, n_steps, k) of loads, of the joints on `lift` (k = 0: none)
     balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
+    tap: Tap
+    peaks: Peaks
 
 
 class Ends(NamedTuple):
@@ -81,13 +116,88 @@ def recorder_of(
         "jumps": np.zeros((0, *motion.w.shape)),
         "work": np.zeros((2, len(row), 0)),
         "balance": np.zeros(2),
+        "tap": closed_tap(len(row)),
+        "peaks": peaks_of(0, 0),
     }
     return Recorder(row, energies, **(parts | more))
 
 
+class Room:
+    """Memory for rows of taps that follow each other, taken in pieces that the system maps fast.
+
+    Parameters
+    ----------
+    rows : int
+        How many there will be in all.
+    """
+
+    def __init__(self, rows: int) -> None:
+        self._left = rows
+        self._free: dict[str, FloatArray] = {}
+
+    def take(self, name: str, rows: int, shape: tuple[int, ...]) -> FloatArray:
+        """Rows of a part, not set."""
+        free = self._free.get(name)
+        if free is None or len(free) < rows or free.shape[1:] != shape:
+            most = PIECE // max(8 * math.prod(shape), 1)
+            free = np.empty((max(rows, min(self._left, most)), *shape))
+        self._free[name] = free[rows:]
+        return free[:rows]
+
+    def tap(self, row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
+        """Room for the rows, numbered without gaps; `shapes` of the parts that are kept."""
+        rows = int(row.max(initial=-1)) + 1
+        parts = {
+            name: self.take(name, rows, shapes[name]) if name in shapes else np.empty(NO_ROWS[name])
+            for name in PARTS
+        }
+        self._left -= rows
+        return Tap(row, at, **parts)
+
+
+PIECE = 1 << 24
+"""Bytes of a piece of memory: above 4 MB numpy asks for large pages, which are mapped faster."""
+NO_ROWS = dict.fromkeys(PARTS, (0, 0)) | dict.fromkeys(("w", "t", "state"), (0, 0, 0))
+
+
+def tap_of(row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
+    """Room for the rows of steps alone."""
+    return Room(0).tap(row, at, shapes)
+
+
+def closed_tap(n_steps: int) -> Tap:
+    """A tap that takes nothing of some steps."""
+    return tap_of(none_kept(n_steps), np.zeros(0, np.int64), {})
+
+
+def peaks_of(n: int, n_points: int) -> Peaks:
+    """No motion yet of n displacements and of joints; 0 keeps nothing."""
+    joints = np.zeros((3, n_points))
+    return Peaks(np.zeros(1), np.zeros(n), np.zeros(n), joints, joints.copy())
+
+
+LONGEST_CHUNK = 1 << 16  # steps at a time at most: their arrays stay in the second cache
+NONE_KEPT, ALL_KEPT = np.full(LONGEST_CHUNK, -1, np.int64), np.arange(LONGEST_CHUNK)
+"""Rows of steps none or all of which are kept, never written: memory that is new costs more than
+steps."""
+
+
+def none_kept(n_steps: int) -> IntArray:
+    """Rows (n_steps,) of steps none of which is kept; not to be written."""
+    return NONE_KEPT[:n_steps] if n_steps <= LONGEST_CHUNK else np.full(n_steps, -1, np.int64)
+
+
 def rows_of(chosen: np.ndarray) -> IntArray:
-    """Row of each step (n_steps,) when the chosen ones are kept, -1 for the others."""
-    found, places = np.full(len(chosen), -1, np.int64), np.flatnonzero(chosen)
+    """Row of each step (n_steps,) when the chosen ones are kept, -1 for the others.
+
+    The rows are not to be written.
+    """
+    if chosen.all():
+        return ALL_KEPT[: len(chosen)] if len(chosen) <= LONGEST_CHUNK else np.arange(len(chosen))
+    found, places = none_kept(len(chosen)), np.flatnonzero(chosen)
+    if not len(places):
+        return found
+    found = found.copy()
     found[places] = np.arange(len(places))
     return found
 
@@ -111,4 +221,6 @@ def stacked(parts: Sequence[Any]) -> Any:
 
 def part_of(record: Any, j: int) -> Any:
     """The record of one of several motions."""
-    return type(record)(*(array[j] for array in record))
+    if isinstance(record, tuple):
+        return type(record)(*(part_of(fields, j) for fields in record))
+    return record[j]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_inline
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.stepping import newmark
-from ssilang.kernel.stepping.state import Motion, Recorder
+from ssilang.kernel.stepping.state import Motion, Peaks, Recorder, Tap
 
 advance = compiled_inline(newmark.advanced)
 from_past = compiled_inline(newmark.from_past)
@@ -34,6 +36,52 @@ def keep(x: Motion, to: Recorder, row: int) -> None:
         copy_state(x.contact, to.contact[row])
 
 
+@apart
+@compiled
+def tap(x: Motion, to: Tap, row: int) -> None:
+    """The entries of the present state that are tapped into a row."""
+    for i in range(len(to.at)):
+        j = to.at[i]
+        to.u[row, i], to.v[row, i], to.a[row, i] = x.u[j], x.v[j], x.a[j]
+    if len(to.reaction):
+        for i in range(len(to.at)):
+            to.reaction[row, i] = x.reaction[to.at[i]]
+    if len(to.f):
+        copy_state(x.f, to.f[row])
+    if len(to.w):
+        copy_rows(x.w, to.w[row])
+    if len(to.t):
+        copy_rows(x.t, to.t[row])
+    if len(to.state):
+        copy_rows(x.state, to.state[row])
+    if len(to.contact):
+        copy_state(x.contact, to.contact[row])
+
+
+@apart
+@compiled_fast
+def watch(x: Motion, to: Peaks, k: int) -> None:
+    """What is larger at the end of step k than ever before."""
+    step = to.first[0] + k + 1.0
+    for i in range(len(to.u)):
+        larger = abs(x.u[i]) > abs(to.u[i])
+        to.u[i] = x.u[i] if larger else to.u[i]
+        to.when[i] = step if larger else to.when[i]
+    for i in range(to.joints.shape[1]):
+        last, shear = x.t.shape[1] - 1, 0.0
+        for j in range(last):
+            shear += x.t[i, j] * x.t[i, j]
+        _watch_one(to, 0, i, x.w[i, last], step)
+        _watch_one(to, 1, i, -x.t[i, last], step)
+        _watch_one(to, 2, i, math.sqrt(shear), step)
+
+
+@compiled_fast
+def _watch_one(to: Peaks, kind: int, i: int, value: float, step: float) -> None:
+    if value > to.joints[kind, i]:
+        to.joints[kind, i], to.joints_when[kind, i] = value, step
+
+
 @compiled
 def motion_at(x: Motion, j: int) -> Motion:
     """One of several motions, that lie in the first direction of each array."""
@@ -48,5 +96,21 @@ def recorder_at(x: Recorder, j: int) -> Recorder:
     """What is kept of one of several motions."""
     return Recorder(
         x.row[j], x.energies[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
-        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j],
+        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j], tap_at(x.tap, j),
+        peaks_at(x.peaks, j),
+    )  # fmt: skip
+
+
+@compiled
+def peaks_at(x: Peaks, j: int) -> Peaks:
+    """The largest values of one of several motions."""
+    return Peaks(x.first[j], x.u[j], x.when[j], x.joints[j], x.joints_when[j])
+
+
+@compiled
+def tap_at(x: Tap, j: int) -> Tap:
+    """The tap of one of several motions."""
+    return Tap(
+        x.row[j], x.at[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
+        x.state[j], x.contact[j],
     )  # fmt: skip

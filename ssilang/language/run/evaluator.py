@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ssilang.language.run.call import Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
-from ssilang.language.run.phrase_errors import no_result, tell_held_word
+from ssilang.language.run.phrase_errors import no_result, tell_held_word, tell_line_begun
 from ssilang.language.run.phrases import PhraseRunner
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -236,10 +238,15 @@ class Evaluator(PhraseRunner):
         SsiError
             'no-such-loop' for a QUIT or ITER that names nothing open, besides what nodes raise.
         """
+        self._overflowed = False
         try:
-            self.guarded(lambda: self._run_all(nodes), self.current_span, "")
+            with np.errstate(over="call", call=self._note_overflow):
+                self.guarded(lambda: self._run_all(nodes), self.current_span, "")
         except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
             raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
+
+    def _note_overflow(self, kind: str, flags: int) -> None:
+        self._overflowed = True
 
     def _run_all(self, nodes: Sequence[tree.Node]) -> None:
         try:
@@ -278,6 +285,7 @@ class Evaluator(PhraseRunner):
                 error = no_result(statement.targets, target, len(targets), wanted)
                 if self._silent is not None:
                     tell_held_word(error, self._silent)
+                    tell_line_begun(error, self._silent)
                 raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)

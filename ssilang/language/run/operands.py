@@ -73,7 +73,7 @@ class OperandReader(ABC):
         if value is None:
             value = self.session.library.find(item.text)
             if value is None:
-                return [Operand(Mot(item.text), item.span)]
+                return [Operand(Mot(item.word), item.span)]
         return [Operand(value, item.span, item.text)]
 
     def _paren(self, item: tree.Paren) -> list[Operand]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.call import Operand
 from ssilang.language.run.scopes import PREDEFINED
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -20,7 +20,7 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
         error.data.setdefault("held_word", (str(operand.value), written))
 
 
-def tell_line_begun(error: SsiError, operand: Operand, call: Call) -> None:
+def tell_line_begun(error: SsiError, operand: Operand) -> None:
     """Add that the operator begins a line if what stands on the lines before it is in its way."""
     span, wrong = operand.span, error.span
     if error.code not in _IN_THE_WAY or wrong is None or wrong.source is not span.source:
@@ -33,7 +33,7 @@ def tell_line_begun(error: SsiError, operand: Operand, call: Call) -> None:
         error.data.setdefault("begins_line", (span.text.strip("'"), line, first))
 
 
-_IN_THE_WAY = frozenset({"wrong-argument", "excess"})
+_IN_THE_WAY = frozenset({"wrong-argument", "excess", "no-result"})
 
 
 def unended(targets: Sequence[tree.Item]) -> Span | None:

@@ -35,6 +35,7 @@ class PhraseRunner(OperandReader):
         super().__init__(session)
         self.current_span: Span | None = None
         self._silent: Operand | None = None  # the word of an operator that gave nothing
+        self._overflowed = False  # an array operation had a result past all reals
 
     @abstractmethod
     def run(self, nodes: Sequence[tree.Node]) -> None:
@@ -113,12 +114,15 @@ class PhraseRunner(OperandReader):
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)
         except SsiError as error:
             tell_held_word(error, operand)
-            tell_line_begun(error, operand, call)
+            tell_line_begun(error, operand)
             if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
                 told = {"operator": found.full_name, "operand": cause.span.text[:40]}
                 raise SsiError("operand-not-finite", cause.span, **told) from error
             raise
         span = operand.span
+        if self._overflowed:
+            self._overflowed = False
+            self._refuse_overflow(call, results, found.full_name)
         self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
@@ -157,6 +161,19 @@ class PhraseRunner(OperandReader):
         if self.session.was_interrupted():
             raise KeyboardInterrupt
         return result
+
+    def _refuse_overflow(self, call: Call, results: Any, name: str) -> None:
+        """Refuse results with infinite numbers made of finite ones.
+
+        Raises
+        ------
+        SsiError
+            'number-too-large'.
+        """
+        made = results if isinstance(results, tuple) else (results,)
+        infinite = any(self.session.flaw_of(r) == "entry-not-finite" for r in made)
+        if infinite and self._not_finite(call.used) is None:
+            raise SsiError("number-too-large", call.span, operator=name)
 
     def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
         """The first operand that holds NaN or an infinite number: what an operator failed over."""

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any
 
 from ssilang.language.registry import By, Form, Like
-from ssilang.language.values import known_classes, type_of
+from ssilang.language.values import type_of, words_of_classes
 
 Results = tuple[str, ...]
 """A result each: a type word, 'A|B' for one or the other, `ANY` where only the run can tell."""
@@ -70,6 +70,4 @@ def _words(note: str) -> tuple[str, ...] | None:
     return tuple(dict.fromkeys(found))
 
 
-@cache
-def _type_words() -> Mapping[str, str]:
-    return {cls.__name__: word for cls, word in known_classes().items()}
+_type_words = cache(words_of_classes)

@@ -122,6 +122,7 @@ class Session:
     checks: list[Check] = field(default_factory=list)
     statistics: dict[str, Any] = field(default_factory=dict)
     integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
+    away: Callable[[], float] = lambda: 0.0  # seconds left to other runs of the process
     given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
     calls: dict[str, int] = field(

@@ -97,6 +97,17 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     return text, "\n".join(h for h in (*before, hint) if h)
 
 
+def suggestion(error: SsiError, names: Iterable[str] = ()) -> str:
+    """The word that is meant in place of the one where the error is, '' if none is near."""
+    made = {**error.data, **(_derived(error, "en", names) if "." not in error.code else {})}
+    near = made.get("near") or made.get("like") or ""
+    for part in ("near_hint", "known_hint", "bare_hint"):
+        hint = made.get(part)
+        if not near and isinstance(hint, Sentence):
+            near = hint.data.get("near", "")
+    return str(near).strip("'")
+
+
 def _held_hint(data: dict[str, Any], language: str) -> str:
     """Says that an operator ran because the value of a name or an entry is its name."""
     if "held_word" not in data:

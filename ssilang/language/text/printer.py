@@ -121,7 +121,7 @@ def _attribute(item: tree.Attribute) -> str:
 
 _ITEMS: dict[type, Callable[[Any], str]] = {
     tree.Number: _number,
-    tree.Name: lambda item: item.text,
+    tree.Name: lambda item: item.word,
     tree.Quoted: lambda item: _quoted(item.text),
     tree.Symbol: lambda item: item.text,
     tree.Paren: lambda item: f"({print_items(item.items)})",

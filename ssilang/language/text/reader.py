@@ -9,7 +9,7 @@ same tree for every deck.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
 from ssilang.language.say.errors import SsiError
@@ -215,3 +215,37 @@ class Reader:
         if rest is None or rest.end() < len(text):
             raise Unsound
         return assembly.statements
+
+    def tokens(self, text: str) -> Iterator[tuple[str, int, int]]:
+        """Kind, start and end of each token, in a text that may be unsound.
+
+        Characters that begin no token are passed over; a quote that nothing closes, or nothing
+        before the end of a statement and of its line, opens a string up to the end of the line.
+        """
+        at = 0
+        while at < len(text):
+            m = self._token.match(text, at)
+            if m is None:
+                blank = self._blank.match(text, at)
+                start = blank.end() if blank is not None else at
+                if start >= len(text):
+                    return
+                at = _line_end(text, start) if text[start] == "'" else start + 1
+                if text[start] == "'":
+                    yield "STRING", start, at
+                continue
+            group = m.lastindex or 1
+            start, at = m.span(group)
+            kind = self._kinds[group - 1]
+            if kind == "STRING" and _RUNS_AWAY.search(m[group]):
+                at = _line_end(text, start)
+            yield kind, start, at
+
+
+_RUNS_AWAY = re.compile(r";[^\S\n]*\n")
+"""The end of a statement and of a line, inside of a string."""
+
+
+def _line_end(text: str, start: int) -> int:
+    end = text.find("\n", start)
+    return len(text) if end < 0 else end

@@ -46,6 +46,13 @@ class Source:
         line = bisect_right(self._line_starts, offset)
         return line, offset - self._line_starts[line - 1] + 1
 
+    def offset(self, line: int, column: int) -> int:
+        """Offset of a 1-based line and column; beyond the ends, the end of the text or line."""
+        if line > len(self._line_starts):
+            return len(self.text)
+        start = self._line_starts[line - 1]
+        return min(start + column - 1, start + len(self.line(line)))
+
     def line(self, number: int) -> str:
         """Text of a 1-based line, without its end."""
         start = self._line_starts[number - 1]

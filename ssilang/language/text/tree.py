@@ -17,11 +17,16 @@ class Number:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Name:
-    """A bare word, upper case in `text`; `spelling` as written."""
+    """A bare word, upper case in `text`, cut to what a name keeps; `spelling` as written."""
 
     text: str
     spelling: str
     span: Span
+
+    @property
+    def word(self) -> str:
+        """All of it, upper case: what it says where no object bears the name."""
+        return self.spelling.upper()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

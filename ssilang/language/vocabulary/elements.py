@@ -91,6 +91,10 @@ WORDS = (
         "Barre à 3 noeuds : effort normal seul",
     ),
     _element(
+        "structure", "CERC", "Ring about the axis of revolution, on a point: a normal force only",
+        "Cerce autour de l'axe de révolution, sur un point : effort normal seul",
+    ),
+    _element(
         "structure", "POUT",
         "Euler-Bernoulli beam with cubic deflection, exact for loads at its nodes; SECY SECZ add "
         "shear flexibility",

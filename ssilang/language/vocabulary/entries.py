@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -203,6 +203,7 @@ def declared_names() -> list[str]:
     return sorted(p.stem.upper() for p in resource("stdlib").glob("*.toml"))
 
 
+@cache
 def read_declaration(name: str) -> Declaration | None:
     """The declaration of a procedure or operator, None if it has none."""
     import tomllib

@@ -92,6 +92,9 @@ EXAMPLES: dict[str, str] = {
     + "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'ICQ4' ;\nLIST (TYPE M) ;",
     "BARR": _LINE + "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;\n"
     "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ;\nLIST (TYPE (RIGI M A)) ;",
+    "CERC": "OPTI DIME 2 MODE AXIS ;\nP = 2. 0. ;\n"
+    "M = MODE (MANU POI1 P) 'MECANIQUE' 'ELASTIQUE' 'CERC' ;\n"
+    "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 1.E-4 ;\nLIST (TYPE (RIGI M A)) ;",
     "element structure": _LINE + "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'POUT' ;\n"
     "A = MATE M 'YOUN' 3.E10 'NU' 0.2 'RHO' 2500. 'SECT' 0.24 'INRZ' 7.2E-3 ;\n"
     "LIST (TYPE (RIGI M A)) ;",

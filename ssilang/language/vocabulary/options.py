@@ -67,6 +67,21 @@ _UNITS = (
     Word("MN-M", "m, MN, kt (1000 t), s, MPa", "m, MN, kt (1000 t), s, MPa"),
     Word("N-MM", "mm, N, t, s, MPa", "mm, N, t, s, MPa"),
 )
+_SOLVERS = (
+    Word(
+        "AUTO", "The first that suits, by size, memory and what is installed; PETSC, where the run "
+        "has it, from a million unknowns on and where memory would not hold the factor",
+        "Le premier qui convient, selon la taille, la mémoire et ce qui est installé ; PETSC, si "
+        "l'exécution en dispose, à partir d'un million d'inconnues et quand la mémoire ne "
+        "contiendrait pas la factorisation",
+    ),
+    Word(
+        "PETSC", "PETSc over MPI, started by the command that ssilang --petsc or SSILANG_PETSC "
+        "gives: MUMPS factorises, and multigrid (GAMG) iterates where memory would not hold that",
+        "PETSc sur MPI, lancé par la commande que donne ssilang --petsc ou SSILANG_PETSC : MUMPS "
+        "factorise, et le multigrille (GAMG) itère quand la mémoire n'y suffirait pas",
+    ),
+)  # fmt: skip
 
 WORDS = (
     _o("DIME", "ENTIER", "", "Number of dimensions of space: 1, 2 or 3",
@@ -89,6 +104,10 @@ WORDS = (
        "nombres qui semblent être dans une autre unité, et les images, les tableaux et le résumé "
        "disent les unités ; aucun nombre n'est converti (absent de Cast3M)",
        _UNITS),
+    _o("SOLV", "MOT", "AUTO",
+       "Solver of linear systems in RESO, DYNAMIC, PASAPAS and VIBR (not in Cast3M)",
+       "Solveur des systèmes linéaires de RESO, DYNAMIC, PASAPAS et VIBR (absent de Cast3M)",
+       _SOLVERS),
     _o("ERRE", "", "FATALE", "What an error does", "Ce que fait une erreur", _ERRORS),
     _kept("ECHO", "ENTIER", "1", "1: statements are printed as they run, 0: not",
           "1 : les instructions sont affichées à leur exécution, 0 : non"),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ssilang.language.near import meant as near_word
@@ -41,21 +43,23 @@ def unread(
     """
     known = declared.inside(path).values()
     meant = next((e.index for e in known if word.upper() in e.means and not given(e.index)), "")
-    owners = {} if meant else _owners(library, declared, word)
-    if any(_named(script, owner) for owner in owners):
+    others = [] if meant else [n for n in library.declared_names if n != declared.name]
+    # what the script calls comes first: most tables end there, and the others are not read then
+    if _owners(library, [name for name in others if name in _called(script)], word):
         return None
+    owners = _owners(library, others, word)
     readers = " ".join(owner for owner, reads in owners.items() if reads)
     near = meant or near_word(word, (e.index for e in known if e.role != REFUSED))
     code = "entry-unknown" if near else "entry-of-another" if readers else "entry-unread"
     return code, {"near": near, "owners": readers}
 
 
-def _owners(library: Library, declared: Declaration, word: str) -> dict[str, bool]:
-    """Others that have an entry of that name, and whether they read it."""
+def _owners(library: Library, names: Iterable[str], word: str) -> dict[str, bool]:
+    """Which of these have an entry of that name, and whether they read it."""
     found: dict[str, bool] = {}
-    for name in library.declared_names:
+    for name in names:
         other = library.declared(name)
-        if other is None or name == declared.name:
+        if other is None:
             continue
         own = [e for e in other.entries if e.index == word and e.role in _COUNTS]
         if own:
@@ -63,9 +67,10 @@ def _owners(library: Library, declared: Declaration, word: str) -> dict[str, boo
     return found
 
 
-def _named(text: str, name: str) -> bool:
-    """Whether a script calls a procedure."""
-    return re.search(rf"(?<![\w'@]){re.escape(name)}(?!\w)", text, re.IGNORECASE) is not None
+@lru_cache(maxsize=8)
+def _called(text: str) -> frozenset[str]:
+    """Names that stand in a script, strings aside, in capitals."""
+    return frozenset(name.upper() for name in re.findall(r"(?<![\w'@])@?\w+", text))
 
 
 def reads(text: str, word: str) -> Iterator[str]:
@@ -73,10 +78,34 @@ def reads(text: str, word: str) -> Iterator[str]:
 
     Also the tables that the text asks for it (EXIS), or for all their indices (INDE).
     """
-    said = re.escape(word)
-    for found in re.finditer(rf"([@&!]?\w+|['\)])\s*\.\s*(?:'{said}'|{said}(?!\w))\s*(=?)", text):
-        if not found.group(2):
-            yield found.group(1).upper()
-    for pattern in (rf"\bEXIS\w*\s+\(?\s*([@&!]?\w+)[^;]*?'{said}'", r"\bINDE\w*\s+([@&!]?\w+)"):
-        for found in re.finditer(pattern, text, re.IGNORECASE):
-            yield found.group(1).upper()
+    read = _read(text)
+    yield from read.before.get(word, ())
+    yield from (table for table, rest in read.asked if f"'{word.upper()}'" in rest)
+    yield from read.listed
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What a text reads of tables: in front of each index, asked by EXIS, listed by INDE."""
+
+    before: dict[str, list[str]]
+    asked: list[tuple[str, str]]
+    listed: list[str]
+
+
+# the index is looked at only: it may be the base of the next one
+_INDEX = re.compile(r"([@&!]?\w+|['\)])\s*\.\s*(?=(?:'([^']*)'|(\w+))\s*(=?))")
+_ASKED = re.compile(r"\bEXIS\w*\s+\(?\s*([@&!]?\w+)([^;]*)", re.IGNORECASE)
+_LISTED = re.compile(r"\bINDE\w*\s+([@&!]?\w+)", re.IGNORECASE)
+
+
+@lru_cache(maxsize=8)
+def _read(text: str) -> _Read:
+    before: dict[str, list[str]] = {}
+    for found in _INDEX.finditer(text):
+        base, quoted, bare, sign = found.groups()
+        if not sign:
+            index = bare.upper() if quoted is None else quoted.rstrip()
+            before.setdefault(index, []).append(base.upper())
+    asked = [(m.group(1).upper(), m.group(2).upper()) for m in _ASKED.finditer(text)]
+    return _Read(before, asked, [m.group(1).upper() for m in _LISTED.finditer(text)])

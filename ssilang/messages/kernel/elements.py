@@ -259,6 +259,10 @@ MESSAGES: dict[str, Message] = {
         "remove it or merge its nodes",
         "ôtez-le ou confondez ses noeuds",
     ),
+    "hoop-on-axis": Message(
+        "a ring (CERC) has a radius: node {node} lies on the axis",
+        "une cerce (CERC) a un rayon : le noeud {node} est sur l'axe",
+    ),
     "element-carries-fields-pressures": Message(
         "element {element} carries fields and pressures, it has no stiffness",
         "l'élément {element} porte des champs et des pressions, il n'a pas de rigidité",

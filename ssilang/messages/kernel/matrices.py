@@ -101,6 +101,12 @@ MESSAGES: dict[str, Message] = {
         "give meshes of the same number of nodes, or of a single node",
         "donnez des maillages du même nombre de noeuds, ou d'un seul noeud",
     ),
+    "factor-not-finite": Message(
+        "the factor of {unknown} at node {node} is not a finite number",
+        "le coefficient de {unknown} au noeud {node} n'est pas un nombre fini",
+        "look for what was divided by zero, or grew without bound",
+        "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
+    ),
     "relation-node-no-coefficient": Message(
         "a relation at node {node} has no coefficient other than zero",
         "une relation au noeud {node} n'a que des coefficients nuls",

@@ -579,8 +579,10 @@ MESSAGES: dict[str, Message] = {
         "les éléments en face se cherchent à une distance positive",
     ),
     "line-cells-not-follow": Message(
-        "the line's cells do not follow one another",
-        "les éléments de la ligne ne se suivent pas",
+        "the line's cells do not follow one another{twice:?: two nodes are at ({twice}), the ends "
+        "of two parts}",
+        "les éléments de la ligne ne se suivent pas{twice:? : deux noeuds sont en ({twice}), les "
+        "bouts de deux parties}",
     ),
     "cells-not-divided": Message(
         "{cell_type} cells are not divided",

@@ -85,4 +85,98 @@ MESSAGES: dict[str, Message] = {
         "le multigrille n'a pas convergé en {most_turns} {most_turns:tour|tours} : un corps "
         "est libre, ou les raideurs sont trop différentes",
     ),
+    "petsc-no-command": Message(
+        "solver PETSC runs behind a command, and none is given",
+        "le solveur PETSC s'exécute derrière une commande, et aucune n'est donnée",
+        "ssilang --petsc 'mpirun -n 4 /usr/bin/python3' case.ssi, or the same words in the "
+        "environment's SSILANG_PETSC: a Python that has petsc4py and mpi4py",
+        "ssilang --petsc 'mpirun -n 4 /usr/bin/python3' cas.ssi, ou les mêmes mots dans la "
+        "variable d'environnement SSILANG_PETSC : un Python qui a petsc4py et mpi4py",
+    ),
+    "petsc-command": Message(
+        "the command {command!r} that starts PETSc is empty, or ends within quotes",
+        "la commande {command!r} qui lance PETSc est vide, ou finit dans des guillemets",
+        "as in a shell: mpirun -n 4 /usr/bin/python3",
+        "comme dans un terminal : mpirun -n 4 /usr/bin/python3",
+    ),
+    "petsc-program": Message(
+        "the command {command!r} that starts PETSc names the program {program}, which is not there",
+        "la commande {command!r} qui lance PETSc nomme le programme {program}, qui est introuvable",
+        "install MPI (Debian: mpi-default-bin), or write the program's whole path",
+        "installez MPI (Debian : mpi-default-bin), ou écrivez le chemin complet du programme",
+    ),
+    "petsc-not-started": Message(
+        "PETSc cannot be started by {command!r}: {fault}",
+        "PETSc ne se lance pas par {command!r} : {fault}",
+    ),
+    "petsc-ended-at-start": Message(
+        "the command {command!r} that starts PETSc ended with code {code} before it answered{told}",
+        "la commande {command!r} qui lance PETSc a fini avec le code {code} avant de "
+        "répondre{told}",
+        "its Python needs petsc4py, mpi4py and numpy (Debian: python3-petsc4py python3-mpi4py); "
+        "its first process must run on this machine",
+        "son Python demande petsc4py, mpi4py et numpy (Debian : python3-petsc4py "
+        "python3-mpi4py) ; son premier processus doit s'exécuter sur cette machine",
+    ),
+    "petsc-late": Message(
+        "the command {command!r} that starts PETSc has not answered within {limit:g} s{told}",
+        "la commande {command!r} qui lance PETSc n'a pas répondu en {limit:g} s{told}",
+        "it must start a Python whose first process runs on this machine",
+        "elle doit lancer un Python dont le premier processus s'exécute sur cette machine",
+    ),
+    "petsc-strange": Message(
+        "what the command {command!r} started is not the server of this run{told}",
+        "ce que la commande {command!r} a lancé n'est pas le serveur de cette exécution{told}",
+        "the command ends with a Python, to which ssilang adds its server's file",
+        "la commande se termine par un Python, auquel ssilang ajoute le fichier de son serveur",
+    ),
+    "petsc-protocol": Message(
+        "the server that {command!r} started is of another version of ssilang (protocol {found}, "
+        "not {wanted})",
+        "le serveur lancé par {command!r} est d'une autre version de ssilang (protocole {found} au "
+        "lieu de {wanted})",
+        "let the command start the server of this installation",
+        "faites lancer par la commande le serveur de cette installation",
+    ),
+    "petsc-not-real": Message(
+        "the PETSc {version} that {command!r} starts is built for complex numbers",
+        "le PETSc {version} que lance {command!r} est construit pour les nombres complexes",
+        "one for real numbers (Debian: python3-petsc4py-real)",
+        "prenez-en un pour les nombres réels (Debian : python3-petsc4py-real)",
+    ),
+    "petsc-not-mumps": Message(
+        "the PETSc {version} that {command!r} starts has no MUMPS",
+        "le PETSc {version} que lance {command!r} n'a pas MUMPS",
+        "build it with --download-mumps, or take Debian's or conda's",
+        "construisez-le avec --download-mumps, ou prenez celui de Debian ou de conda",
+    ),
+    "petsc-ended": Message(
+        "PETSc, started by {command!r}, ended in the middle of the calculation (code {code}): a "
+        "process or a machine was lost{told}",
+        "PETSc, lancé par {command!r}, a fini au milieu du calcul (code {code}) : un processus ou "
+        "une machine est perdu{told}",
+        "most often memory was short: more machines, or fewer processes on each",
+        "le plus souvent la mémoire a manqué : plus de machines, ou moins de processus sur chacune",
+    ),
+    "petsc-memory": Message(
+        "the factor of {n_a} unknowns takes {needed} of memory, the processes of PETSc may take "
+        "{room}; multigrid solves symmetric positive matrices only",
+        "la factorisation de {n_a} inconnues prend {needed} de mémoire, les processus de PETSc "
+        "peuvent en prendre {room} ; le multigrille ne résout que des matrices symétriques "
+        "positives",
+        "more machines, or fewer processes on each",
+        "plus de machines, ou moins de processus sur chacune",
+    ),
+    "petsc-indices": Message(
+        "a matrix of {n_a} unknowns has more entries on a process than this PETSc counts",
+        "une matrice de {n_a} inconnues a plus de termes sur un processus que ce PETSc n'en compte",
+        "more processes, or a PETSc of 64 bits (Debian: python3-petsc4py-64-real)",
+        "plus de processus, ou un PETSc de 64 bits (Debian : python3-petsc4py-64-real)",
+    ),
+    "petsc-mumps": Message(
+        "MUMPS gives the matrix up with error {said} ({second})",
+        "MUMPS abandonne la matrice avec l'erreur {said} ({second})",
+        "INFOG(1) and INFOG(2) of its manual",
+        "INFOG(1) et INFOG(2) de sa notice",
+    ),
 }

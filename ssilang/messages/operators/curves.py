@@ -131,6 +131,12 @@ MESSAGES: dict[str, Message] = {
         "EVOL {kinds:words}",
         "EVOL {kinds:words}",
     ),
+    "two-axis-names": Message(
+        "one name may stand before each list, found {names:words}",
+        "un seul nom peut précéder chaque liste, trouvé {names:words}",
+        "EVOL 'MANU' 'TIME' LREE1 'FORCE' LREE2 ; a legend: 'LEGE' 'text'",
+        "EVOL 'MANU' 'TEMPS' LREE1 'FORCE' LREE2 ; une légende : 'LEGE' 'texte'",
+    ),
     "abscissas-and-ordinates-differ": Message(
         "{n_x} {n_x:abscissa|abscissas} for {n_y} {n_y:ordinate|ordinates}",
         "{n_x} {n_x:abscisse|abscisses} pour {n_y} {n_y:ordonnée|ordonnées}",

@@ -57,6 +57,14 @@ MESSAGES: dict[str, Message] = {
         "formats of meshes that are written: VTK, AVS, STL, NAS, ABAQ",
         "formats de maillages qui s'écrivent : VTK, AVS, STL, NAS, ABAQ",
     ),
+    "not-of-one-file": Message(
+        "'{word}' is for .vtu files, 'VTKHDF' asks for one .vtkhdf file, which is packed, begins "
+        "anew with each run and needs no list",
+        "'{word}' vaut pour les fichiers .vtu, 'VTKHDF' demande un fichier .vtkhdf, qui est "
+        "compressé, recommence à chaque calcul et se passe de liste",
+        "leave '{word}' out, or take 'VTU'",
+        "ôtez '{word}', ou prenez 'VTU'",
+    ),
     "no-such-procedure": Message(
         "{name} defines no procedure {wanted}",
         "{name} ne définit pas de procédure {wanted}",

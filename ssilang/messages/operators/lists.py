@@ -3,6 +3,10 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "no-number-in-table": Message(
+        "index {index} of the table holds no number but an object of type {found}",
+        "l'indice {index} de la table ne porte pas un nombre mais un objet de type {found}",
+    ),
     "no-list-in-table": Message(
         "the table holds no list of numbers or words",
         "la table ne contient aucune liste de nombres ou de mots",

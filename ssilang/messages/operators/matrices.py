@@ -68,14 +68,22 @@ MESSAGES: dict[str, Message] = {
         "premier maillage de RACC ou LIAI décide : RACC (INVE GEO1) GEO2 le retourne}}",
         severity="warning",
     ),
+    "foreign-unknown": Message(
+        "bodies have no {names:or} under OPTI MODE {mode}: such a condition holds nothing of them",
+        "les corps n'ont pas {names:or} parmi leurs inconnues sous OPTI MODE {mode} : une telle "
+        "condition n'en tient rien",
+        "their unknowns are {own:words}",
+        "leurs inconnues sont {own:words}",
+        severity="warning",
+    ),
     "beam-ends-on-solid": Message(
-        "the {rotations:rotation|rotations} {rotations:and} at node {node} "
-        "{rotations:is|are} held by nothing but the {shell:?shell|beam} that ends there on a "
-        "solid: this is a hinge{more:?, as at {more} more {more:node|nodes}}",
-        "{rotations:la rotation|les rotations} {rotations:and} au noeud {node} "
+        "the {rotations:rotation|rotations} {rotations:and} at {nodes:node|nodes} {nodes:and}"
+        "{more:? (and {more} more)} {rotations:is|are} held by nothing but the "
+        "{shell:?shell|beam} that ends there on a solid: this is a hinge",
+        "{rotations:la rotation|les rotations} {rotations:and} {nodes:au noeud|aux noeuds} "
+        "{nodes:and}{more:? (et {more} {more:autre|autres})} "
         "{rotations:n'est tenue|ne sont tenues} par rien d'autre que la {shell:?coque|poutre} qui "
-        "s'y termine sur un massif : c'est une articulation{more:?, comme à {more} "
-        "{more:autre noeud|autres noeuds}}",
+        "s'y termine sur un massif : c'est une articulation",
         "hold it by RELA, or let the {shell:?shell|beam} go on over a second node of the solid; a "
         "hinge that is meant has a node of its own, tied to the solid's by RELA",
         "tenez-la par RELA, ou prolongez la {shell:?coque|poutre} sur un second noeud du massif ; "

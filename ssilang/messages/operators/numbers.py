@@ -46,6 +46,15 @@ MESSAGES: dict[str, Message] = {
         "a result is too large for a list of integers, whose items have 64 bits",
         "un résultat est trop grand pour une liste d'entiers, dont les valeurs ont 64 bits",
     ),
+    "list-not-finite": Message(
+        "{sign} makes {count} {count:item|items} of the list infinite or no "
+        "{count:number|numbers}, the first is item {item}: {value:g}",
+        "{sign} rend {count} {count:valeur|valeurs} de la liste {count:infinie|infinies} ou "
+        "indéfinie{count:|s}, la première est la valeur {item} : {value:g}",
+        "a list was divided by zero; see MASQ and BORN",
+        "une liste a été divisée par zéro ; voir MASQ et BORN",
+        severity="warning",
+    ),
     "negative-width": Message(
         "the width of a law is not negative, this one is {width:g}",
         "la largeur d'une loi n'est pas négative, celle-ci vaut {width:g}",

@@ -7,6 +7,21 @@ MESSAGES: dict[str, Message] = {
         "follower loads of a procedure are not built for structures",
         "les forces suiveuses d'une procédure ne sont pas faites pour les structures",
     ),
+    "strains-of-large-displacements": Message(
+        "'DEFTO' of 'MES_SAUVEGARDES' keeps linear strains, not those of large displacements",
+        "'DEFTO' de 'MES_SAUVEGARDES' garde les déformations linéaires, pas celles des grands "
+        "déplacements",
+    ),
+    "times-and-objects-differ": Message(
+        "{n_times} {n_times:time|times} for {n_objects} {n_objects:object|objects}",
+        "{n_times} temps pour {n_objects} {n_objects:objet|objets}",
+        "one object for each time, one time at least",
+        "un objet pour chaque temps, un temps au moins",
+    ),
+    "not-loaded": Message(
+        "the list holds objects of type {found}, of which no loading is made",
+        "la liste contient des objets de type {found}, dont on ne fait pas de chargement",
+    ),
     "static-path": Message("the path of loads is static", "le trajet de chargement est statique"),
     "precision-not-positive": Message(
         "the precision must be positive, not {precision:g}",

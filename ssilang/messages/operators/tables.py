@@ -37,7 +37,7 @@ MESSAGES: dict[str, Message] = {
         "il faut une table de sous-type VECTEUR, trouvé '{subtype}'",
     ),
     "empty-table": Message(
-        "the table holds nothing at integer indices",
-        "la table ne contient rien aux indices entiers",
+        "there is nothing to join: no object at an integer index, or none in the list",
+        "il n'y a rien à réunir : aucun objet à un indice entier, ou aucun dans la liste",
     ),
 }

@@ -8,7 +8,6 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import arg
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
-from ssilang.operators.dispatch import extend_help
 from ssilang.operators.mesh.selection.boundaries import enve
 
 SAME = 1e-6  # relative: dampings this near are one
@@ -66,8 +65,7 @@ def envelope_of_spectra(call: Call, table: Table) -> Table:
     return made
 
 
-extend_help(
-    "ENVE",
+enve.extend_help(
     syntax="TAB1 = ENVE TAB2 ;",
     en="Of a table of spectra (at 1, 2 ... tables with SPECTRE, curves, and AMORTISSEMENT, their "
     "dampings): a table with the envelope, the largest ordinate for each damping.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -16,6 +16,7 @@ from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.filled import Filled
 from ssilang.language.registry import (
     Entry,
     Help,
@@ -41,6 +42,7 @@ from ssilang.language.values import (
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
+    RecordedPoints,
     components_in_time,
     refused_place,
     value_in_time,
@@ -154,6 +156,12 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
 }
 
+_MODE = (
+    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; "
+    "T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; "
+    "Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ; "
+)
+
 
 @operator(
     "EVOL",
@@ -164,11 +172,17 @@ _ENTRIES: dict[str, list[Entry]] = {
     help=Help(
         en="Curve, or several: from two lists ('MANU'), from real and imaginary parts or modulus "
         "and phase ('COMP'), of a component along a line of nodes ('CHPO'), in time at points "
-        "('TEMP': from a list of fields and a list of times, or a table of results).",
+        "('TEMP': from a list of fields and a list of times, or a table of results).\n"
+        "RECO gives components at points from modal contributions in time (of DYNE with a load: "
+        "with the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA "
+        "the projections of fields in time on the shapes of a basis.",
         fr="Évolution à une ou plusieurs courbes : de deux listes ('MANU'), de parties réelle et "
         "imaginaire ou module et phase ('COMP'), d'une composante le long d'une ligne de noeuds "
         "('CHPO'), en fonction du temps en des points ('TEMP' : d'une liste de champs et d'une "
-        "liste de temps, ou d'une table de résultats).",
+        "liste de temps, ou d'une table de résultats).\n"
+        "RECO donne des composantes en des points à partir de contributions modales en temps (de "
+        "DYNE avec un chargement : avec les pseudo-modes qu'il excite) ; SOLU les contributions de "
+        "DYNE ; PJBA les projections de champs en temps sur les déformées d'une base.",
         syntax="EVOL1 = EVOL (COUL) 'MANU' ('TYPE' MTYP1) ('LEGE' TIT1) (NOMABS) LIS1 "
         "(NOMORD) LIS2 ;\n"
         "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"
@@ -176,11 +190,21 @@ _ENTRIES: dict[str, list[Entry]] = {
         "| MAIL1 ;\n"
         "EVOL1 = EVOL (COUL) 'TEMP' TAB1 MOT1 COMP N1 N2 N3 ; (field in cells: zone, cell, point)\n"
         "EVOL1 = EVOL (COUL) 'COMP' ('REIM' | 'MOPH') ('LEGE' TIT1 TIT2) NOMABS LREE1 (NOMOR1) "
-        "LREE2 (NOMOR2) LREE3 ;",
+        "LREE2 (NOMOR2) LREE3 ;\n"
+        "EVOL1 = EVOL (COUL) 'RECO' LCHP1 LREE1 TBAS1 (N1) COMP | LCOMP GEO1 ;\n"
+        "EVOL1 = EVOL (COUL) 'RECO' TDYNE | TPASA TBAS1 | MODL1 MAT1 (CHAR1) 'DEPL' | 'VITE' | "
+        "'ACCE' GEO1 COMP | CHPO1 (LREE1) ;\n"
+        "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
+        "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
+        "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
         examples=(
             "E = EVOL 'ROUG' 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; LIST E ;",
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; "
             "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
+            _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
+            _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 "
+            "0.1 ; LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
+            _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
         ),
     ),
     reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
@@ -188,12 +212,11 @@ _ENTRIES: dict[str, list[Entry]] = {
 def evol(call: Call) -> Curve:
     """Choose the kind of curve."""
     colours = read_colours(call)
-    word = call.keyword(tuple(KINDS))
+    word = call.keyword(tuple(_ENTRIES))
     if word is None:
-        raise call.error("operators.curves.which-curve", kinds=[f"'{w}'" for w in KINDS])
+        raise call.error("operators.curves.which-curve", kinds=[f"'{w}'" for w in _ENTRIES])
     colours = colours or read_colours(call) or [workspace(call.session).colour]
-    made: Curve = KINDS[word](call, colours)
-    return made
+    return KINDS[word](call, colours)
 
 
 def _manual(call: Call, colours: list[int]) -> Curve:
@@ -330,7 +353,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         if np.any(places < 0) or np.any(places >= len(fields)):
             raise call.error("operators.curves.no-such-step", chosen.value, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
-    if fields and isinstance(fields[0], CellField):
+    if isinstance(fields, RecordedPoints) or (fields and isinstance(fields[0], CellField)):
         return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
     names = names_in_time(call, fields)
     support = call.read("POINT", "MAILLAGE")
@@ -357,7 +380,7 @@ def _made(field: NodeField | InstantField) -> NodeField:
 
 def _in_a_cell(
     call: Call,
-    fields: list[Any],
+    fields: Sequence[Any],
     times: FloatArray,
     colour: int,
     unit_of: Callable[[str], str],
@@ -365,6 +388,12 @@ def _in_a_cell(
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.required("ENTIER") for _ in range(3))
+    if isinstance(fields, RecordedPoints):
+        recorded = fields.history(name, zone, cell, point)
+        if recorded is not None:
+            part = CurvePart(times, recorded, "TEMP", name[:12], name, colour)
+            return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
+        fields = [fields[0]]  # the others lack it too
     values = []
     for field in fields:
         held = (
@@ -384,7 +413,7 @@ def nodes_named(support: Point | Mesh) -> list[int]:
     return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
 
 
-def names_in_time(call: Call, fields: list[Any]) -> list[str]:
+def names_in_time(call: Call, fields: Sequence[Any]) -> list[str]:
     operand = call.read("LISTMOTS")
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
@@ -394,7 +423,7 @@ def names_in_time(call: Call, fields: list[Any]) -> list[str]:
     return []
 
 
-def history(call: Call, unmade: bool = False) -> tuple[list[Any], FloatArray, str]:
+def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray, str]:
     """Fields, their times, and the index of the table they came from ('' for a list).
 
     With `unmade`, an `InstantField` may stand for a field that nobody asked for yet.
@@ -434,13 +463,16 @@ def _in_steps(table: Table, index: str) -> bool:
     return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
 
 
-def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[list[Any], FloatArray]:
+def results_in_time(
+    table: Table, index: str, unmade: bool = False
+) -> tuple[Sequence[Any], FloatArray]:
     """Fields and times of a table of results: of PASAPAS by index, of DYNAMIC by step.
 
     Parameters
     ----------
     unmade : bool
-        Whether an `InstantField` may stand for a field that is not made yet.
+        Whether an `InstantField` may stand for a field that is not made yet, and what was recorded
+        for all of them.
 
     Raises
     ------
@@ -452,10 +484,10 @@ def results_in_time(table: Table, index: str, unmade: bool = False) -> tuple[lis
         steps = sorted(i for i, _ in held.items() if type(i) is int)
         return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
     found = []
-    if unmade and isinstance(table, LazyRows):
+    if unmade and isinstance(table, LazyRows) and table.untouched:
         ready = table.stand_ins(index)
-        if ready and len(ready) == len(table):  # in order of time as they came
-            return [f for _, f in ready], reals([t for t, _ in ready])
+        if ready is not None:  # in order of time as they came
+            return ready
     for place, value in table.items():
         if type(place) is int and isinstance(value, Table):
             look = value.glance if unmade and isinstance(value, LazyTable) else value.get
@@ -472,6 +504,9 @@ def reals(values: list[Any]) -> FloatArray:
     return np.asarray(values, dtype=float)
 
 
-KINDS: dict[str, Any] = {
-    "MANU": _manual, "COMP": _complex, "CHPO": _along_line, "TEMP": _in_time,
-}  # fmt: skip
+KINDS: Filled[str, Callable[[Call, list[int]], Curve]] = Filled("kinds of curves")
+"""What makes the curve, by the word of EVOL; those of modal bases are added by their module."""
+KINDS["MANU"] = _manual
+KINDS["COMP"] = _complex
+KINDS["CHPO"] = _along_line
+KINDS["TEMP"] = _in_time

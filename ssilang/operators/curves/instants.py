@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -13,6 +14,10 @@ from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.language.near import nearest
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
+
+if TYPE_CHECKING:
+    from ssilang.kernel.fields.cell_field import CellField
+    from ssilang.kernel.stepping.node_track import NodeTrack
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,16 +41,94 @@ class InstantField:
 AnyField = NodeField | InstantField
 
 
-def value_in_time(call: Call, fields: list[AnyField], name: str, node: int) -> FloatArray:
+@dataclass(frozen=True)
+class RecordedFields(Sequence[AnyField]):
+    """Stands for the fields of all instants that a track holds.
+
+    Attributes
+    ----------
+    track : NodeTrack
+    name : str
+        `u`, `v` or `a`.
+    make : callable
+        Makes the field of the entry at a place, from 0.
+    """
+
+    track: NodeTrack
+    name: str
+    make: Callable[[int], NodeField]
+
+    def __len__(self) -> int:
+        return len(self.track)
+
+    @overload
+    def __getitem__(self, place: int) -> AnyField: ...
+    @overload
+    def __getitem__(self, place: slice) -> list[AnyField]: ...
+    def __getitem__(self, place: int | slice) -> AnyField | list[AnyField]:
+        if isinstance(place, slice):
+            return [self[i] for i in range(*place.indices(len(self)))]
+        if not 0 <= place < len(self):
+            raise IndexError(place)
+        return self.make(place)
+
+
+@dataclass(frozen=True)
+class RecordedPoints(Sequence["CellField"]):
+    """Stands for the fields of joints of all instants that a track holds.
+
+    Attributes
+    ----------
+    track : NodeTrack
+    name : str
+        `jump`, `traction` or `variables`.
+    make : callable
+        Makes the field of the entry at a place, from 0.
+    """
+
+    track: NodeTrack
+    name: str
+    make: Callable[[int], CellField]
+
+    def __len__(self) -> int:
+        return len(self.track)
+
+    @overload
+    def __getitem__(self, place: int) -> CellField: ...
+    @overload
+    def __getitem__(self, place: slice) -> list[CellField]: ...
+    def __getitem__(self, place: int | slice) -> CellField | list[CellField]:
+        if isinstance(place, slice):
+            return [self[i] for i in range(*place.indices(len(self)))]
+        if not 0 <= place < len(self):
+            raise IndexError(place)
+        return self.make(place)
+
+    def history(self, name: str, zone: int, cell: int, point: int) -> FloatArray | None:
+        """A component at a point, the last one if it has fewer, of a cell, all counted from 1."""
+        blocks = self[0].blocks
+        if not 1 <= zone <= len(blocks) or name not in blocks[zone - 1].components:
+            return None
+        point = min(point, blocks[zone - 1].components[name].shape[1])
+        return self.track.point_history(self.name, name, zone - 1, cell - 1, point - 1)
+
+
+def value_in_time(call: Call, fields: Sequence[AnyField], name: str, node: int) -> FloatArray:
     """Values (n_fields,) of a component at a node; zero in fields that lack it there.
 
-    Fields that are not made yet stay so if an unknown of theirs is asked for.
+    Fields that are not made yet stay so if an unknown of theirs is asked for; what was recorded in
+    time is taken as it stands.
 
     Raises
     ------
     SsiError
         If no field has the component there: `refused_place` says what there is.
     """
+    if isinstance(fields, RecordedFields):
+        history = fields.track.history(fields.name, name, node)
+        if history is None:
+            raise refused_place(call, fields[:1], name, node)
+        return history
     places: dict[int, int] = {}
     found = np.zeros(len(fields))
     there = not fields
@@ -100,8 +183,10 @@ def _place(numbering: Numbering, name: str, node: int) -> int:
     return numbering.index_of(node, name) if name in numbering.unknowns else -1
 
 
-def components_in_time(fields: list[AnyField]) -> set[str]:
+def components_in_time(fields: Sequence[AnyField]) -> set[str]:
     """Names of the components of all fields; those of one numbering have the same."""
+    if isinstance(fields, RecordedFields):
+        fields = fields[:1]
     found: set[str] = set()
     seen: set[int] = set()
     for field in fields:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import arg, choice, key
-from ssilang.language.run.call import Call
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots
 
 CURVE = arg("curve", "EVOLUTIO", en="curves", fr="évolutions")
@@ -65,11 +68,22 @@ def read_colours(call: Call) -> list[int]:
 
 
 def axis_name(call: Call) -> str:
-    """The words that stand next, as the name of an axis; '' if a list stands there.
+    """The word that stands next, as the name of an axis; '' if a list stands there.
 
-    `F(T)` without quotes is two words, F and T.
+    `F(T)` without quotes is read as two words, and is one name as it is written.
+
+    Raises
+    ------
+    SsiError
+        'operators.curves.two-axis-names' if several names stand there.
     """
-    words = []
-    while call.at_word():
-        words.append(str(call.required("MOT")).rstrip())
-    return words[0] if len(words) == 1 else "".join(w.rstrip() for w in words)
+    words: list[Operand] = []
+    while call.at_word() and (operand := call.read("MOT")) is not None:
+        words.append(operand)
+    if len(words) < 2:
+        return str(words[0].value).rstrip() if words else ""
+    whole = words[0].span.to(words[-1].span)
+    if re.fullmatch(r"\w+\(\w+\)", whole.text) is None:
+        said = [f"'{str(w.value).rstrip()}'" for w in words]
+        raise SsiError("operators.curves.two-axis-names", whole, names=said)
+    return whole.text

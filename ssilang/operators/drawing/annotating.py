@@ -7,11 +7,8 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import arg, many, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.values import register_type
 from ssilang.operators.dispatch import shared_operator, union
 from ssilang.operators.drawing.objects import is_colour
-
-register_type(Annotation, "ANNOTATI")
 
 ANNO = shared_operator(
     "ANNO",

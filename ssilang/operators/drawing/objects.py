@@ -25,12 +25,9 @@ from ssilang.language.registry import (
     shared,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, register_type
+from ssilang.language.values import ListMots
 from ssilang.operators.dispatch import EXTR, union
 from ssilang.operators.workspace import workspace
-
-register_type(Deformed, "DEFORME")
-register_type(Arrows, "VECTEUR")
 
 
 @union(("DEFORME", "DEFORME"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,6 @@ from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
-from ssilang.operators.dynamics.motion_observers import TableObserver
 from ssilang.operators.dynamics.reports import (
     report,
     warn_motion_elsewhere,
@@ -26,13 +26,15 @@ from ssilang.operators.dynamics.reports import (
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
-from ssilang.operators.dynamics.watching import ExtremesObserver, UpliftWatch
+from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
     from ssilang.kernel.stepping.snapshot import Observer
@@ -58,7 +60,9 @@ MOST_STEPS = 1e9
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     from ssilang.kernel.base.compiled.cache import is_compiled
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import make_problem
+    from ssilang.operators.dynamics.histories import TableObserver
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
@@ -69,10 +73,12 @@ def zdyn(call: Call, table: Table) -> Table:
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
-    results = TableObserver(saved, nodes_asked(entries.get("MAILLAGE_SAUVE")))
-    vtk, csv = vtk_observer(entries, times), csv_observer(entries, times)
+    asked = nodes_asked(entries.get("MAILLAGE_SAUVE"))
+    whole = bodies is not None or entries.flag("CHARMECA")
+    results = TableObserver(saved, problem=problem, nodes=asked, whole=whole)
+    vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
-    extremes = ExtremesObserver(problem) if entries.flag("EXTREMES") else None
+    extremes = Extremes(problem=problem, asked=entries.flag("EXTREMES"))
     uplift = UpliftWatch.of(problem)
     observers = [o for o in (results, vtk, csv, extremes, uplift) if o is not None]
     if not is_compiled("stepping"):
@@ -84,8 +90,11 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
-    if extremes is not None:
-        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes.table())
+    if extremes.known:
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
+    elif not whole:
+        again = partial(_step_again, entries.get("REDUCTION"), problem)
+        entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history)
@@ -100,20 +109,20 @@ def _integrated(
     bodies: tuple[Bulk, State] | None = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
-    from ssilang.kernel.plasticity.run import run_bulk
-    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
-    from ssilang.kernel.stepping.run import integrate
-
     tolerance = entries.get("REDUCTION")
     full = entries.flag("NEWTON_COMPLET")
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
+        from ssilang.kernel.plasticity.run import run_bulk
+
         return run_bulk(problem, *bodies, observers, line, dynamic=True)
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     if tolerance is None and not full and driver is None:
         return integrated(entries.call.session, problem, observers, line)
     if tolerance is None:
+        from ssilang.kernel.stepping.run import integrate
+
         return integrate(problem, observers, line, full, driver)
     if driver is not None:
         raise entries.error("operators.dynamics.reduction-or-charmeca")
@@ -121,7 +130,20 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-newton")
     if not 0.0 < tolerance < 1.0:
         raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+
     return integrate_reduced(problem, float(tolerance), observers, line)
+
+
+def _step_again(tolerance: float | None, problem: Problem, extremes: Extremes) -> None:
+    """The same motion for its largest values, which its loop does not give without cost."""
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+    from ssilang.kernel.stepping.run import integrate
+
+    if tolerance is None:
+        integrate(problem, [extremes])
+    else:
+        integrate_reduced(problem, float(tolerance), [extremes])
 
 
 def _say_reduction(entries: Entries, history: History) -> None:
@@ -201,6 +223,7 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.get("CARACTERISTIQUES"),
         scheme_of(entries),
         contact_options(entries),
+        solver=solver_of(entries.call.session),
     )
 
 

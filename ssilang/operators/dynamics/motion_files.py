@@ -16,13 +16,19 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
-from ssilang.operators.dynamics.motion_observers import CsvObserver, VtkObserver
+from ssilang.operators.dynamics.motion_observers import VtkObserver
+from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
-    pass
+    from ssilang.kernel.stepping.problem.problem import Problem
+    from ssilang.operators.dynamics.histories import CsvObserver
+
+
+MANY_INSTANTS = 50
+"""From more of them on, a series is one file if nothing else is said."""
 
 
 def nodes_asked(mesh: Any) -> IntArray | None:
@@ -48,8 +54,11 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     name = entries.get("FICHIER_VTK") or entries.default("FICHIER_VTK")
     path = output_path(entries.call, str(name).rstrip())
     session = entries.call.session
-    writer = run_output(session).begin_series(path, units_in_si(session))
-    return VtkObserver(wanted, meshes, writer, _stress(entries))
+    asked = entries.get("FORMAT_VTK")
+    one_file = wanted.sum() > MANY_INSTANTS if asked is None else str(asked).startswith("VTKH")
+    writer = run_output(session).begin_series(path, units_in_si(session), one_file=one_file)
+    labels = cell_labels(session, meshes)
+    return VtkObserver(wanted, meshes, writer, _stress(entries), labels)
 
 
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
@@ -75,10 +84,12 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
     return of
 
 
-def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
+def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
+    from ssilang.operators.dynamics.histories import CsvObserver
+
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         return None
-    wanted = entries.saved_steps("_CSV", times)
+    wanted = entries.saved_steps("_CSV", problem.times)
     nodes = nodes_asked(entries.needed("MAILLAGE_CSV"))
     assert nodes is not None
     components: ListMots | None = entries.get("COMPOSANTES_CSV")
@@ -86,4 +97,7 @@ def csv_observer(entries: Entries, times: FloatArray) -> CsvObserver | None:
     path = output_path(entries.call, text if text.lower().endswith(".csv") else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
-    return CsvObserver(wanted, nodes, chosen, path, workspace(entries.call.session).units)
+    return CsvObserver(
+        wanted, problem=problem, nodes=nodes, components=chosen, path=path,
+        units=workspace(entries.call.session).units,
+    )  # fmt: skip

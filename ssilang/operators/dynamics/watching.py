@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
 
 if TYPE_CHECKING:
     from ssilang.kernel.interface.interface import Interface
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Snapshot
 
@@ -27,93 +28,45 @@ FASTER = 0.1
 """Part of the way since they opened that their acceleration makes, 1 from rest."""
 
 
-TOGETHER = 100_000
-"""Values of displacements that are compared at a time."""
+KINDS = ("DEPL", "REACTIONS", "OUVERTURE", "COMPRESSION", "CISAILLEMENT")
 
 
-@dataclass(frozen=True)
-class Peak:
-    """The value that is largest without its sign, when, and at which unknown or joint point."""
+def extremes_table(extremes: Extremes) -> Table:
+    """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
+    problem, made, inner = extremes.problem, Table(), dict[str, Table]()
+    for (kind, name), peak in extremes.found().items():
+        entry = Table()
+        entry.set(Mot("VALEUR"), peak.value)
+        entry.set(Mot("TEMPS"), float(problem.times[peak.step]))
+        if not name:
+            assert problem.interface is not None
+            x = problem.numbering.table.shown(joint_places(problem.interface)[peak.place])
+            entry.set(Mot("COORDONNEES"), ListReel(x))
+            made.set(Mot(kind), entry)
+            continue
+        node = problem.numbering.nodes[peak.place]
+        entry.set(Mot("POINT"), Point(problem.numbering.table, int(node)))
+        if kind not in inner:
+            inner[kind] = Table()
+            made.set(Mot(kind), inner[kind])
+        inner[kind].set(Mot(name), entry)
+    return made
 
-    value: float
-    time: float
-    place: int
 
+def extremes_later(problem: Problem, again: Callable[[Extremes], object]) -> LazyTable:
+    """The same, found by stepping again when someone asks."""
+    found: list[Table] = []
 
-@dataclass
-class ExtremesObserver:
-    """Looks at every step for the largest displacement, reaction, opening and joint forces."""
+    def find(kind: str) -> object:
+        from ssilang.kernel.stepping.extremes import Extremes
 
-    problem: Problem
-    peaks: dict[tuple[str, str], Peak] = field(default_factory=dict)
-    waiting: list[Snapshot] = field(default_factory=list)
+        if not found:
+            extremes = Extremes(problem=problem)
+            again(extremes)
+            found.append(extremes_table(extremes))
+        return found[0].get(kind)
 
-    @property
-    def wanted(self) -> NDArray[np.bool_]:
-        """All times."""
-        return np.ones(len(self.problem.times), bool)
-
-    def receive(self, snapshot: Snapshot) -> None:
-        """Compare one instant, with those that came before it."""
-        self.waiting.append(snapshot)
-        if len(self.waiting) * max(len(snapshot.u), 1) >= TOGETHER:
-            self.close()
-
-    def close(self) -> None:
-        """Compare the instants that wait."""
-        rows, self.waiting = self.waiting, []
-        if not rows:
-            return
-        numbering, times = rows[0].problem.numbering, [s.time for s in rows]
-        u = np.stack([s.u for s in rows])
-        forces = np.stack([s.support_forces for s in rows])
-        for name, dual in zip(numbering.unknowns, numbering.duals, strict=True):
-            mine = numbering.where(name)
-            self._take("DEPL", name, times, u[:, mine], mine)
-            self._take("REACTIONS", dual, times, forces[:, mine], mine)
-        if rows[0].problem.interface is not None:
-            w, t = np.stack([s.w for s in rows]), np.stack([s.t for s in rows])
-            points = np.arange(w.shape[1])
-            shear = np.linalg.norm(t[..., :-1], axis=-1)
-            self._take("OUVERTURE", "", times, np.maximum(w[..., -1], 0.0), points)
-            self._take("COMPRESSION", "", times, np.minimum(t[..., -1], 0.0), points)
-            self._take("CISAILLEMENT", "", times, shear, points)
-
-    def _take(
-        self, kind: str, name: str, times: list[float], values: FloatArray, places: IntArray
-    ) -> None:
-        """Compare values (n_rows, n) at some unknowns or joint points."""
-        if not values.size:
-            return
-        row, column = np.unravel_index(int(np.abs(values).argmax()), values.shape)
-        found, before = float(values[row, column]), self.peaks.get((kind, name))
-        if before is None or abs(found) > abs(before.value):
-            self.peaks[kind, name] = Peak(found, times[int(row)], int(places[column]))
-
-    def table(self) -> Table:
-        """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
-        made, inner = Table(), dict[str, Table]()
-        for (kind, name), peak in self.peaks.items():
-            entry = Table()
-            entry.set(Mot("VALEUR"), peak.value)
-            entry.set(Mot("TEMPS"), peak.time)
-            if not name:
-                entry.set(Mot("COORDONNEES"), ListReel(self._at_joint(peak.place)))
-                made.set(Mot(kind), entry)
-                continue
-            table, node = self.problem.numbering.table, self.problem.numbering.nodes[peak.place]
-            entry.set(Mot("POINT"), Point(table, int(node)))
-            if kind not in inner:
-                inner[kind] = Table()
-                made.set(Mot(kind), inner[kind])
-            inner[kind].set(Mot(name), entry)
-        return made
-
-    def _at_joint(self, point: int) -> FloatArray:
-        joints = self.problem.interface
-        assert joints is not None
-        places = joint_places(joints)
-        return self.problem.numbering.table.shown(places[point])
+    return LazyTable(find, promises(*KINDS[: 2 if problem.interface is None else None]))
 
 
 def joint_places(joints: Interface) -> FloatArray:

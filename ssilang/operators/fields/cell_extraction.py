@@ -23,7 +23,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot
 from ssilang.messages.message import Teller
-from ssilang.operators.dispatch import EXTR, UNIONS, listing, union
+from ssilang.operators.dispatch import EXTR, listing, union
 
 
 def _mesh_of(field: CellField) -> Mesh:
@@ -190,8 +190,7 @@ def _same_place(a: CellFieldBlock, b: CellFieldBlock) -> bool:
     )
 
 
-if ("MCHAML", "MCHAML") not in UNIONS:
-    union(("MCHAML", "MCHAML"))(join_cell_fields)
+union(("MCHAML", "MCHAML"))(join_cell_fields)
 
 
 @listing("MCHAML")

@@ -23,11 +23,9 @@ from ssilang.language.registry import (
     select,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, register_type, type_of
+from ssilang.language.values import ListMots, type_of
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
-
-register_type(Cloud, "NUAGE")
 
 
 @union(("NUAGE", "NUAGE"))

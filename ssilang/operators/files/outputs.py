@@ -46,12 +46,17 @@ def input_path(call: Call, name: str) -> Path:
     """
     path = run_output(call.session).source(name)
     if path is None:
-        raise _forbidden(call, name, run_output(call.session).inputs)
+        raise forbidden_path(call, name)
     if not path.is_file():
         raise call.error("missing-file", name, path=str(path), reason="no such file")
     if run_output(call.session).is_foreign(path):
         call.session.warn("other-case", call.span, path=str(path))
     return path
+
+
+def forbidden_path(call: Call, name: str) -> SsiError:
+    """The refusal of a file outside of the script's folder and of the output folder."""
+    return _forbidden(call, name, run_output(call.session).inputs)
 
 
 def _forbidden(call: Call, name: str, base: Path) -> SsiError:

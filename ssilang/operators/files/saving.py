@@ -8,6 +8,10 @@ from typing import Any
 
 import numpy as np
 
+# families of elements that restored models may have
+import ssilang.kernel.elements.springs
+import ssilang.kernel.interface.family
+import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError

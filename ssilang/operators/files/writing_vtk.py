@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.run_output import RunOutput
-from ssilang.io.vtk.series import Part, SeriesWriter, strip_extension
+from ssilang.io.vtk.labels import Labels
+from ssilang.io.vtk.series import Part, Series, SeriesWriter, strip_extension
 from ssilang.io.vtk.vtu import Encoding
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -17,14 +18,18 @@ from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import units_in_si
 
 _ENCODINGS = ("FORM", "BINA", "ZIP")
 _LISTS = ("AUTO", "NOUV", "SUIT", "NPVD")
-_WORDS = (*_ENCODINGS, *_LISTS, "TEMP", "DOUBLE_PRECISION")
+_FORMATS = ("VTU", "VTKHDF")
+_WORDS = (*_ENCODINGS, *_LISTS, *_FORMATS, "TEMP", "DOUBLE_PRECISION")
+_OF_FILES = ("FORM", "BINA", "SUIT", "NPVD")  # words that say nothing of one file for all
 _OBJECTS = ("MAILLAGE", "CHPOINT", "MCHAML", "TABLE")
 
 
@@ -37,6 +42,8 @@ class _Said:
     cells: dict[str, CellField] = field(default_factory=dict)
     encoding: Encoding = Encoding.ZIP
     listing: str = "AUTO"
+    format: str = ""
+    of_files: str = ""
     time: float | None = None
     constants: dict[str, float] = field(default_factory=dict)
 
@@ -73,18 +80,27 @@ class _Said:
         en="the series goes on, begins anew, or is not listed",
         fr="la série se poursuit, recommence, ou n'est pas énumérée",
     ),
+    choice(
+        "format",
+        _FORMATS,
+        en="files by instant and mesh with a list, or one file for all (VTU if nothing is said)",
+        fr="un fichier par instant et maillage avec une liste, ou un pour tous (VTU par défaut)",
+    ),
     key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s", fr="temps, en s"),
     flag("double", "DOUBLE_PRECISION", en="changes nothing", fr="sans effet"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
     syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
-    "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
+    "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('VTU'|'VTKHDF') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
     en="VTK: meshes, nodal fields, fields in cells and tables of them, each with an optional name, "
     "as .vtu files for ParaView: NAME.vtu for one mesh, NAME.step.mesh.vtu for several meshes or "
     "times (TEMP), and NAME.pvd that lists them. Displacements, velocities and forces become "
     "vectors, stresses and strains tensors, joints' tractions and openings vectors in the joint's "
     "axes. AUTO goes on with the series that this run began when the time grows, else begins a "
     "new one; SUIT goes on with the .pvd that is there, NOUV begins anew, NPVD writes no list. "
+    "VTKHDF: NAME.vtkhdf has all times, its mesh once (that may not change); ParaView 5.12 and "
+    "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
+    "models (material) whose names the script has, the field data says which is which. "
     "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
     fr="VTK : maillages, champs par points ou par éléments et tables de tels objets, chacun avec "
     "un nom facultatif, en fichiers .vtu pour ParaView : NOM.vtu pour un maillage, "
@@ -92,12 +108,18 @@ class _Said:
     "énumère. Déplacements, vitesses et forces deviennent des vecteurs, contraintes et "
     "déformations des tenseurs, tractions et ouvertures de joints des vecteurs dans les axes du "
     "joint. AUTO poursuit la série commencée par ce calcul si le temps croît, sinon en commence "
-    "une ; SUIT poursuit le .pvd existant, NOUV recommence, NPVD n'écrit pas de liste. Les "
-    "nombres sont en double précision, compressés sauf FORM ou BINA.",
+    "une ; SUIT poursuit le .pvd existant, NOUV recommence, NPVD n'écrit pas de liste. VTKHDF : "
+    "NOM.vtkhdf a tous les temps, son maillage (qui ne peut changer) une fois ; ParaView 5.12 et "
+    "pyvista l'ouvrent, pendant le calcul aussi. Les éléments portent le numéro des maillages "
+    "(group) et des modèles (material) nommés dans le jeu de données, les données générales disent "
+    "lequel est lequel. Les nombres sont en double précision, compressés sauf FORM ou BINA.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
         "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; "
         "OPTI SORT 'beam' ; SORT 'VTK ' L 'BEAM' U 'DEPL' 'TEMP' 0.5 ;",
+        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'bar' ; REPE BT 3 ; "
+        "T = MANU 'CHPO' L 1 'T' (100. * &BT) ; SORT 'VTK ' L T 'VTKHDF' 'TEMP' (0.1 * &BT) ; "
+        "FIN BT ;",
     ),
 )
 def _vtk(call: Call, word: str) -> None:
@@ -106,23 +128,52 @@ def _vtk(call: Call, word: str) -> None:
         raise call.missing(("MAILLAGE",))
     path = strip_extension(target_path(call))
     output = run_output(call.session)
-    parts = {name: _part(mesh, said) for name, mesh in said.meshes.items()}
-    if said.time is None and len(parts) == 1:
+    begun = output.series.get(path)
+    one_file = said.format == "VTKHDF" or (not said.format and begun is not None and begun.one_file)
+    if one_file and said.of_files:
+        raise call.error("operators.files.not-of-one-file", said.of_files, word=said.of_files)
+    parts = _parts(call.session, said, begun, one_file)
+    if one_file:
+        writer: Series = _one_file(output, path, said, tuple(parts))
+    elif said.time is None and len(parts) == 1:
         (part,) = parts.values()
         listed = said.listing != "NPVD"
-        writer = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
-        writer.write_single(part)
-        output.wrote(*writer.files)
+        single = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
+        single.write_single(part)
+        output.wrote(*single.files)
         output.series.pop(path, None)
         return
-    writer = _writer(output, path, said, tuple(parts))
+    else:
+        writer = _files(output, path, said, tuple(parts))
     writer.write_parts(said.time or 0.0, parts)
     output.wrote(*writer.files)
 
 
-def _writer(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> SeriesWriter:
-    """The series to which the step is added."""
+def _parts(session: Session, said: _Said, begun: Series | None, one_file: bool) -> dict[str, Part]:
+    """The parts of a step; cells keep their names of the step before where the mesh is the same."""
+    meshes = said.meshes
+    if one_file and len(meshes) == 1:
+        meshes = {"": next(iter(meshes.values()))}
+    before = {} if begun is None else begun.labels
+    known = {n: before[n][1] for n, m in meshes.items() if n in before and before[n][0] is m}
+    labels = known if len(known) == len(meshes) else cell_labels(session, meshes)
+    return {name: _part(mesh, said, labels[name]) for name, mesh in meshes.items()}
+
+
+def _one_file(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:
+    """The .vtkhdf to which the step is added."""
     begun = output.series.get(path)
+    goes_on = begun is not None and begun.one_file and said.listing != "NOUV"
+    if begun is not None and goes_on and begun.accepts(said.time or 0.0, parts):
+        return begun
+    return output.begin_series(path, said.constants, one_file=True)
+
+
+def _files(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:
+    """The series of .vtu files to which the step is added."""
+    begun = output.series.get(path)
+    if begun is not None and begun.one_file:
+        begun = None
     time = said.time or 0.0
     if said.listing == "SUIT" and begun is None:
         begun = SeriesWriter(path, said.encoding, resume=True, constants=said.constants)
@@ -133,7 +184,7 @@ def _writer(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) 
     if begun is None:
         listed = said.listing != "NPVD"
         begun = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
-    output.series[path] = begun
+    output.keep_series(begun)
     return begun
 
 
@@ -143,7 +194,11 @@ def _read(call: Call) -> _Said:
         # a word behind an object is looked at as its name first
         first = call.operands[0].value if call.operands else None
         word = call.keyword(_WORDS) if isinstance(first, str) else None
-        if word in _ENCODINGS:
+        if word in _OF_FILES:
+            said.of_files = str(word)
+        if word in _FORMATS:
+            said.format = str(word)
+        elif word in _ENCODINGS:
             said.encoding = Encoding(word)
         elif word in _LISTS:
             said.listing = str(word)
@@ -183,8 +238,8 @@ def _index_name(index: object) -> str:
     return str(index).strip() if isinstance(index, str | int) else ""
 
 
-def _part(mesh: Mesh, said: _Said) -> Part:
+def _part(mesh: Mesh, said: _Said, labels: Labels) -> Part:
     """The mesh with the fields that have values on it."""
     ids = mesh.sorted_node_ids
     points = {n: f for n, f in said.points.items() if np.isin(f.node_ids, ids).any()}
-    return Part(mesh, points, said.cells)
+    return Part(mesh, points, said.cells, labels)

@@ -30,17 +30,19 @@ _HISTORY = "EXCE_ASYMPTOTES"
         "VXMIN, VXMAX, VCMAX the bounds. The table comes back with the new point in VX0: work out "
         "values and slopes there and call again. METHODE 'STA' (default) has asymptotes at T0 X "
         "and X / T0 (T0 0.3333; variables of one sign, else at twice the range), 'MOV' asymptotes "
-        "that follow the steps (S0 0.7). From a point that misses conditions, these may be given "
-        "up at a cost: DELTA0 (50) times what F may change over the range.",
+        "that follow the steps (S0 0.7), from those of T0 where it is given. From a point "
+        "that misses conditions, these may be given up at a cost: DELTA0 (50) times what F may "
+        "change over the range.",
         fr="Un pas de la méthode des asymptotes mobiles (Svanberg) vers le plus petit F(X1 ... XN) "
         "sous C1(X) <= C1MAX ... et des bornes. Tables indicées par numéros : VX0 . i le point "
         "actuel ; VF . 0 la valeur de F en ce point, VF . i ses dérivées ; MC . j . 0 et "
         "MC . j . i celles de Cj ; VXMIN, VXMAX, VCMAX les bornes. La table revient avec le "
         "nouveau point dans VX0 : y calculer valeurs et pentes et recommencer. METHODE 'STA' (par "
         "défaut) a les asymptotes en T0 X et X / T0 (T0 0,3333 ; variables d'un seul signe, sinon "
-        "à deux fois l'étendue), 'MOV' des asymptotes qui suivent les pas (S0 0,7). À partir d'un "
-        "point qui manque des conditions, celles-ci peuvent être abandonnées à un coût : "
-        "DELTA0 (50) fois ce que F peut varier sur l'étendue.",
+        "à deux fois l'étendue), 'MOV' des asymptotes qui suivent les pas (S0 0,7), à partir de "
+        "celles de T0 s'il est donné. À partir d'un point qui "
+        "manque des conditions, celles-ci peuvent être abandonnées à un coût : DELTA0 (50) fois ce "
+        "que F peut varier sur l'étendue.",
         syntax="TAB1 = EXCE TAB1 ;",
         examples=(
             "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = 2. ; T . 'VF' = TABL ; "
@@ -101,14 +103,14 @@ def _asymptotes(
     if method not in _METHODS:
         raise call.error("operators.lists.no-such-method", method=method, methods=list(_METHODS))
     extent = bounds[1] - bounds[0]
-    if method == "STA":
+    history = table.get(_HISTORY)
+    if method == "STA" or (table.has("T0") and not isinstance(history, Table)):
         t = _share(call, table, "T0", _FIXED, 0.0, 1.0)
         near, far = np.abs(x) * t, np.abs(x) / t
         wide = (bounds[0] < 0.0) & (bounds[1] > 0.0) | (x == 0.0)
         lower = np.where(wide, x - 2.0 * extent, np.where(x > 0.0, near, -far))
         return lower, np.where(wide, x + 2.0 * extent, np.where(x > 0.0, far, -near))
     s = _share(call, table, "S0", _MOVING, 0.0, 1.0)
-    history = table.get(_HISTORY)
     if not isinstance(history, Table):
         return x - _FIRST * extent, x + _FIRST * extent
     last, older, lower, upper = (_numbers(call, history.get(i), _HISTORY, len(x)) for i in range(4))

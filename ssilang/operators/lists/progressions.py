@@ -19,6 +19,7 @@ from ssilang.language.values import (
     ListObje,
     ListReel,
     Mot,
+    Table,
     type_of,
 )
 
@@ -187,7 +188,10 @@ def integer_steps(start: int, step: int, end: int) -> list[int]:
     """Integers behind `start` up to `end`, whose distance the step divides."""
     if start == end:
         return []
-    if step == 0 or (end - start) % step or (end - start) // step < 0:
+    if step == 0 or (end < start) != (step < 0):
+        told = {"step": step, "start": start, "end": end, "meant": -step}
+        raise KernelError("operators.lists.steps-lead-away", **told)
+    if (end - start) % step:
         raise KernelError("operators.lists.steps-miss-end", step=step, start=start, end=end)
     return list(range(start + step, end + (1 if step > 0 else -1), step))
 
@@ -253,33 +257,68 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
             "LINE": _FACTORS,
             "EXPO": _FACTORS,
             "LOGA": _FACTORS,
+            "TABL": [arg("table", "TABLE", en="numbers by integers", fr="nombres par entiers")],
         },
-        en="a function of the items",
-        fr="une fonction des éléments",
+        en="a function of the items, or those of a table",
+        fr="une fonction des éléments, ou ceux d'une table",
     ),
     *_items("FLOTTANT"),
     family="lists",
     help=Help(
         en="List of reals. A PAS S B goes from A to B by steps of about S (adjusted to hit B); "
         "NPAS N gives N more values; GEOM R makes the steps grow by R; N * X repeats. SINU, LINE, "
-        "EXPO, LOGA give a function of a list.",
+        "EXPO, LOGA give a function of a list, TABL the numbers of a table in the order of its "
+        "integer indices.",
         fr="Liste de réels. A PAS S B va de A à B par pas voisins de S (ajustés pour finir sur B) "
         "; NPAS N donne N valeurs de plus ; GEOM R fait croître les pas ; N * X répète. SINU, "
-        "LINE, EXPO, LOGA donnent une fonction d'une liste.",
+        "LINE, EXPO, LOGA donnent une fonction d'une liste, TABL les nombres d'une table dans "
+        "l'ordre de ses indices entiers.",
         syntax="LREE1 = PROG X1 X2 ... (PAS S1 (GEOM R1) X3 | PAS S1 (GEOM R1) NPAS N1) "
         "(N2 * X4) ... ;\n"
         "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
-        "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;",
-        examples=("LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;", "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;"),
+        "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;\n"
+        "LREE1 = PROG 'TABL' TAB1 ;",
+        examples=(
+            "LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;",
+            "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;",
+            "T = TABL ; T . 2 = 5. ; T . 1 = 4. ; LIST (PROG 'TABL' T) ;",
+        ),
     ),
     reads_itself=_FREE,
 )
 def prog(call: Call) -> ListReel:
     """Read reals."""
+    table = _table_said(call)
+    if table is not None:
+        return ListReel.of(np.asarray(_by_integers(call, table, _REAL), dtype=float))
     word = call.keyword(("SINU", "LINE", "EXPO", "LOGA"))
     if word is not None:
         return _function_of_list(call, word)
     return ListReel.of(np.asarray(_read_items(call, _REAL), dtype=float))
+
+
+def _table_said(call: Call) -> Table | None:
+    """The table behind the word TABL, None where the word does not stand first."""
+    first = call.operands[0].value if call.operands else None
+    if not isinstance(first, Mot) or first.upper()[:4] != "TABL" or len(call.operands) < 2:
+        return None
+    if not isinstance(call.operands[1].value, Table):
+        return None
+    call.take_first(1)
+    table: Table = call.required("TABLE")
+    return table
+
+
+def _by_integers(call: Call, table: Table, kinds: tuple[str, ...] = ()) -> list[Any]:
+    """What a table holds at integers, in their order; other indices are passed over."""
+    indices = sorted(i for i, _ in table.items() if type(i) is int)
+    values = [table.get(i) for i in indices]
+    for index, value in zip(indices, values, strict=True):
+        if kinds and type_of(value) not in kinds:
+            raise call.error(
+                "operators.lists.no-number-in-table", table, index=index, found=type_of(value)
+            )
+    return values
 
 
 def _function_of_list(call: Call, word: str) -> ListReel:
@@ -381,21 +420,30 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
 
 @operator(
     "ENUM",
-    many("objects", en="objects of one type", fr="objets d'un même type"),
+    many("objects", en="objects of one type, or N * object", fr="objets d'un type, ou N * objet"),
     family="lists",
     help=Help(
-        en="List of objects of one type.",
-        fr="Liste d'objets d'un même type.",
-        syntax="LOBJ1 = ENUM OBJ1 (OBJ2 ...) ;",
-        examples=("L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",),
+        en="List of objects of one type; N * OBJ1 repeats, TABL takes those of a table in the "
+        "order of its integer indices.",
+        fr="Liste d'objets d'un même type ; N * OBJ1 répète, TABL prend ceux d'une table dans "
+        "l'ordre de ses indices entiers.",
+        syntax="LOBJ1 = ENUM (N1 *) OBJ1 (OBJ2 ...) ; LOBJ1 = ENUM 'TABL' TAB1 ;",
+        examples=(
+            "L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",
+            "LIST (DIME (ENUM 3 * (PROG 1. 2.))) ;",
+            "T = TABL ; T . 2 = PROG 5. ; T . 1 = PROG 4. ; LIST (EXTR (ENUM 'TABL' T) 1) ;",
+        ),
     ),
+    reads_itself=_FREE,
 )
-def enum(call: Call, objects: tuple[Any, ...]) -> ListObje:
+def enum(call: Call) -> ListObje:
     """Collect objects."""
+    table = _table_said(call)
+    objects = _by_integers(call, table) if table is not None else _repeated_objects(call)
     values: list[Any] = []
     for value in objects:
         values += value.values if isinstance(value, ListObje) else [value]
-        if type_of(values[-1]) != type_of(values[0]):
+        if values and type_of(values[-1]) != type_of(values[0]):
             raise call.error(
                 "operators.lists.object-of-other-type",
                 value,
@@ -403,3 +451,20 @@ def enum(call: Call, objects: tuple[Any, ...]) -> ListObje:
                 found=type_of(values[-1]),
             )
     return ListObje(values)
+
+
+def _repeated_objects(call: Call) -> list[Any]:
+    """Objects of any type, each as often as the integer and the star before it say."""
+    found: list[Any] = []
+    while call.operands:
+        value = call.operands[0].value
+        call.take_first(1)
+        if type(value) is int and _star(call):
+            check_length(len(found) + max(value, 0))
+            if value < 0 or not call.operands:
+                raise call.error("operators.lists.repetition-count", value, count=value)
+            found += [call.operands[0].value] * value
+            call.take_first(1)
+            continue
+        found.append(value)
+    return found

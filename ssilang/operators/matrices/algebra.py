@@ -35,6 +35,7 @@ from ssilang.language.values import ListMots
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.tables.soundness import flaw_of
 
 # --- signs -----------------------------------------------------------------------------------
 
@@ -69,12 +70,15 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
 
 @rule("*", "RIGIDITE", "CHPOINT")
 def _times_field(_sign: str, matrix: Matrix, field: NodeField) -> NodeField:
-    return product(matrix, field)
+    made = product(matrix, field)
+    if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
+        raise OverflowError
+    return made
 
 
 @rule("*", "CHPOINT", "RIGIDITE")
-def _field_times(_sign: str, field: NodeField, matrix: Matrix) -> NodeField:
-    return product(matrix, field)
+def _field_times(sign: str, field: NodeField, matrix: Matrix) -> NodeField:
+    return _times_field(sign, matrix, field)
 
 
 @rule("+", "RIGIDITE", "RIGIDITE")

@@ -12,6 +12,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
 
 _KEY = "connections"
+_NAMED = 4  # nodes that a warning names
 
 
 def warn_connections(
@@ -103,7 +104,7 @@ def _warn_hinges(
         span,
         operator=operator,
         rotations=found.rotations,
-        node=matrix.table.told(int(found.nodes[0])),
-        more=len(found.nodes) - 1,
+        nodes=[matrix.table.told(int(n)) for n in found.nodes[:_NAMED]],
+        more=len(found.nodes[_NAMED:]),
         shell=found.shell,
     )

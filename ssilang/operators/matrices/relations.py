@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
-from ssilang.operators.matrices.supports import as_matrix, nodes_of
+from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
 from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
 
@@ -36,6 +36,7 @@ class _Sum:
 
 def _sums(call: Call, sense: int) -> Matrix:
     terms = _read_terms(call)
+    warn_of_foreign(call, [t.unknown for t in terms])
     ws = workspace(call.session)
     lists = [_spelled(call, t) for t in terms]
     count = max(len(rows) for rows in lists)
@@ -319,7 +320,9 @@ def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
 def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     """The same value at all nodes."""
     ws = workspace(call.session)
-    return as_matrix(tied.same_value(ws.nodes, mesh.node_ids, unknown.upper().rstrip()))
+    name = unknown.upper().rstrip()
+    warn_of_foreign(call, [name])
+    return as_matrix(tied.same_value(ws.nodes, mesh.node_ids, name))
 
 
 @rela.form(

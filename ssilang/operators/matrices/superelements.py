@@ -20,12 +20,9 @@ from ssilang.kernel.matrices.superelement import (
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, by, choice, flag, main, opt, said, shared
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, register_type
+from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing
-
-register_type(SuperElement, "SUPERELE")
-
 
 SUPE = shared(
     "SUPE",

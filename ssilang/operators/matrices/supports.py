@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -43,6 +44,18 @@ def nodes_of(support: Point | Mesh) -> IntArray:
 def as_matrix(relations: Relations) -> Matrix:
     """Conditions alone as a matrix."""
     return Matrix(relations.table, (), (relations,))
+
+
+_DISPLACEMENTS = frozenset({"UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT"})
+
+
+def warn_of_foreign(call: Call, unknowns: Sequence[str]) -> None:
+    """Tell of displacements and rotations that no body has under the OPTI MODE in force."""
+    mode = workspace(call.session).mode
+    own = made.translations(mode) + made.rotations(mode)
+    foreign = [name for name in dict.fromkeys(unknowns) if name in _DISPLACEMENTS.difference(own)]
+    if foreign:
+        call.warn("operators.matrices.foreign-unknown", names=foreign, own=own, mode=mode.value)
 
 
 _CENTRE = arg("centre", "POINT", en="centre", fr="centre")
@@ -115,6 +128,7 @@ class _Held:
     def names(self) -> tuple[str, ...]:
         """Unknowns named one by one, or by DEPL and ROTA."""
         names = list(self.unknowns)
+        warn_of_foreign(self.call, names)
         if "DEPL" in self.groups:
             names += made.translations(self.ws.mode)
         if "ROTA" in self.groups:

@@ -15,16 +15,9 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
 from ssilang.operators.curves.evol import KINDS, history, names_in_time, nodes_named
 from ssilang.operators.curves.instants import value_in_time
-from ssilang.operators.dispatch import extend_help
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
 from ssilang.operators.workspace import workspace
-
-_MODE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; "
-    "T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; "
-    "Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ; "
-)
 
 
 def _basis(call: Call, shapes_wanted: int | None = None) -> list[Shape]:
@@ -66,7 +59,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     if not names:
         raise call.missing(("MOT",))
     places_of = [(name, node) for name in names for node in nodes_named(support.value)]
-    return _curves(call, times, contributions(fields, shapes), known, places_of, colours)
+    return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
 def _curves(
@@ -213,24 +206,3 @@ def _lists_before_table(call: Call) -> bool:
 KINDS["RECO"] = _recombined
 KINDS["PJBA"] = _projected
 KINDS["SOLU"] = _of_contributions
-extend_help(
-    "EVOL",
-    "EVOL1 = EVOL (COUL) 'RECO' LCHP1 LREE1 TBAS1 (N1) COMP | LCOMP GEO1 ;\n"
-    "EVOL1 = EVOL (COUL) 'RECO' TDYNE | TPASA TBAS1 | MODL1 MAT1 (CHAR1) 'DEPL' | 'VITE' | 'ACCE' "
-    "GEO1 COMP | CHPO1 (LREE1) ;\n"
-    "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
-    "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
-    "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
-    "RECO gives components at points from modal contributions in time (of DYNE with a load: with "
-    "the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA the "
-    "projections of fields in time on the shapes of a basis.",
-    "RECO donne des composantes en des points à partir de contributions modales en temps (de DYNE "
-    "avec un chargement : avec les pseudo-modes qu'il excite) ; SOLU les contributions de DYNE ; "
-    "PJBA les projections de champs en temps sur les déformées d'une base.",
-    (
-        _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
-        _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 0.1 ; "
-        "LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
-        _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
-    ),
-)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -12,23 +10,11 @@ from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.language.registry import Argument, Function, Operator, arg, opt
+from ssilang.language.registry import arg, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
-from ssilang.operators.dispatch import extend_help
 from ssilang.operators.matrices.element import amor, mass, rigi
 from ssilang.operators.modal.basis import Shape, shapes_of
-
-
-def _first(made: Operator, *entries: Argument) -> Callable[[Function], Function]:
-    """Decorator: a form that is tried before the operator's own."""
-
-    def add(function: Function) -> Function:
-        made.form(*entries)(function)
-        made.forms.insert(0, made.forms.pop())
-        return function
-
-    return add
 
 
 def _diagonal(modes: list[Shape], values: list[float], kind: str) -> Matrix:
@@ -68,7 +54,7 @@ _BASIS = arg("basis", "TABLE", en="modes, or static shapes", fr="modes, ou défo
 _OTHER = opt("other", "TABLE", en="the other of both", fr="l'autre des deux")
 
 
-@_first(rigi, _BASIS, _OTHER)
+@rigi.form(_BASIS, _OTHER, ahead=True)
 def modal_stiffness(call: Call, basis: Table, other: Table | None) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     modes = [s for s in shapes if s.unknown == "ALFA"]
@@ -123,7 +109,7 @@ def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:
     return np.array([s.mark.node for s in shapes]), unknowns, [dual_of(u) for u in unknowns]
 
 
-@_first(mass, _BASIS)
+@mass.form(_BASIS, ahead=True)
 def modal_mass(call: Call, basis: Table) -> Matrix:
     if basis.subtype == "LIAISONS_STATIQUES":
         raise call.error("operators.modal.static-shapes-hold-no", basis)
@@ -131,14 +117,13 @@ def modal_mass(call: Call, basis: Table) -> Matrix:
     return _diagonal(modes, masses, "MASSE")
 
 
-@_first(mass, _BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass", fr="masse"))
+@mass.form(_BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass", fr="masse"), ahead=True)
 def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matrix) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     return projected_matrix(inertia, [s.field for s in shapes], *_places(shapes))
 
 
-@_first(
-    amor,
+@amor.form(
     _BASIS,
     arg("ratios", "LISTREEL", en="damping ratios", fr="amortissements réduits", unit="%"),
 )
@@ -162,8 +147,7 @@ _EXAMPLE = (
     "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
     " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (EXTR ({} T1{}) 'DIAG') ;"
 )
-extend_help(
-    "RIGI",
+rigi.extend_help(
     "RIG1 = RIGI TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
     "RIG1 = RIGI TAB1 (TAB2) ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points. Of "
@@ -172,8 +156,7 @@ extend_help(
     "déformées statiques, sur BETA, avec ou sans modes : travaux de leurs FORCE et REACTION.",
     (_EXAMPLE.format("RIGI", ""),),
 )
-extend_help(
-    "MASS",
+mass.extend_help(
     "MASS1 = MASS TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
     "MASS1 = MASS TAB1 (TAB2) MASS2 ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised masses on the diagonal. With a mass matrix of the body: its "
@@ -182,8 +165,7 @@ extend_help(
     "corps : sa projection sur des modes (ALFA), des déformées statiques (BETA) ou les deux.",
     (_EXAMPLE.format("MASS", ""),),
 )
-extend_help(
-    "AMOR",
+amor.extend_help(
     "AMOR1 = AMOR TAB1 LREEL1 ;  (BASE_MODALE)",
     "Of a modal basis: 2 x m w on the diagonal, reduced dampings x in per cent, one a mode.",
     "D'une base modale : 2 x m w sur la diagonale, amortissements réduits x en %, un par mode.",

@@ -20,7 +20,7 @@ from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operat
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.matrices.connections import warn_connections
-from ssilang.operators.workspace import workspace
+from ssilang.operators.workspace import solver_of, workspace
 
 _FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz")
 _COUNT = arg("count", "ENTIER", en="number of modes", fr="nombre de modes")
@@ -62,13 +62,13 @@ def _vibr(
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
         ends = sorted((method["low"], method["high"]))
-        modes = modes_between(stiffness, mass, ends[0], ends[1])
+        modes = modes_between(stiffness, mass, ends[0], ends[1], solver_of(call.session))
         if lowest:
             modes = modes[:lowest]
         elif highest:
             modes = modes[-highest:]
     else:
-        modes = modes_near(stiffness, mass, _wanted(call, method))
+        modes = modes_near(stiffness, mass, _wanted(call, method), solver_of(call.session))
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
 
 

@@ -140,7 +140,8 @@ def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], F
     name = _INDEX.get(quantity, quantity)
     if table.subtype != "RESULTAT_DYNE":
         plural = {"ACCELERATION": "ACCELERATIONS"}.get(name, name + "S")
-        return results_in_time(table, plural)
+        kept, instants = results_in_time(table, plural)
+        return list(kept), instants
     times = table.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)
     fields = []

@@ -11,18 +11,21 @@ import numpy as np
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
+from ssilang.language.filled import Filled
 from ssilang.language.registry import ANY, SCALAR_RULES, Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Span
 from ssilang.language.values import ListEnti, ListReel, Table, type_of
 from ssilang.messages.message import Said, Sentence
 
 Rule = Callable[[Any, Any], Any]
 
-RULES: dict[tuple[str, str, str], Rule] = {}
+RULES: Filled[tuple[str, str, str], Rule] = Filled("rules")
 """(sign, left type, right type) -> function; modules of other families add theirs by `rule`."""
 
-CALL_RULES: dict[tuple[str, str, str], Callable[[Call, str, Any, Any], Any]] = {}
+CallRule = Callable[[Call, str, Any, Any], Any]
+CALL_RULES: Filled[tuple[str, str, str], CallRule] = Filled("rules that read more")
 """The same for rules that read more than two operands."""
 
 
@@ -135,8 +138,7 @@ def _list_rule(sign: str) -> Rule:
             raise NoResultError("operators.numbers.list-lengths", n_first=len(x), n_second=len(y))
         if all(isinstance(v, int) or getattr(v, "dtype", None) == np.int64 for v in (x, y)):
             return ListEnti(_integer_arrays(sign, np.asarray(x), np.asarray(y)))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return ListReel(compute(np.asarray(x, dtype=float), np.asarray(y, dtype=float)))
+        return ListReel(compute(np.asarray(x, dtype=float), np.asarray(y, dtype=float)))
 
     return run
 
@@ -183,7 +185,8 @@ def compute(sign: str, call: Call) -> Any:
     Raises
     ------
     SsiError
-        'no-rule' when the types do not go together, 'arithmetic' for a division by zero.
+        'no-rule' when the types do not go together, 'arithmetic' for a division by zero or a
+        result past all reals, in any value of a list, curve or field.
     """
     left = call.read("*")
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
@@ -198,15 +201,33 @@ def compute(sign: str, call: Call) -> Any:
         raise SsiError(
             "no-rule", left.span.to(right.span), operator=sign, left=types[0], right=types[1]
         )
+    senseless: list[str] = []
     try:
-        if reading is not None:
-            return reading(call, sign, left.value, right.value)
-        assert found is not None
-        return found(left.value, right.value)
+        # a result past all reals is an error, wherever it stands; lists may be divided by zero
+        with np.errstate(
+            over="raise", divide="call", invalid="call", call=lambda kind, _: senseless.append(kind)
+        ):
+            if reading is not None:
+                result = reading(call, sign, left.value, right.value)
+            else:
+                assert found is not None
+                result = found(left.value, right.value)
     except (ArithmeticError, ValueError, TypeError) as problem:
         raise SsiError(
             "arithmetic", left.span.to(right.span), operator=sign, reason=_reason(problem)
         ) from None
+    if senseless and isinstance(result, ListReel):
+        _warn_of_zeros(call, left.span.to(right.span), sign, result)
+    return result
+
+
+def _warn_of_zeros(call: Call, span: Span, sign: str, result: ListReel) -> None:
+    """Say which items of a list are infinite, or no numbers."""
+    bad = np.flatnonzero(~np.isfinite(result.values))
+    if len(bad):
+        data = {"sign": sign, "count": len(bad), "item": int(bad[0]) + 1}
+        value = float(result.values[bad[0]])
+        call.session.warn("operators.numbers.list-not-finite", span, value=value, **data)
 
 
 def _reason(problem: Exception) -> Said:
@@ -214,7 +235,8 @@ def _reason(problem: Exception) -> Said:
         return problem
     if isinstance(problem, ZeroDivisionError):
         return Sentence("division-by-zero")
-    return Sentence("too-large" if isinstance(problem, OverflowError) else "no-value")
+    too_large = isinstance(problem, OverflowError | FloatingPointError)
+    return Sentence("too-large" if too_large else "no-value")
 
 
 def _sum_of_table(sign: str, call: Call, table: Table) -> Any:

@@ -138,8 +138,7 @@ def _run(name: str, function: Function, value: Any) -> Any:
             value = float(value)
         elif isinstance(value, ListEnti):
             value = ListReel(value.values)
-    with np.errstate(all="ignore"):
-        return mapped(function, value)
+    return mapped(function, value)
 
 
 for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():

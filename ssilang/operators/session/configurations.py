@@ -12,7 +12,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, by, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.values import register_type
 from ssilang.operators.workspace import workspace
 
 
@@ -21,9 +20,6 @@ class Configuration:
     """Coordinates of all nodes at one time (CONFIGURATION), shape (n, 3)."""
 
     coordinates: FloatArray
-
-
-register_type(Configuration, "CONFIGUR")
 
 
 @operator(

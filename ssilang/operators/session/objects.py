@@ -12,7 +12,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import ANY, Help, arg, flag, lead, many, named, operator, opt, shared
-from ssilang.language.run.call import Call
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.run.session import Session
 from ssilang.language.values import (
@@ -25,6 +25,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.operators.files.outputs import forbidden_path, run_output
 from ssilang.operators.lists.search import equal_items
 
 
@@ -61,16 +62,20 @@ def type_word(value: Any) -> Mot:
     full_name="EXISTE",
     help=Help(
         en="Whether a name holds an object (a missing optional argument does not), a table has an "
-        "index, a field a component or a zone, a list an item, a loading a name, a model a zone.",
+        "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
+        "model a zone; behind * whether the object is of a type, or the name that of a file.",
         fr="Dit si un nom porte un objet (un argument facultatif absent n'en porte pas), si une "
         "table a un indice, un champ une composante ou une zone, une liste un élément, un "
-        "chargement un nom, un modèle une zone.",
+        "chargement un nom (fait d'un type), un modèle une zone ; derrière * si l'objet est d'un "
+        "type, ou le nom celui d'un fichier.",
         syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
         "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
-        "LOG1 = EXIS CHAR1 MOT1 ; LOG1 = EXIS MODL1 MOT1 MOT2 ;",
+        "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
+        "LOG1 = EXIS NOM1 * TYP1 ; LOG1 = EXIS MOT1 * 'FICHIER' ;",
         examples=(
             "T = TABL ; T . 'A' = 1 ; SI (EXIS T 'A') ; MESS 'it does' ; FINSI ;",
             "SI (EXIS (MOTS 'UX' 'UY') 'UY') ; MESS 'it does' ; FINSI ;",
+            "A = 2. ; MESS (EXIS A * FLOTTANT) (EXIS 'none.txt' * 'FICHIER') ;",
         ),
     ),
     gives="LOGIQUE",
@@ -85,10 +90,25 @@ def exis(call: Call) -> Any:
     value = operand.value
     if isinstance(value, Mot) and "%" in operand.span.text and not operand.name:
         return False  # an attribute that the object does not have
+    if call.operands and call.operands[0].span.text == "*":
+        return _of_type(call, operand)
     search = _SEARCHES.get(type_of(value))
     if search is None or not call.operands:
         return value is not ANNULE
     return search(call, value)
+
+
+def _of_type(call: Call, operand: Operand) -> bool:
+    """Whether an object is of a type, or a file of that name stands there."""
+    call.used.append(call.operands.pop(0))
+    word = str(call.required("MOT")).strip().upper()
+    if word[:4] != "FICH":
+        return type_of(operand.value)[:4] == word[:4]
+    name = str(operand.value)
+    path = run_output(call.session).source(name)
+    if path is None:
+        raise forbidden_path(call, name)
+    return path.is_file()
 
 
 def _in_table(call: Call, table: Table) -> bool:
@@ -141,6 +161,12 @@ def _in_cloud(call: Call, cloud: Any) -> bool:
 
 def _in_load(call: Call, load: Load) -> bool:
     said = str(call.required("MOT")).rstrip()
+    kind = call.optional("MOT")
+    if kind is not None:
+        parts = [p for p in load.parts if p.name.rstrip() == said]
+        held = [p.space if p.space is not None else p.steps[0][1] for p in parts]
+        made = ["LISTOBJE" if p.steps else type_of(h) for p, h in zip(parts, held, strict=True)]
+        return str(kind).strip() in made
     if said.upper() in ("LIBR", "LIBRE"):
         return False
     if said.upper() == "LIE":

@@ -11,6 +11,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.solvers.backends import PETSC
 from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
@@ -19,7 +20,6 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
-from ssilang.operators.vocabulary.words import told_options, told_values
 from ssilang.operators.workspace import Workspace, workspace
 
 Reader = Callable[[Call, str], None]
@@ -33,7 +33,7 @@ _DEFAULTS: dict[str, Any] = {
     "ISOV": "SURFACE", "LANG": "FRAN", "LECT": 4, "LOCA": False, "NBP": 0, "NGMA": 100000,
     "NIVE": 19, "OMBR": True, "PARA": False, "PLAC": 0, "POLI": "8_BY_13", "POTR": "COURIER_14",
     "RESO": "DIRECTE", "REST": 2, "SAUV": 8, "SORT": 7, "SOUC": 0, "TRAC": "BENS", "VERI": 0,
-    "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
+    "SOLV": "AUTO", "ZERO": 4, "PETI": sys.float_info.min, "GRAN": sys.float_info.max,
     "PREC": sys.float_info.epsilon,
 }  # fmt: skip
 # cells of more than four straight sides go by one name
@@ -47,6 +47,7 @@ _UNID = (
     "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
 )  # fmt: skip
 _ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
+_UNNUMBERED = 5  # what an error without a number of Cast3M's counts as
 _KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
 
 
@@ -93,6 +94,8 @@ def _one_of(call: Call, option: str, words: tuple[str, ...]) -> str:
 def _no_value(
     call: Call, option: str, said: str, words: tuple[str, ...], *, quoted: bool = False
 ) -> SsiError:
+    from ssilang.operators.vocabulary.words import told_values  # knows the kernel: slow to load
+
     told = told_values(option, words, call.session.language)
     return SsiError(
         "operators.session.no-value-of-option",
@@ -211,6 +214,14 @@ def _unit(call: Call, word: str) -> None:
     _store(call, word, Mot(said))
 
 
+@reader("SOLV")
+def _solv(call: Call, word: str) -> None:
+    said = _one_of(call, "SOLVEUR", ("AUTO", PETSC))
+    if said == PETSC and workspace(call.session).petsc is None:
+        raise call.error("kernel.solvers.petsc-no-command", call.used[-1].value)
+    _store(call, word, Mot(said))
+
+
 @reader("LANG")
 def _lang(call: Call, word: str) -> None:
     said = value_word(call).upper()
@@ -324,6 +335,8 @@ def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
         )
     meant = _ENGLISH.get((word or said).upper().strip())
     near = [meant] if meant else nearest_names(said.strip()[:4], sorted(READERS), 0.5)
+    from ssilang.operators.vocabulary.words import told_options
+
     told = told_options(near, call.session.language)
     return SsiError(
         "operators.session.unknown-option",
@@ -359,16 +372,23 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     full_name="VALEUR",
     terminal=True,
     help=Help(
-        en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic.",
-        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique.",
-        syntax="VAL1 = VALE MOT1 ;",
-        examples=("OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",),
+        en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic, 'ERMA' the "
+        "largest number of the errors that did not stop the run (OPTI ERRE IGNORE), 0 without any.",
+        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique, 'ERMA' le plus "
+        "grand numéro des erreurs qui n'ont pas arrêté le calcul (OPTI ERRE IGNORE), 0 sans elles.",
+        syntax="VAL1 = VALE MOT1 ; N1 = VALE 'ERMA' ;",
+        examples=(
+            "OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",
+            "OPTI ERRE IGNORE ; ERRE 21 ; MESS (VALE 'ERMA') ;",
+        ),
     ),
 )
 def vale(call: Call, said: str, harmonic: bool) -> Any:
     """Read an option back."""
     ws = workspace(call.session)
     word = said.upper()[:4].rstrip()
+    if word == "ERMA":
+        return _worst_error(call)
     if not any(word in known for known in (_CURRENT, _DEFAULTS, READERS)):
         raise _unknown_option(call, said.upper(), said)
     if word == "MODE" and harmonic:
@@ -383,6 +403,12 @@ def vale(call: Call, said: str, harmonic: bool) -> Any:
     if word == "ERRE":
         return {"IGNORE": 2, "CONTROLE": 1}.get(str(value), 0)
     return Mot(value) if isinstance(value, str) else value
+
+
+def _worst_error(call: Call) -> int:
+    """Largest number of the errors that were shown and passed over."""
+    shown = [w for w in call.session.warnings if getattr(w, "severity", "") == "error"]
+    return max((int(w.data.get("number") or _UNNUMBERED) for w in shown), default=0)
 
 
 @operator(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -26,7 +26,15 @@ from ssilang.language.registry import (
     select,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, Table, type_of
+from ssilang.language.values import (
+    ListChpo,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    Table,
+    type_of,
+)
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 
 _SPACE = ("CHPOINT", "MCHAML")
@@ -171,6 +179,48 @@ def char_in_steps(
     return Load((LoadPart(_short(name), None, None, tuple(steps)),))
 
 
+@char.form(
+    _NAME,
+    arg("times", "LISTREEL", en="times", fr="temps", unit="s"),
+    arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each", fr="un objet pour chacun"),
+    _LINK,
+    _MOVES,
+    _PATH,
+    syntax="CHAR1 = CHAR (MOT1) LREE1 LOBJ1 ;",
+    en="The same by a list of times and a list of objects (ENUM, SUIT).",
+    fr="De même par une liste de temps et une liste d'objets (ENUM, SUIT).",
+    examples=(
+        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
+        "LIST (TIRE (CHAR 'MECA' (PROG 0. 2.) L) 1. 'MECA') ;",
+    ),
+)
+def char_in_lists(
+    call: Call,
+    name: str | None,
+    times: ListReel,
+    objects: ListObje | ListChpo,
+    link: str | None,
+    moves: str | None,
+    path: str | None,
+) -> Load:
+    """A field at each of listed times."""
+    _refuse_moving(call, moves or path)
+    if len(times) != len(objects) or not len(times):
+        raise call.error(
+            "operators.statics.times-and-objects-differ",
+            objects,
+            n_times=len(times),
+            n_objects=len(objects),
+        )
+    check_increasing(times.values)
+    for held in objects.values:
+        if type_of(held) not in _HELD:
+            raise call.error("operators.statics.not-loaded", objects, found=type_of(held))
+    fields = cast("tuple[NodeField | CellField, ...]", objects.values)  # by _HELD
+    steps = tuple(zip(times.values.tolist(), fields, strict=True))
+    return Load((LoadPart(_short(name), None, None, steps),))
+
+
 # ---- values at a time ---------------------------------------------------------------------------
 
 
@@ -283,22 +333,43 @@ _PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
             "CHAR": [_NUMBER],
             "CHAM": [_NUMBER],
             "EVOL": [_NUMBER],
+            "LREE": [_NUMBER],
+            "LOBJ": [_NUMBER],
             "COMP": [],
             "LIE": [],
             "LIBR": [],
         },
         optional=False,
-        unless=lambda load: {p.name for p in load.parts},
-        en="a part, its field, its curve, all names, the parts that follow the matter or not",
-        fr="une partie, son champ, son évolution, tous les noms, les parties liées ou libres",
+        unless=lambda load: {p.name for p in getattr(load, "parts", ())},
+        en="a part, its field, its curve, its times or objects, all names, the parts that follow "
+        "the matter or not",
+        fr="une partie, son champ, son évolution, ses temps ou objets, tous les noms, les parties "
+        "liées ou libres",
     ),
-    gives=by("what", {"CHAM": "|".join(_HELD), "EVOL": "EVOLUTIO", "COMP": "LISTMOTS"}, "CHARGEME"),
+    gives=by(
+        "what",
+        {
+            "CHAM": "|".join(_HELD),
+            "EVOL": "EVOLUTIO",
+            "LREE": "LISTREEL",
+            "LOBJ": "LISTOBJE",
+            "COMP": "LISTMOTS",
+        },
+        "CHARGEME",
+    ),
     syntax="CHAR2 = EXTR CHAR1 'CHAR' (N1) | MOT1 | LMOT1 | 'LIE' | 'LIBR' ; "
     "CHP1 = EXTR CHAR1 'CHAM' (N1) ; EVOL1 = EXTR CHAR1 'EVOL' (N1) ; LMOT1 = EXTR CHAR1 'COMP' ;\n"
+    "LREE1 = EXTR CHAR1 'LREE' (N1) ; LOBJ1 = EXTR CHAR1 'LOBJ' (N1) ; "
     "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
-    en="Of a loading: a part by number or name, its field, its curve, the names of all parts.",
-    fr="D'un chargement : une partie par numéro ou nom, son champ, son évolution, les noms.",
-    examples=(_EXAMPLE + "LIST (EXTR C 'COMP') ;",),
+    en="Of a loading: a part by number or name, its field, its curve, its times and objects "
+    "('LREE', 'LOBJ'), the names of all parts.",
+    fr="D'un chargement : une partie par numéro ou nom, son champ, son évolution, ses temps et "
+    "objets ('LREE', 'LOBJ'), les noms.",
+    examples=(
+        _EXAMPLE + "LIST (EXTR C 'COMP') ;",
+        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
+        "C = CHAR 'MECA' (PROG 0. 2.) L ; LIST (EXTR C 'LREE') ; LIST (DIME (EXTR C 'LOBJ' 1)) ;",
+    ),
 )
 def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     """A part of a loading, by a word."""
@@ -319,6 +390,12 @@ def extr_load(call: Call, load: Load, what: Chosen) -> Any:
         return Load((part,))
     if what.word == "CHAM":
         return part.space if part.space is not None else part.steps[0][1]
+    if what.word in ("LREE", "LOBJ"):
+        steps = _steps_of(part)
+        if not steps:
+            raise call.error("operators.statics.part-has-no-curve", load)
+        times, objects = zip(*steps, strict=True)
+        return ListReel.of(np.array(times)) if what.word == "LREE" else ListObje(objects)
     if part.time is None:
         raise call.error("operators.statics.part-has-no-curve", load)
     return part.time
@@ -342,13 +419,17 @@ def extr_names(call: Call, load: Load, names: ListMots) -> Load:
     return Load(_named(call, load, [str(w) for w in names.values]))
 
 
+def _steps_of(part: LoadPart) -> list[tuple[float, Any]]:
+    """Times and what is loaded at each, those of its curve where it has one."""
+    if part.steps or part.time is None:
+        return list(part.steps)
+    times = part.time.parts[0].abscissas.tolist()
+    return [(float(t), part_at(part, float(t))) for t in times]
+
+
 def _tables(part: LoadPart) -> tuple[Table, Table]:
-    steps: list[tuple[float, Any]] = list(part.steps)
-    if not steps and part.time is not None:
-        times = part.time.parts[0].abscissas.tolist()
-        steps = [(float(t), part_at(part, float(t))) for t in times]
     times_table, fields_table = Table(), Table()
-    for i, (time, field) in enumerate(steps):
+    for i, (time, field) in enumerate(_steps_of(part)):
         times_table.set(i, time)
         fields_table.set(i, field)
     return times_table, fields_table

@@ -50,6 +50,7 @@ from ssilang.operators.statics.pasapas_steering import (
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
 from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.run import BulkRun
@@ -103,6 +104,17 @@ def zpas(call: Call, table: Table) -> None:
     entries.table.set(Mot("ERREUR"), False)
 
 
+def _strained(given: Entries, finite: bool) -> CellField | None:
+    """The material field where MES_SAUVEGARDES asks for strains, None where it does not."""
+    asked = given.inside("MES_SAUVEGARDES")
+    if asked is None or not asked.flag("DEFTO"):
+        return None
+    if finite:
+        raise given.error("operators.statics.strains-of-large-displacements")
+    material: CellField = given.needed("CARACTERISTIQUES")
+    return material
+
+
 def _stretch(
     entries: Entries,
     work: Entries,
@@ -129,7 +141,8 @@ def _stretch(
         warn_of_connections(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
-    results = ResultTables(entries.table, saved, stresses, dynamic, number, zones)
+    strained = _strained(given, bool(finite))
+    results = ResultTables(entries.table, saved, stresses, dynamic, number, zones, strained)
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
     kept = work.get("TEMPS_SAUVEGARDES")
@@ -357,6 +370,7 @@ def _inputs(
         contact_options(entries, dynamic),
         start.of("VARIABLES_INTERNES"),
         sides.friction,
+        solver_of(entries.call.session),
     )
     return inputs, stresses
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.elements.families import family_of, stress
+from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.statics.thermal_load import ThermalStress
 from ssilang.language.values import Mot, Table
@@ -66,7 +67,8 @@ class ResultTables:
     """Fills TEMPS, DEPLACEMENTS, CONTRAINTES ... of the table at each saved time.
 
     `number` is that of the initial state; what the table already holds there is kept. Fields in
-    cells come in the order of `zones`, the model's, which a script's EXTR counts.
+    cells come in the order of `zones`, the model's, which a script's EXTR counts. DEFORMATIONS
+    is filled with the linear strains where `material` is given.
     """
 
     table: Table
@@ -75,11 +77,13 @@ class ResultTables:
     dynamic: bool
     number: int = 0
     zones: tuple[Zone, ...] = ()
+    material: CellField | None = None
     _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
-        for word in (w for w in RESULTS if w not in skipped):
+        strains = () if self.material is None else ("DEFORMATIONS",)
+        for word in (*(w for w in RESULTS if w not in skipped), *strains):
             if not isinstance(self.table.get(word), Table):
                 self.table.set(Mot(word), Table())
 
@@ -105,10 +109,14 @@ class ResultTables:
                 snapshot.variables or CellField((), "VARIABLES INTERNES")
             ),
         }
-        strains = getattr(snapshot, "plastic_strains", None)
         values["DEFORMATIONS_INELASTIQUES"] = self._in_order(
-            strains or CellField((), "DEFORMATIONS INELASTIQUES")
+            snapshot.plastic_strains or CellField((), "DEFORMATIONS INELASTIQUES")
         )
+        if self.material is not None:
+            bodies = (z for z in self.zones if not is_joint(z) and family_of(z).strain_names(z))
+            strains = [strain(z, u, self.material) for z in bodies]
+            jumps = snapshot.jumps.blocks if snapshot.jumps else ()
+            values["DEFORMATIONS"] = self._in_order(CellField((*strains, *jumps), "DEFORMATIONS"))
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
         self._last = (snapshot, values)

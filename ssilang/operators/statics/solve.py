@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.errors import KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -17,7 +17,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
-from ssilang.operators.workspace import workspace
+from ssilang.operators.workspace import solver_of, workspace
 
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix", fr="matrice")
 _WORDS = (
@@ -71,13 +71,14 @@ _PRECISION = opt(
 _LOADS = many("loads", "CHPOINT", at_least=1, en="second members", fr="seconds membres")
 
 
-def _options(words: Mapping[str, Any]) -> SolveOptions:
+def _options(call: Call, words: Mapping[str, Any]) -> SolveOptions:
     """What `_WORDS` have read."""
     return SolveOptions(
         unilateral=not words["bilateral"],
         eliminate=words["passes"] is None or words["passes"] > 0,
         project=words["project"] or words["warned"],
         stabilise=words["stabilise"],
+        solver=solver_of(call.session),
     )
 
 
@@ -88,7 +89,7 @@ def _reso(
     loads: tuple[NodeField, ...],
     **words: Any,
 ) -> tuple[NodeField, ...]:
-    options = _options(words)
+    options = _options(call, words)
     if words["warned"]:
         return _or_warning(call, matrix, loads, options)
     warn_connections(call.session, call.span, "RESO", matrix)
@@ -208,25 +209,23 @@ def with_motions(
     """
     from dataclasses import replace
 
-    options = _options(words)
+    options = _options(call, words)
     motions, pins = free_motion_fields(matrix, options)
     fields = []
     for load in loads:
         try:
             fields += solve(matrix, [load], replace(options, project=False))
-        except KernelError:
-            if not motions:
-                raise
+        except SingularMatrixError:
             fields.append(motions[0])
     nodes = Mesh.of(matrix.table, "POI1", pins[:, None])
     return (*fields, len(motions), nodes)
 
 
 @RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members", fr="seconds membres"), *_WORDS)
-def solved_list(matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
+def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
     """One solution for each second member of a list."""
     fields: list[Any] = loads.values
-    return ListChpo(tuple(solve(matrix, fields, _options(words))))
+    return ListChpo(tuple(solve(matrix, fields, _options(call, words))))
 
 
 @RESO.form(
@@ -236,7 +235,7 @@ def solved_list(matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
 )
 def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
     """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
-    ws, options = workspace(call.session), _options(words)
+    ws, options = workspace(call.session), _options(call, words)
     for entry, _, _ in static_links(table):
         force, block = entry.get("FORCE"), entry.get("BLOCAGE")
         if not isinstance(force, NodeField):

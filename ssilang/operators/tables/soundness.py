@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, Load
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.values import ListReel
 
@@ -28,6 +29,9 @@ def _numbers_in(value: object) -> list[Any]:
         return [np.asarray(value.values, dtype=float)]
     if isinstance(value, NodeField):
         return [p.values for p in value.components.values()]
+    if isinstance(value, CellField):
+        parts = (v for b in value.blocks for v in b.components.values())
+        return [v for v in parts if v.dtype.kind == "f"]
     if isinstance(value, Curve):
         return [a for p in value.parts for a in (p.abscissas, p.ordinates)]
     if isinstance(value, Load):

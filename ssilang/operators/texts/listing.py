@@ -13,6 +13,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import Help, arg, flag, key, lead, many, named, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.text.printer import print_items
 from ssilang.language.values import (
     ANNULE,
     ListChpo,
@@ -68,7 +69,7 @@ def _word(value: str, short: bool, say: Teller) -> str:
 
 @listing("TEXTE")
 def _text(value: Texte, short: bool, say: Teller) -> str:
-    return say("operators.texts.text", text=" ".join(i.span.text for i in value.items))
+    return say("operators.texts.text", text=print_items(value.items))
 
 
 @listing("LISTREEL")
@@ -324,11 +325,18 @@ LIST = shared(
             "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
             "LIST *'ENTIER' ; A = 3 ; LIST ;",
             "LIST 'RESU' ;",
+            "I = 2 ; T = TEXT I 'TIMES' 3 ; LIST T ;",
         ),
     ),
     full_name="LISTE",
     terminal=True,
 )
+
+
+@LIST.form(lead("value", "TEXTE", en="a text, as it stands", fr="un texte, tel quel"))
+def _list_text(session: Session, value: Texte) -> None:
+    """A text is shown, not put in its place."""
+    session.print(described(value, session.told))
 
 
 @LIST.form(

@@ -81,6 +81,12 @@ def test_spectral_radius_at_infinite_frequency(scheme, numbers, radius):
     assert np.abs(np.linalg.eigvals(scaled)).max() == pytest.approx(radius, abs=2e-4)
 
 
+def test_only_the_average_acceleration_keeps_the_energy_of_linear_systems():
+    kept = {name for name, (scheme, _, _) in TABLE.items() if scheme.average_acceleration}
+    assert kept == {name for name, (_, numbers, _) in TABLE.items() if numbers == (0, 0, 0.25, 0.5)}
+    assert "average acceleration" in kept
+
+
 @pytest.mark.parametrize("gamma", [0.5, 0.6, 0.9])
 def test_newmark_takes_any_stable_pair(gamma):
     assert newmark(0.7, gamma) == Scheme(0.0, 0.0, 0.7, gamma)

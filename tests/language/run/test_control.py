@@ -34,6 +34,25 @@ def test_a_directive_behind_the_condition_is_warned_of_once(run):
     assert [w.code for w in run(text).result.session.warnings] == ["behind-condition"]
 
 
+@pytest.mark.parametrize("directive", ["LIST", "MENA", "RESP"])
+def test_a_directive_alone_behind_the_condition_is_warned_of(run, directive):
+    script = run(f"x = 0 ; SI (x < 2) {directive} ; x = 1 ; FINSI ;")
+    assert [w.code for w in script.result.session.warnings] == ["behind-condition"]
+    assert (script["x"], script.lines) == (1, [])
+
+
+@pytest.mark.parametrize(
+    ("condition", "code"),
+    [
+        ("VRAIE", "unknown-operator"),
+        ("RSEO 3", "unknown-operator"),
+        ("1.5", "condition"),
+    ],
+)
+def test_a_word_that_is_no_condition_is_told_apart_from_a_value(fails, condition, code):
+    assert fails(f"SI {condition} ; FINSI ;") == code
+
+
 def test_blocks_nest(run):
     text = (
         "x = 0 ; SI VRAI ; SI FAUX ; x = 1 ; SINON ; REPE b 2 ; x = x + 10 ; FIN b ; FINSI ;"

@@ -78,3 +78,8 @@ def test_a_text_spells_the_values_of_words_and_numbers(run):
         "X = TEXT I W T . 1 ; I = 9 ; Y = X ;"
     )
     assert script["Y"] == 20
+
+
+def test_list_shows_a_text_as_it_stands(run):
+    lines = run("I = 2 ; X = 9 ; T = TEXT I 'TIMES' 3 'X' ; LIST T ;").lines
+    assert lines == ["Text: 2 TIMES 3 X"]

@@ -64,6 +64,39 @@ def test_any_text_is_read_or_refused_as_by_the_grammar(pieces):
     assert tree(quick(source)) == tree(expected)
 
 
+@pytest.mark.parametrize(
+    ("text", "sound"),
+    [
+        ("% A ;", True),  # the object that runs a method
+        ("X = % A ;", True),
+        ("B%A ;", True),
+        ("(B) % A ;", True),
+        ("X = 1 %A ;", True),
+        ("X = 1%A ;", None),
+        ("'W'%A ;", None),
+        ("T . 1%A ;", False),
+        ("T . X%A ;", False),
+        ("B%A%C ;", None),
+        ("(%A) ;", True),
+        ("B % ;", False),
+        ("% ;", False),
+        ("X = %;", False),
+    ],
+)
+def test_signs_of_attributes_stand_behind_what_has_some(text, sound):
+    source = Source("x", text)
+    try:
+        expected = tree(parse_by_grammar(source, source.code))
+    except SeveralErrors:
+        expected = None
+    if sound is not None:
+        assert (expected is not None) == sound
+    try:
+        assert tree(quick(source)) == expected
+    except Unsound:
+        assert expected is None
+
+
 @pytest.mark.parametrize("read", [quick, lambda s: parse_by_grammar(s, s.code)])
 def test_an_empty_parenthesis_has_its_place(read):
     (statement,) = read(Source("x", "A = PROG () ;"))

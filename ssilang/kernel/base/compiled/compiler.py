@@ -16,6 +16,8 @@ import numba
 
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.cache import folder_of
+from ssilang.kernel.base.compiled.kept import keep
+from ssilang.kernel.base.compiled.linked import Linked
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -57,11 +59,9 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     options |= {"fastmath": freedom, "forceinline": inline}
     if PLAIN or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return cast(Function, numba.njit(cache=kept is not None, **options)(function))
-    from ssilang.kernel.base.compiled.linked import Linked
-
     made = Linked(function, None, options | {"nopython": True, "boundscheck": None})
     if kept is not None:
-        made.enable_caching()
+        keep(made)
     return cast(Function, made)
 
 

@@ -66,7 +66,7 @@ def polar(F: FloatArray) -> tuple[FloatArray, FloatArray]:
     FieldError
         If F turns a volume inside out, or has terms that are no finite numbers.
     """
-    if not (np.linalg.det(F) > 0.0).all() or not np.isfinite(F).all():
+    if not np.isfinite(F).all() or not (np.linalg.det(F) > 0.0).all():
         raise FieldError("kernel.elements.gradient-motion-determinant-not")
     left, stretch, right = np.linalg.svd(F)
     U = np.swapaxes(right, -1, -2) @ (stretch[..., None] * right)

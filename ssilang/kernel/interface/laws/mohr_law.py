@@ -22,6 +22,10 @@ from ssilang.kernel.interface.laws.columns import (
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
 
+ROUNDING = 1e-10
+"""What of the cohesion a normal traction may pull beyond the strength: faces that slide at no
+pressure at all stand exactly there."""
+
 
 @compiled
 def _elastic_normal(closing: float, p: FloatArray) -> tuple[float, float]:
@@ -63,12 +67,24 @@ def mohr_point(
     if p[Par.TPHI] > 0.0:
         strength = min(strength, p[Par.COHE] / p[Par.TPHI])
     tn, kn = _elastic_normal(w[n] - state[Var.XI], p)
-    if tn > strength and strength == 0.0:
+    bound = strength + ROUNDING * p[Par.COHE]
+    if tn > bound and p[Par.TPSI] > 0.0:
+        # slip opens the joint: what pulls when tried may press once the faces have slid
+        spent = _slide(w, p, t, new, D, tn, kn)
+        if t[n] <= bound:
+            new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + spent
+            _cumulate(state, new, n)
+            return
+        clear(D)
+        copy_state(state, new)
+        new[Var.OPENING] = 0.0
+        new[Var.STATUS] = IN_CONTACT
+    if tn > bound and strength == 0.0:
         _open(w, state, p, t, new)
         _cumulate(state, new, n)
         return
     loss = 0.0
-    if tn > strength:
+    if tn > bound:
         new[Var.XI] += (tn - strength) / kn
         loss += strength * (tn - strength) / kn
         tn, kn = strength, 0.0

@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.nodes import NodeTable, told_coordinates
 
 # fractions (m,) of the way along the curve -> positions (m, 3)
 CurveMap = Callable[[FloatArray], FloatArray]
@@ -129,11 +129,11 @@ def line_chain(line: Mesh) -> IntArray:
         raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=kinds)
     table = line.single_block().connectivity
     if not np.array_equal(table[1:, 0], table[:-1, -1]):
-        table = _in_order(table)
+        table = _in_order(table, line.nodes)
     return np.concatenate([table[:, :-1].ravel(), table[-1:, -1]])
 
 
-def _in_order(table: IntArray) -> IntArray:
+def _in_order(table: IntArray, nodes: NodeTable) -> IntArray:
     """Cells (n, 2 or 3) of one line that all run in its sense, one behind the other."""
     leaving = {int(first): i for i, first in enumerate(table[:, 0])}
     starts = np.setdiff1d(table[:, 0], table[:, -1])
@@ -144,8 +144,18 @@ def _in_order(table: IntArray) -> IntArray:
             rows.append(leaving[at])
             at = int(table[rows[-1], -1])
     if len(rows) != len(table):
-        raise MeshError("kernel.mesh.line-cells-not-follow")
+        raise MeshError("kernel.mesh.line-cells-not-follow", twice=_met_twice(table, nodes))
     return table[rows]
+
+
+def _met_twice(table: IntArray, nodes: NodeTable) -> str:
+    """Where two ends of the parts of a line are different nodes at one place; '' nowhere."""
+    ends, cells = np.unique(table[:, [0, -1]], return_counts=True)
+    at = nodes.coordinates[ends[cells == 1]]
+    apart = np.linalg.norm(at[:, None] - at[None], axis=2)
+    length = np.linalg.norm(np.ptp(nodes.coordinates[ends], axis=0))
+    first, second = np.nonzero(np.triu(apart <= 1e-9 * length, k=1))
+    return told_coordinates(nodes.shown(at[first[0]])) if len(second) else ""
 
 
 def line_ends(line: Mesh) -> tuple[int, int]:

@@ -191,12 +191,12 @@ def _group_stage(
     C: sp.csr_array, todo: BoolArray, fixed: list[_Stage], peeled: list[_Stage]
 ) -> list[_Stage]:
     """What is left, group by group, by QR with column pivoting (one stage for all groups)."""
-    from scipy.sparse.csgraph import connected_components
-
     taken = _taken(C, fixed + peeled)
     rows = np.flatnonzero(todo & (_open_terms(C, taken) ** 2 <= LARGEST_FILL))
     if len(rows) == 0:
         return []
+    from scipy.sparse.csgraph import connected_components  # brings all of scipy.linalg
+
     part = C[rows][:, ~taken]
     columns = np.flatnonzero(~taken)
     _, label = connected_components(abs(part) @ abs(part).T, directed=False)

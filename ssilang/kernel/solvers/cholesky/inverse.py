@@ -15,7 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.backends import factorise
-from ssilang.kernel.solvers.factor import Factor, Ordering
+from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
@@ -79,7 +79,7 @@ class Inverse:
 def invert(
     A: sp.csr_array,
     symmetric: bool,
-    backend: str | None = None,
+    solver: Solver | str | None = None,
     ordering: Ordering | None = None,
 ) -> Inverse:
     """Factorise A (n, n); of a singular symmetric A find the free motions and pin them.
@@ -103,16 +103,16 @@ def invert(
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     scaled, scale = _unit_diagonal(A)
     ordering = None if ordering is None else ordering.scaled(scale)
-    factor = _try_factors(scaled, symmetric, backend, ordering)
+    factor = _try_factors(scaled, symmetric, solver, ordering)
     if factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
-    motions = free_motions(scaled, symmetric, backend)
+    motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
     kept = np.setdiff1d(np.arange(n), pinned)
     part = None if ordering is None else ordering.of(kept.astype(np.int64))
-    held = _try_factors(sp.csr_array(scaled[kept][:, kept]), symmetric, backend, part)
+    held = _try_factors(sp.csr_array(scaled[kept][:, kept]), symmetric, solver, part)
     if held is None:
         raise KernelError("kernel.solvers.matrix-stays-singular-free")
     motions = (motions.T * scale).T
@@ -139,14 +139,14 @@ def _unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
 
 
 def _try_factors(
-    A: sp.csr_array, symmetric: bool, backend: str | None, ordering: Ordering | None
+    A: sp.csr_array, symmetric: bool, solver: Solver | str | None, ordering: Ordering | None
 ) -> Factor | None:
     """Factor without pivoting if A seems positive, else with; None if exactly singular."""
     if A.shape[0] == 0:  # everything was pinned
         return _Empty()
     for positive in (True, False) if symmetric and (A.diagonal() > 0.0).all() else (False,):
         try:
-            factor = factorise(A, positive, backend, ordering)
+            factor = factorise(A, positive, solver, ordering)
         except SingularFactorError:
             continue
         if not positive or accurate(A, factor):
@@ -177,14 +177,16 @@ def _smallest_eigenvalue(factor: Factor, n: int) -> float:
     return 1.0 / size if size > 0.0 else np.inf
 
 
-def free_motions(scaled: sp.csr_array, symmetric: bool, backend: str | None = None) -> FloatArray:
+def free_motions(
+    scaled: sp.csr_array, symmetric: bool, solver: Solver | str | None = None
+) -> FloatArray:
     """Orthonormal null vectors (n, p) of a matrix with unit diagonal.
 
     Subspace iterations on the shifted matrix; a vector is null if its energy (symmetric) or the
     norm of its image (else) is below `FREE` times some tens.
     """
     n = scaled.shape[0]
-    shifted = factorise(sp.csr_array(scaled + SHIFT * sp.eye_array(n)), False, backend)
+    shifted = factorise(sp.csr_array(scaled + SHIFT * sp.eye_array(n)), False, solver)
     width = 8
     while True:
         width = min(width, n)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
@@ -42,6 +41,8 @@ def bodies_of(problem: Problem) -> IntArray:
 
     The unknowns of one node belong together.
     """
+    from scipy.sparse.csgraph import connected_components  # brings all of scipy.linalg
+
     n, C = problem.numbering.size, abs(problem.constraints.C)
     nodes = problem.numbering.nodes
     _, place = np.unique(nodes, return_inverse=True)

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
@@ -42,6 +42,10 @@ class Constraints(Protocol):
         """lambda (n_rows,) with `D^T lambda = residual` (n,)."""
         ...
 
+    def pushers(self, rows: IntArray) -> FloatArray:
+        """Columns (n, m) whose products with a residual are some of its multipliers."""
+        ...
+
 
 class EliminatedConstraints:
     """Sparse elimination, for systems of any size."""
@@ -61,6 +65,10 @@ class EliminatedConstraints:
     def multipliers(self, residual: FloatArray) -> FloatArray:
         """lambda (n_rows,) with `C^T lambda = residual`."""
         return self._elimination.multipliers(residual)
+
+    def pushers(self, rows: IntArray) -> FloatArray:
+        """Columns (n, m): multipliers are the transpose of particular motions."""
+        return _particulars(self, rows)
 
 
 class OrthogonalConstraints:
@@ -92,6 +100,10 @@ class OrthogonalConstraints:
         found: FloatArray = self._inverse.T @ residual
         return found
 
+    def pushers(self, rows: IntArray) -> FloatArray:
+        """Columns (n, m) of the inverse."""
+        return self._inverse[:, rows]
+
 
 class NonAssociatedConstraints:
     """Conditions whose multipliers push by other rows: C gives the motions, D the forces.
@@ -120,6 +132,19 @@ class NonAssociatedConstraints:
     def multipliers(self, residual: FloatArray) -> FloatArray:
         """lambda (n_rows,) with `D^T lambda = residual`."""
         return self._pushing.multipliers(residual)
+
+    def pushers(self, rows: IntArray) -> FloatArray:
+        """Columns (n, m), those of the rows that push."""
+        return self._pushing.pushers(rows)
+
+
+def _particulars(constraints: Constraints, rows: IntArray) -> FloatArray:
+    """Particular motions (n, m) of unit values of some rows."""
+    n_rows, n = constraints.C.shape
+    found = np.zeros((n, len(rows)))
+    for j, row in enumerate(rows.tolist()):
+        found[:, j] = constraints.particular(np.eye(1, n_rows, row)[0])
+    return found
 
 
 def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:

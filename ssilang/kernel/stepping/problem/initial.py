@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import TOUCHING, BoolArray, ContactRows
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_energies, interface_forces, local_jumps
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
+from ssilang.kernel.solvers.backends import factorise, goes_to_petsc
 from ssilang.kernel.stepping.problem.problem import Problem
 
 
@@ -182,8 +183,12 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         block = sp.csc_array(mass[heavy][:, heavy])
         pushed = (T.T @ force)[heavy]
         try:
-            q[heavy] = spla.splu(block).solve(pushed)
-        except RuntimeError:
+            if goes_to_petsc(problem.solver, len(heavy)):
+                factor = factorise(sp.csr_array(block), True, problem.solver)
+                q[heavy] = factor.solve(pushed)
+            else:
+                q[heavy] = spla.splu(block).solve(pushed)
+        except (RuntimeError, SingularFactorError):
             q[heavy] = np.linalg.lstsq(block.toarray(), pushed, rcond=1e-12)[0]
     if not np.isfinite(q).all():
         raise KernelError("kernel.stepping.mass-matrix-singular-no")

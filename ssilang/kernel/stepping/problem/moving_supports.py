@@ -61,7 +61,7 @@ class Course:
         Those of the inertia are such that a mean by alpha_f is that of c'' by alpha_m.
         """
         inertia = self.a.copy()
-        for k in range(len(inertia) - 1):
+        for k in range(len(inertia) - 1 if inertia.shape[1] else 0):
             mean = n.inertia_end * self.a[k + 1] + n.inertia_start * self.a[k]
             inertia[k + 1] = (mean - n.start * inertia[k]) / n.end
         return np.hstack([inertia, self.v, self.c])
@@ -131,6 +131,8 @@ class MovingSupports:
     def course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
         """The scheme's velocities and accelerations of c, from those at the start."""
         v, a, n = np.zeros_like(c), np.zeros_like(c), self.newmark
+        if not c.shape[1]:
+            return Course(c, v, a)
         v[0], a[0] = v0, a0
         for k in range(len(c) - 1):
             v[k + 1], a[k + 1] = advanced(n, c[k + 1] - c[k], v[k], a[k])
@@ -150,7 +152,7 @@ class MovingSupports:
             Of the loads of the problem.
         """
         steps, m = len(history), columns.X.shape[1]
-        if steps == 0:
+        if steps == 0 or m == 0:
             return
         c, v, a = course.c[: steps + 1], course.v[: steps + 1], course.a[: steps + 1]
         rises = works[0, :steps]

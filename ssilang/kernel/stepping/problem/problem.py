@@ -38,6 +38,7 @@ from ssilang.kernel.matrices.assembly import (
     refuse_negative_mass,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading, loading_of
@@ -71,6 +72,8 @@ class Problem:
     contact : ContactRows or None
         Unilateral relations.
     contact_options : ContactOptions
+    solver : Solver
+        Which solver takes the systems of its steps.
     """
 
     numbering: Numbering
@@ -88,6 +91,7 @@ class Problem:
     scheme: Scheme = field(default_factory=Scheme)
     contact: ContactRows | None = None
     contact_options: ContactOptions = field(default_factory=ContactOptions)
+    solver: Solver = FIRST_FIT
 
     @property
     def small(self) -> bool:
@@ -118,6 +122,7 @@ class Inputs:
     contact_options: ContactOptions = field(default_factory=ContactOptions)
     variables: CellField | None = None
     friction: tuple[Friction, ...] = ()
+    solver: Solver = FIRST_FIT
 
 
 def make_problem(inputs: Inputs) -> Problem:
@@ -169,6 +174,7 @@ def make_problem(inputs: Inputs) -> Problem:
         inputs.scheme,
         contact,
         inputs.contact_options,
+        inputs.solver,
     )
 
 

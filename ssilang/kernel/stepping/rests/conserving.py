@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.conserving import ConservingContact
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.mean_traction import mean_response
@@ -36,6 +36,7 @@ from ssilang.kernel.stepping.state import (
     Outcome,
     Recorder,
 )
+from ssilang.kernel.stepping.track import View, whole_view
 
 TOLERANCE = 1e-14
 ACCEPTED = 1e-11
@@ -105,9 +106,12 @@ class ConservingLoop:
             if not np.isfinite(m.u).all():
                 return k, -1, np.inf
             recorder.energies[k] = m.energies
-            if recorder.row[k] >= 0:
-                keep_whole(m, recorder, int(recorder.row[k]))
+            keep_whole(m, recorder, k)
         return len(recorder.row), worst, 0.0
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are."""
+        return whole_view(self.motion, unknowns)
 
     def _increment(self, r: FloatArray, dd: FloatArray) -> tuple[FloatArray, int, float]:
         e, joints = self.effective, self.problem.interface

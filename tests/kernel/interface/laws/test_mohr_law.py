@@ -56,6 +56,22 @@ def test_dilatant_slip_opens_the_joint_and_stays_on_the_cone():
     np.testing.assert_allclose(state[:, Variable.XI], 0.3 * state[:, Variable.SLIP1], rtol=1e-12)
 
 
+def test_faces_lifted_by_their_own_slip_still_carry_shear():
+    """Slip s of 0.1 - 2 / 100 leaves the shear at the cohesion and lifts by as much: no pressure.
+
+    KS 100, COHE 2 and a dilatancy of 45 degrees; what stands in between is on the cone.
+    """
+    p = parameters(KS1=100.0, TPSI=1.0, COHE=2.0)
+    t, state = walk([[0.1, 0.05]], p)
+    np.testing.assert_allclose(t, [[3.5, -1.5]], rtol=1e-12)  # slip 0.065 lifts 0.065
+    t, state = walk([[0.1, 0.08], [0.1, 0.08]], p)
+    np.testing.assert_allclose(t, [[2.0, 0.0], [2.0, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(state[:, Variable.XI], 0.08, rtol=1e-12)
+    t, state = walk([[0.1, 0.09]], p)  # beyond what the slip lifts: no strength, open
+    np.testing.assert_array_equal(t, [[0.0, 0.0]])
+    assert state[-1, Variable.STATUS] == 1
+
+
 def test_tension_stops_at_the_strength_and_its_opening_stays():
     p = parameters(COHE=10.0, FTRC=2.0)
     t, state = walk([[0, 0.1], [0, 0.05]], p)

@@ -28,7 +28,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, keep
+from ssilang.kernel.stepping.verbs import advance, keep, tap, watch
 
 
 class System(NamedTuple):
@@ -241,5 +241,9 @@ def run_dense(
         copy_state(motion.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(motion, to, to.row[k])
+        if to.tap.row[k] >= 0:
+            tap(motion, to.tap, to.tap.row[k])
+        if len(to.peaks.u):
+            watch(motion, to.peaks, k)
         copy_state(sweep.load1, sweep.load0)
     return len(to.row), worst, 0.0

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.interface.newton import workspace
-from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.problem.equilibrium import reactions
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of, jumps_of
 from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System, run_dense
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
+from ssilang.kernel.stepping.track import Matrix, View, expand, whole_view
 
 
 def supports_are_still(problem: Problem) -> bool:
@@ -66,38 +67,28 @@ class ReducedLoop:
         to = r._replace(u=u, v=v, a=a, reaction=np.zeros((0, n)))
         outcome = run_dense(self.system, self.step, self.joints, few, self._work, factors, to)
         m.u[:], m.v[:], m.a[:] = T @ few.u, T @ few.v, T @ few.a
-        r.u[:], r.v[:], r.a[:] = u @ T.T, v @ T.T, a @ T.T
-        keep_reactions(self.problem, self.joints, factors, r)
-        react(self.problem, self.joints, m, factors[outcome[0]])
+        for part, q in zip((r.u, r.v, r.a), (u, v, a), strict=True):
+            part[:] = expand(T, q)
+        keep_reactions(self.problem, factors, r)
+        react(self.problem, m, factors[outcome[0]])
         return outcome
 
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns follow from all motions."""
+        n = self.T.shape[1]
+        shapes = whole_view(self.motion, np.arange(n), "reaction").shapes
+        return View(np.arange(n), shapes, Matrix(self.T[unknowns]))
 
-def keep_reactions(problem: Problem, joints: Joints, factors: FloatArray, kept: Recorder) -> None:
+
+def keep_reactions(problem: Problem, factors: FloatArray, kept: Recorder) -> None:
     """Reactions of kept instants, from equilibrium."""
     if len(kept.u):
         loads = factors[1:][kept.row >= 0] @ problem.loading.forces.T
-        kept.reaction[:] = reactions(problem, joints, kept.u, kept.v, kept.a, kept.t, loads)
+        kept.reaction[:] = reactions(problem, kept.u, kept.v, kept.a, kept.t, loads)
 
 
-def react(problem: Problem, joints: Joints, m: Motion, factors: FloatArray) -> None:
+def react(problem: Problem, m: Motion, factors: FloatArray) -> None:
     """Reactions of the motion at load factors (k,), from equilibrium."""
     loads = problem.loading.forces @ factors
     now = (x[None] for x in (m.u, m.v, m.a, m.t, loads))
-    m.reaction[:] = reactions(problem, joints, *now)[0]
-
-
-def reactions(
-    problem: Problem, joints: Joints, u: FloatArray, v: FloatArray, a: FloatArray, t: FloatArray,
-    loads: FloatArray,
-) -> FloatArray:  # fmt: skip
-    """`M a + C v + K u + J^T f - F` of several instants, one a row."""
-    p = problem
-    total: FloatArray = (p.M @ a.T + p.C @ v.T + p.K @ u.T).T - loads
-    if p.interface is not None:
-        d = p.interface.dimension
-        local = np.einsum("p,rpi,pik->rpk", joints.weights, t, joints.B)
-        places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(joints.pairs), -1)
-        f = np.zeros((len(u), p.interface.size))
-        np.add.at(f, (np.arange(len(u))[:, None, None], places[None]), local)
-        total = total + f @ p.interface.J
-    return total
+    m.reaction[:] = reactions(problem, *now)[0]

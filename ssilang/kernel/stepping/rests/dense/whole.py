@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of, operators_of, system_of
 from ssilang.kernel.stepping.rests.dense.loop import run_dense
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
+from ssilang.kernel.stepping.track import View, whole_view
 
 
 class DenseLoop:
@@ -32,3 +33,7 @@ class DenseLoop:
             factors,
             recorder,
         )
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are."""
+        return whole_view(self._motion, unknowns)

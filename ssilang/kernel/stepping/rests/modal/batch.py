@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.sharing import LoadBasis
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.dense.still_supports import reactions
 from ssilang.kernel.stepping.rests.modal.modes import (
     Modes,
     local_jumps,
@@ -24,6 +22,7 @@ from ssilang.kernel.stepping.rests.modal.modes import (
     modes_of,
     only_pushes,
     shearless,
+    spring_rows,
 )
 from ssilang.kernel.stepping.rests.modal.springs import springs_of
 from ssilang.kernel.stepping.rests.modal.springs_batch import batch_of, run_springs_batch
@@ -33,91 +32,14 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Outcome,
     Recorder,
+    Tap,
     ends_of,
     part_of,
     recorder_of,
     stacked,
 )
+from ssilang.kernel.stepping.track import JointRows, Matrix, Rows, View
 
-
-@dataclass(frozen=True, eq=False)
-class KeptInstants:
-    """The kept steps of one motion in coordinates; whole arrays are made when one is asked for."""
-
-    problem: Problem
-    modes: Modes
-    joints: Joints
-    kept: Recorder  # on coordinates, normal jumps w, forces f and largest openings as the state
-    factors: FloatArray  # (n_rows, k)
-    past: FloatArray  # (n_points, N_STATE)
-
-    @cached_property
-    def u(self) -> FloatArray:
-        """Displacements (n_rows, n)."""
-        return self._rows(self.kept.u)
-
-    @cached_property
-    def v(self) -> FloatArray:
-        """Velocities."""
-        return self._rows(self.kept.v)
-
-    @cached_property
-    def a(self) -> FloatArray:
-        """Accelerations."""
-        return self._rows(self.kept.a)
-
-    def _rows(self, z: FloatArray) -> FloatArray:
-        """Whole fields; the batch has room for as many rows as the fullest of its motions."""
-        return z[: len(self.factors)] @ self.modes.X.T
-
-    @cached_property
-    def w(self) -> FloatArray:
-        """Jumps (n_rows, n_points, d)."""
-        rows = len(self.factors)
-        found = local_jumps(self.joints, self.kept.u[:rows] @ self.modes.J.T)
-        found[..., -1] = self.kept.w[:rows, :, 0]
-        return found
-
-    @cached_property
-    def t(self) -> FloatArray:
-        """Tractions (n_rows, n_points, d)."""
-        f = self.kept.f[: len(self.factors)]
-        found = np.zeros((*f.shape, self.joints.B.shape[1]))
-        found[..., -1] = f / self.joints.weights
-        return found
-
-    @cached_property
-    def state(self) -> FloatArray:
-        """States (n_rows, n_points, N_STATE)."""
-        found = np.repeat(self.past[None], len(self.factors), axis=0)
-        found[..., Variable.XI] = self.kept.state[: len(self.factors), :, 0]
-        return found
-
-    @cached_property
-    def reaction(self) -> FloatArray:
-        """What the conditions push by (n_rows, n)."""
-        loads = self.factors @ self.problem.loading.forces.T
-        return reactions(self.problem, self.joints, self.u, self.v, self.a, self.t, loads)
-
-
-class SpringInstant(Snapshot):
-    """One of the kept instants."""
-
-    def __init__(self, kept: KeptInstants, row: int, step: int, time: float) -> None:
-        self.__dict__.update(
-            problem=kept.problem, step=step, time=time, contact=NOTHING, kept=kept, row=row
-        )
-
-    def __getattr__(self, name: str) -> FloatArray:
-        if name not in LATER:
-            raise AttributeError(name)
-        kept: KeptInstants = self.__dict__["kept"]
-        found: FloatArray = getattr(kept, name)[self.__dict__["row"]]
-        return found
-
-
-LATER = ("u", "v", "a", "reaction", "w", "t", "state")
-NOTHING = np.zeros(0)
 KEPT = ("u", "v", "a", "f", "w", "state")
 
 
@@ -142,13 +64,13 @@ class SpringsBatch:
 
     def run(
         self, factors: list[FloatArray], rows: list[IntArray], history: list[FloatArray],
-        times: FloatArray,
+        times: FloatArray, taps: list[Tap],
     ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
         """Steps of all problems; see `run_many.Engine`."""
         x, count, steps = self._state(), len(self.problems), len(rows[0])
         fullest = max(rows, key=lambda row: int((row >= 0).sum()))
         room = recorder_of(part_of(x, 0), fullest, np.zeros((steps, N_ENERGIES)), KEPT)
-        kept = stacked([room] * count)._replace(row=np.stack(rows))
+        kept = stacked([room] * count)._replace(row=np.stack(rows), tap=stacked(taps))
         whole = self._loads.factors(factors)
         ends = ends_of(count)
         run_springs_batch(self._modal, self._step, self._batch, x, whole, kept, ends)
@@ -156,15 +78,35 @@ class SpringsBatch:
         instants: list[Instants] = []
         for j, motion in enumerate(self.motions):
             history[j][:] = kept.energies[j]
-            past = motion.state.copy()
+            for own, array in zip(taps[j], kept.tap, strict=True):
+                own[...] = array[j]
             self._put_back(j, motion, x)
-            found = KeptInstants(
-                self.problems[j], self.modes, self.joints, part_of(kept, j),
-                factors[j][1:][rows[j] >= 0], past,
-            )  # fmt: skip
-            instants.append(partial(_instant, found, times))
+            instants.append(partial(self._instant, j, part_of(kept, j), factors[j]))
             outcomes.append((int(ends.steps[j]), int(ends.turns[j]), float(ends.residual[j])))
         return outcomes, instants
+
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns and joints follow from the modes."""
+        r, q = self.modes.size, len(self.normal.weights)
+        shapes: dict[str, tuple[int, ...]] = dict.fromkeys("uva", (r,))
+        shapes |= {"f": (q,), "w": (q, 1), "state": (q, 1)}
+        return View(np.arange(r), shapes, Matrix(self.modes.X[unknowns]), self._joint_rows)
+
+    def _joint_rows(self, tap: Tap) -> JointRows:
+        return spring_rows(self.joints, self.modes, tap)
+
+    def _instant(
+        self, j: int, kept: Recorder, factors: FloatArray, row: int, step: int
+    ) -> Snapshot:
+        """A kept instant of problem j; the batch has room for the fullest of its motions."""
+        p = self.problems[j]
+        every = np.arange(p.numbering.size)
+        view, at = self.view(every), np.array([row])
+        tap = view.tap(np.zeros(1, np.int64))
+        for name in view.shapes:
+            getattr(tap, name)[:] = getattr(kept, name)[at]
+        load = factors[1:][np.flatnonzero(kept.row == row)]
+        return Rows(p, np.array([step]), every, view, tap, load).snapshot(0)
 
     def _state(self) -> Motion:
         if self._z is None:
@@ -200,10 +142,6 @@ class SpringsBatch:
         motion.t[:, -1] = x.f[j] / joints.weights
         motion.state[:, Variable.XI], motion.energies[:] = x.state[j, :, 0], x.energies[j]
         interface_forces(joints, motion.t, motion.f)
-
-
-def _instant(kept: KeptInstants, times: FloatArray, row: int, step: int) -> Snapshot:
-    return SpringInstant(kept, row, step, float(times[step]))
 
 
 def springs_batch(

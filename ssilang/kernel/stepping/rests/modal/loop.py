@@ -34,7 +34,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     sweep_of,
 )
 from ssilang.kernel.stepping.state import LOST, STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep
+from ssilang.kernel.stepping.verbs import keep, tap
 
 BLOCK = 128  # coordinates whose rows of Jt stay in the nearest cache
 
@@ -164,4 +164,6 @@ def run_modal(
         copy_state(x.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
+        if to.tap.row[k] >= 0:
+            tap(x, to.tap, to.tap.row[k])
     return steps, worst, 0.0

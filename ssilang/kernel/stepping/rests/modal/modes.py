@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.active_set import ActiveSet
-from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
@@ -30,7 +31,8 @@ from ssilang.kernel.stepping.rests.modal.springs import (
     run_springs,
     springs_of,
 )
-from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of
+from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, Tap, recorder_of
+from ssilang.kernel.stepping.track import JointRows, Matrix, View, expand
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
 NOTHING = 1e-14  # of the largest: a part of a mode that is rounding
@@ -93,6 +95,8 @@ def modes_of(problem: Problem, effective: Effective) -> Modes | None:
 
 LineSteps = Callable[[Line, Spring, Motion, FloatArray, Recorder], Outcome]
 Steps = Callable[[FloatArray, Recorder], tuple[Outcome, Recorder]]
+Kept = Recorder | Tap
+JointsOf = Callable[[Kept], JointRows]
 
 
 class SmallLoop:
@@ -116,16 +120,26 @@ class SmallLoop:
         if self.normal is not None and only_pushes(joints, motion.state):
             k = joints.weights * joints.p[:, Parameter.KN]
             self.springs = springs_of(self._step, k)
-        self._steps: Steps = self.by_modes
+        self.using("modes")
 
     @property
     def active(self) -> int:
         """Modes of the line that move; 0 if there is no line."""
         return 0 if self.line is None else len(self.line[2])
 
-    def using(self, steps: Steps) -> SmallLoop:
-        """The loop with one of its ways to step."""
-        self._steps = steps
+    def using(self, way: str) -> SmallLoop:
+        """The loop with one of its ways to step: `modes`, `springs`, `one_spring`, `one_mode`."""
+        ways: dict[str, tuple[Steps, JointsOf]] = {
+            "modes": (self._by_modes, self._of_modes),
+            "springs": (self._by_springs, self._of_springs),
+            "one_spring": (partial(self._by_line, run_one_spring), self._of_line),
+            "one_mode": (partial(self._by_line, run_one_mode), self._of_line),
+        }
+        self._way = way
+        self._steps, self._joint_rows = ways[way]
+        self._columns = np.arange(self.modes.size)
+        if self.line is not None and way.startswith("one"):
+            self._columns = np.concatenate(self.line[2:])
         return self
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
@@ -137,12 +151,28 @@ class SmallLoop:
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
         if len(r.u):
+            few = X[:, self._columns]
             for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
-                np.matmul(z, X.T, out=part)
-        keep_reactions(self.problem, self._joints, factors, r)
+                part[:] = expand(few, z)
+            r.w[:], r.t[:], r.state[:] = self._joint_rows(kept)
+        keep_reactions(self.problem, factors, r)
         return outcome
 
-    def by_modes(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+    def view(self, unknowns: IntArray) -> View:
+        """How unknowns and joints follow from the modes, of a line from those that move."""
+        m, r, one = self.motion, len(self._columns), (1, 1)
+        shapes: dict[str, tuple[int, ...]] = {"u": (r,), "v": (r,), "a": (r,)}
+        if self._way == "springs":
+            shapes |= {"f": m.f[: len(m.w)].shape, "w": m.w[:, :1].shape, "state": m.w[:, :1].shape}
+        elif self._way == "modes":
+            w = m.w.shape if self.normal is None else m.w[:, :1].shape
+            shapes |= {"w": w, "t": w, "state": m.state.shape}
+        elif self.problem.interface is not None:
+            shapes |= {"w": one, "t": one, "state": one}
+        found = Matrix(self.modes.X[np.ix_(unknowns, self._columns)])
+        return View(np.arange(r), shapes, found, self._joint_rows)
+
+    def _by_modes(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
         """Steps by Newton's method on the interface; the kept coordinates."""
         m, r = self.motion, recorder
         u, v, a = self._z
@@ -151,17 +181,22 @@ class SmallLoop:
         if normal is not None:
             w, t = m.w[:, -1:].copy(), m.t[:, -1:].copy()
             few = few._replace(w=w, t=t, delta=w[:, 0].copy(), f=normal.weights * t[:, 0])
-        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"))
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), tap=r.tap)
         work = workspace(few.w.shape, len(few.f))
         outcome = run_modal(self._modal, self._step, self._stepped, few, work, factors, kept)
-        if normal is None:
-            r.w[:], r.t[:] = kept.w, kept.t
-        else:
-            self._put_normal(few.w[None], few.t[None], kept, r)
-        r.state[:] = kept.state
+        if normal is not None:
+            self._put_normal(few.w, few.t)
         return outcome, kept
 
-    def by_springs(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+    def _of_modes(self, kept: Kept) -> JointRows:
+        """Joints of rows that `run_modal` kept."""
+        if self.normal is None:
+            return JointRows(kept.w, kept.t, kept.state)
+        return JointRows(
+            *whole_joints(self._joints, self.modes, kept.u, kept.w, kept.t), kept.state
+        )
+
+    def _by_springs(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
         """Steps on springs that only push."""
         m, r = self.motion, recorder
         assert self.normal is not None
@@ -173,54 +208,40 @@ class SmallLoop:
             t=np.zeros((0, 1)), state=m.state[:, [Variable.XI]], reaction=np.zeros(0),
             contact=np.zeros(0),
         )  # fmt: skip
-        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "f", "w", "state"))
+        kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "f", "w", "state"), tap=r.tap)
         outcome = run_springs(self._modal, self._step, self.springs, few, factors, kept)
-        t = kept.f[..., None] / weights[:, None]
-        r.state[:] = m.state
-        r.state[..., Variable.XI] = kept.state[..., 0]
         m.state[:, Variable.XI] = few.state[:, 0]
-        tractions = (few.f / weights)[None, :, None]
-        self._put_normal(few.w[None], tractions, kept._replace(t=t), r)
+        self._put_normal(few.w, (few.f / weights)[:, None])
         return outcome, kept
 
-    def _put_normal(self, w: FloatArray, t: FloatArray, kept: Recorder, r: Recorder) -> None:
-        """Whole jumps and tractions of the motion, and of kept instants, from normal parts."""
-        m = self.motion
-        self._put_whole(self._z[:1], w, t, (m.w[None], m.t[None]))
-        self._put_whole(kept.u, kept.w, kept.t, (r.w, r.t))
-        m.delta[:] = self.modes.J @ self._z[0]
+    def _of_springs(self, kept: Kept) -> JointRows:
+        """Joints of rows that `run_springs` kept: their states hold the largest opening alone."""
+        return spring_rows(self._joints, self.modes, kept)
+
+    def _put_normal(self, w: FloatArray, t: FloatArray) -> None:
+        """Jumps and tractions of the motion from normal parts (n_points, 1)."""
+        m, z = self.motion, self._z[0]
+        whole_w, whole_t = whole_joints(self._joints, self.modes, self._z[:1], w[None], t[None])
+        m.w[:], m.t[:] = whole_w[0], whole_t[0]
+        m.delta[:] = self.modes.J @ z
         interface_forces(self._joints, m.t, m.f)
-
-    def _put_whole(
-        self, z: FloatArray, w: FloatArray, t: FloatArray, to: tuple[FloatArray, FloatArray]
-    ) -> None:
-        to_w, to_t = to
-        to_w[:] = local_jumps(self._joints, z @ self.modes.J.T)
-        to_w[..., -1], to_t[..., -1] = w[..., 0], t[..., 0]
-        to_t[..., :-1] = 0.0
-
-    def by_one_mode(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
-        """Steps of one mode and at most one spring."""
-        return self._by_line(run_one_mode, factors, recorder)
-
-    def by_one_spring(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
-        """Steps of a few modes and at most one spring."""
-        return self._by_line(run_one_spring, factors, recorder)
 
     def _by_line(
         self, run: LineSteps, factors: FloatArray, recorder: Recorder
     ) -> tuple[Outcome, Recorder]:
+        """Steps of a few modes and at most one spring."""
         assert self.line is not None
         line, spring, active, idle = self.line
-        m, r = self.motion, recorder
+        m, r, count = self.motion, recorder, len(active)
         u, v, a = self._z[:, active].copy()
         w, t, xi = np.zeros((1, 1)), np.zeros((1, 1)), np.zeros((1, 1))
         if spring.weight > 0.0:
             w[0, 0], t[0, 0], xi[0, 0] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
         none = np.zeros(0)
         few = Motion(u, v, a, none, none, w, t, xi, none, m.energies, none)
+        tap = r.tap._replace(at=r.tap.at[:count])
         to = recorder_of(
-            few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), balance=r.balance
+            few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), balance=r.balance, tap=tap
         )
         if not line.forces.shape[0]:
             factors = factors[:, :0]
@@ -228,18 +249,29 @@ class SmallLoop:
         self._z[:, active] = few.u, few.v, few.a
         if spring.weight > 0.0:
             self._put_joint(w[None], t[None], xi[None], (m.w[None], m.t[None], m.state[None]))
-            self._put_joint(to.w, to.t, to.state, (r.w, r.t, r.state))
             B = self._joints.B[0]
             m.delta[:], m.f[:] = B.T @ m.w[0], spring.weight * (B.T @ m.t[0])
-        kept = [np.zeros((len(r.u), self.modes.size)) for _ in range(3)]
-        for whole, part in zip(kept, (to.u, to.v, to.a), strict=True):
-            whole[:, active] = part
-        if len(idle):
-            still, led = self._z[1:, idle].copy(), np.zeros((2, len(r.u), len(idle)))
-            carry(self._unmoved(), r.row, still, led)
-            self._z[1:, idle] = still
-            kept[1][:, idle], kept[2][:, idle] = led
-        return outcome, to._replace(u=kept[0], v=kept[1], a=kept[2])
+        if not len(idle):
+            return outcome, to
+        still, led = self._z[1:, idle].copy(), np.zeros((2, len(r.u), len(idle)))
+        if len(r.tap.u):
+            tapped = np.zeros((2, len(r.tap.u), len(idle)))
+            carry(self._unmoved(), r.tap.row, still.copy(), tapped)
+            r.tap.u[:, count:] = 0.0
+            r.tap.v[:, count:], r.tap.a[:, count:] = tapped
+        carry(self._unmoved(), r.row, still, led)
+        self._z[1:, idle] = still
+        parts = (np.zeros_like(led[0]), *led)
+        u, v, a = (np.hstack(p) for p in zip((to.u, to.v, to.a), parts, strict=True))
+        return outcome, to._replace(u=u, v=v, a=a)
+
+    def _of_line(self, kept: Kept) -> JointRows:
+        """The joint of rows that a loop of one spring kept."""
+        m, rows = self.motion, len(kept.u)
+        found = JointRows(*(np.zeros((rows, *x.shape)) for x in (m.w, m.t, m.state)))
+        if self.problem.interface is not None:
+            self._put_joint(kept.w, kept.t, kept.state, found)
+        return found
 
     def _unmoved(self) -> FloatArray:
         """What a step makes of velocity and acceleration of a motion that does not move."""
@@ -269,6 +301,24 @@ def modal_of(
     Jt = np.ascontiguousarray(J.T)
     diagonal = Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size))
     return Modal(J, Jt, forces), ModalStep(n, diagonal, np.ascontiguousarray(J @ Jt))
+
+
+def spring_rows(joints: Joints, modes: Modes, kept: Kept) -> JointRows:
+    """Joints of rows on springs that only push: their states hold the largest opening alone."""
+    state = np.zeros((*kept.f.shape, N_STATE))
+    state[..., Variable.XI] = kept.state[..., 0]
+    t = kept.f[..., None] / joints.weights[:, None]
+    return JointRows(*whole_joints(joints, modes, kept.u, kept.w, t), state)
+
+
+def whole_joints(
+    joints: Joints, modes: Modes, z: FloatArray, w: FloatArray, t: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Jumps and tractions (k, n_points, d) from coordinates and normal parts (k, n_points, 1)."""
+    whole_w = local_jumps(joints, expand(modes.J, z))
+    whole_t = np.zeros_like(whole_w)
+    whole_w[..., -1], whole_t[..., -1] = w[..., 0], t[..., 0]
+    return whole_w, whole_t
 
 
 def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:

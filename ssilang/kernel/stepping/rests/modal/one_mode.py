@@ -219,6 +219,11 @@ def run_one_mode(
             at = row[step]
             to.u[at, 0], to.v[at, 0], to.a[at, 0] = u, v, a
             to.w[at, 0, 0], to.t[at, 0, 0], to.state[at, 0, 0] = w, t, xi
+        if to.tap.row[step] >= 0:
+            at = to.tap.row[step]
+            to.tap.u[at, 0], to.tap.v[at, 0], to.tap.a[at, 0] = u, v, a
+            if weight > 0.0:
+                to.tap.w[at, 0, 0], to.tap.t[at, 0, 0], to.tap.state[at, 0, 0] = w, t, xi
     x.u[0], x.v[0], x.a[0], x.w[0, 0], x.t[0, 0], x.state[0, 0] = u, v, a, w, t, xi
     store((u, v, a, w, t, xi), mode, spring, (damped, external), x.energies)
     to.balance[1] = worst

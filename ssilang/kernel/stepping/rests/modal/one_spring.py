@@ -32,7 +32,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, from_past, keep
+from ssilang.kernel.stepping.verbs import advance, from_past, keep, tap
 
 MOST_TURNS = 60
 CLOSE = 1e-15  # of the jump: last change of the iteration on softening
@@ -193,9 +193,12 @@ def run_one_spring(
             x.energies[DAMPED], x.energies[EXTERNAL] = damped, external
             if keeps:
                 copy_state(x.energies, to.energies[k])
-        if to.row[k] >= 0:
+        if to.row[k] >= 0 or to.tap.row[k] >= 0:
             x.w[0, 0], x.t[0, 0], x.state[0, 0] = w, t, xi
-            keep(x, to, to.row[k])
+            if to.row[k] >= 0:
+                keep(x, to, to.row[k])
+            if to.tap.row[k] >= 0:
+                tap(x, to.tap, to.tap.row[k])
     x.w[0, 0], x.t[0, 0], x.state[0, 0] = w, t, xi
     to.balance[1] = worst
     return steps, 1, 0.0

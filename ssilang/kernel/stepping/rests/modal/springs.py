@@ -31,7 +31,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
 )
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
 from ssilang.kernel.stepping.state import STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep
+from ssilang.kernel.stepping.verbs import keep, tap
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
 WRONG = 1e-14  # of the largest jump, or of its force: a sign that is not rounding
@@ -154,4 +154,6 @@ def run_springs(
         copy_state(x.energies, to.energies[s])
         if to.row[s] >= 0:
             keep(x, to, to.row[s])
+        if to.tap.row[s] >= 0:
+            tap(x, to.tap, to.tap.row[s])
     return steps, worst, 0.0

@@ -28,7 +28,7 @@ from ssilang.kernel.stepping.rests.modal.springs import (
     wrong_sign,
 )
 from ssilang.kernel.stepping.state import Ends, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at
+from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at, tap
 
 
 class Batch(NamedTuple):
@@ -126,4 +126,6 @@ def run_springs_batch(
                 copy_state(motion.energies, own.energies[s])
                 if own.row[s] >= 0:
                     keep(motion, own, own.row[s])
+                if own.tap.row[s] >= 0:
+                    tap(motion, own.tap, own.tap.row[s])
                 _begin(modal, step, batch, motion, factors[j, min(s + 2, steps)], j)

@@ -189,7 +189,7 @@ class Basis:
         A = self.K + sigma * self.M
         if damped and self.damping.rest.nnz:
             A = A + damped * self.damping.C
-        inverse = invert(sp.csr_array(A), True)
+        inverse = invert(sp.csr_array(A), True, self.problem.solver)
         if inverse.singular:
             raise NoReduction("kernel.stepping.massless-body-on-joints")
         return inverse
@@ -207,7 +207,7 @@ class Basis:
         if joints is not None:
             R = sp.csr_array(joints.closed_stiffness())
             closed = sp.csr_array(closed + self.J.T @ R @ self.J)
-        return invert(closed, True)
+        return invert(closed, True, self.problem.solver)
 
     def _lowest(self, static: Inverse) -> float:
         """About the lowest frequency with closed joints, rad/s; infinite if a body is free."""

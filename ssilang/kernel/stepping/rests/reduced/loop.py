@@ -43,7 +43,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
 )
 from ssilang.kernel.stepping.rests.modal.loop import BLOCK
 from ssilang.kernel.stepping.state import DAMPED, LOST, STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import advance, keep
+from ssilang.kernel.stepping.verbs import advance, keep, tap
 
 
 class Reduced(NamedTuple):
@@ -244,4 +244,6 @@ def run_reduced(
         copy_state(x.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
+        if to.tap.row[k] >= 0:
+            tap(x, to.tap, to.tap.row[k])
     return steps, worst, 0.0

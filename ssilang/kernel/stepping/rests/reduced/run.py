@@ -19,8 +19,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import interface_forces
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import (
@@ -32,7 +33,9 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.state import closed_tap
+from ssilang.kernel.stepping.track import Rows, View
 
 INSTANTS = 64  # at which whole fields are compared
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
@@ -140,9 +143,9 @@ class ReducedIntegration:
         """
         started = time.perf_counter()
         p = self.problem
-        wanted = np.zeros(len(p.times), bool)
-        for observer in self.observers:
-            wanted |= observer.wanted
+        given = Integration(p, self.observers)
+        given.prepare(inside=False)
+        wanted = given.wanted | given.taps.wanted
         pair = _pair_of(p, self.tolerance)
         while True:
             built = time.perf_counter()
@@ -156,7 +159,8 @@ class ReducedIntegration:
                 raise NoReduction(
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
-        self._hand_over(pair.rich, wanted, chunks)
+        given.begin()
+        self._hand_over(pair.rich, given, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
             time.perf_counter() - built,
@@ -193,18 +197,21 @@ class ReducedIntegration:
         return rich, difference, chunks if fits else None
 
     def _hand_over(
-        self, model: ReducedModel, wanted: np.ndarray, chunks: list[Chunk] | None
-    ) -> None:
-        """Saved instants, as whole fields; steps run again if their states did not fit memory."""
-        p = self.problem
-        if wanted[0]:
-            self._receive(snapshot_of(p, Integration(p).motion, 0))
+        self, model: ReducedModel, given: Integration, wanted: np.ndarray,
+        chunks: list[Chunk] | None,
+    ) -> None:  # fmt: skip
+        """Saved instants, as whole fields or rows; steps run again if their states did not fit."""
+        p, unknowns = self.problem, given.taps.unknowns
+        expansion = expansion_of(model, unknowns)
         source: Iterable[Chunk] = chunks if chunks is not None else self._again(model, wanted)
         for chunk in source:
-            rows = np.flatnonzero(wanted[chunk.steps])
+            taken = np.flatnonzero(given.taps.wanted[chunk.steps])
+            if len(taken):
+                given.taps.give(rows_of_chunk(p, expansion, unknowns, chunk, taken))
+            rows = np.flatnonzero(given.wanted[chunk.steps])
             for start in range(0, len(rows), BATCH):
                 for snapshot in expanded(p, model, chunk, rows[start : start + BATCH]):
-                    self._receive(snapshot)
+                    given.hand_over(snapshot)
 
     def _again(self, model: ReducedModel, wanted: np.ndarray) -> Iterator[Chunk]:
         trace = Trace(self.problem, model, wanted)
@@ -213,10 +220,66 @@ class ReducedIntegration:
             assert chunk is not None
             yield chunk
 
-    def _receive(self, snapshot: Snapshot) -> None:
-        for observer in self.observers:
-            if observer.wanted[snapshot.step]:
-                observer.receive(snapshot)
+
+@dataclass(frozen=True, eq=False)
+class Expansion:
+    """Unknowns from coordinates of a model, and the motions of its supports.
+
+    Attributes
+    ----------
+    T : csr array (p, c)
+        Of the motions y that these unknowns need.
+    basis : array (r, c)
+    X : array (r, r)
+    moved : csr array (p, m)
+        Motions of the supports.
+    """
+
+    T: sp.csr_array
+    basis: FloatArray
+    X: FloatArray
+    moved: sp.csr_array
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """p, and coordinates and supports together."""
+        return self.T.shape[0], len(self.X) + self.moved.shape[1]
+
+    def __getitem__(self, places: IntArray | slice) -> Expansion:
+        T = self.T[places]
+        at = np.unique(T.indices)
+        return Expansion(sp.csr_array(T[:, at]), self.basis[:, at], self.X, self.moved[places])
+
+    def __call__(self, z: FloatArray) -> FloatArray:
+        """Rows (k, p) of rows (k, r + m)."""
+        r = len(self.X)
+        found: FloatArray = (self.T @ (self.basis.T @ (self.X @ z[:, :r].T))).T
+        if self.moved.shape[1]:
+            found = found + (self.moved @ z[:, r:].T).T
+        return found
+
+
+def expansion_of(model: ReducedModel, unknowns: IntArray) -> Expansion:
+    """That of some unknowns of a problem."""
+    moved = sp.csr_array(model.supports.columns.X)
+    return Expansion(model.T, model.basis, model.X, moved)[unknowns]
+
+
+def rows_of_chunk(
+    problem: Problem, expansion: Expansion, unknowns: IntArray, chunk: Chunk, rows: IntArray
+) -> Rows:
+    """Some rows of a chunk at some unknowns, that are made when someone asks."""
+    x, c, steps = chunk.rows, chunk.course, chunk.steps[rows]
+    now = steps - chunk.run.first
+    parts = {name: getattr(x, name)[rows] for name in ("u", "v", "a", "w", "t", "state")}
+    if c is not None:
+        for name, moved in (("u", c.c), ("v", c.v), ("a", c.a)):
+            parts[name] = np.hstack([parts[name], moved[now]])
+    at = np.arange(expansion.shape[1])
+    view = View(at, {name: part.shape[1:] for name, part in parts.items()}, expansion)
+    tap = closed_tap(0)._replace(at=at, **parts)
+    factors = problem.loading.at(problem.times[steps])
+    return Rows(problem, steps, unknowns, view, tap, factors)
 
 
 def expanded(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
@@ -17,6 +17,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, keep_whole
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Recorder, recorder_of
+from ssilang.kernel.stepping.track import View, whole_view
 
 DEEPEST = 5
 
@@ -48,9 +49,12 @@ class AdaptiveLoop:
                 return k, turns, residual
             worst = max(worst, turns)
             r.energies[k] = self.motion.energies
-            if r.row[k] >= 0:
-                keep_whole(self.motion, r, int(r.row[k]))
+            keep_whole(self.motion, r, k)
         return len(r.row), worst, 0.0
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are."""
+        return whole_view(self.motion, unknowns)
 
     def _solver(self, level: int) -> StepSolver:
         if level not in self._solvers:

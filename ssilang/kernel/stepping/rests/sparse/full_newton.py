@@ -35,6 +35,7 @@ class FullNewtonSolver:
 
     def __init__(self, problem: Problem, A: sp.csr_array, share: float) -> None:
         self.A, self.share, self.constraints = A, share, problem.constraints
+        self.solver = problem.solver
         self.interface, self.contact = problem.interface, problem.contact
         self.forces = (
             None if self.contact is None else ContactForces(self.contact, problem.contact_options)
@@ -90,8 +91,8 @@ class FullNewtonSolver:
         T, V = self.constraints.T, self.constraints.V
         matrix = sp.csr_array(V.T @ A @ T)
         if self.contact is None or self.forces is None:
-            return T @ factorise(matrix, False).solve(V.T @ free), pushed
-        inverse, rows = invert(matrix, False), self.contact
+            return T @ factorise(matrix, False, self.solver).solve(V.T @ free), pushed
+        inverse, rows = invert(matrix, False, self.solver), self.contact
         kernel: FloatArray = T @ inverse.kernel
         motions = kernel @ stopped_motions(rows, kernel) if kernel.shape[1] else kernel
         if motions.shape[1] < kernel.shape[1]:

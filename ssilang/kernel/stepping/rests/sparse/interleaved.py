@@ -31,7 +31,17 @@ from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Sparse,
     run_interleaved,
 )
-from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, recorder_of, rows_of
+from ssilang.kernel.stepping.state import (
+    Motion,
+    Outcome,
+    Peaks,
+    Recorder,
+    peaks_of,
+    recorder_of,
+    rows_of,
+    tap_of,
+)
+from ssilang.kernel.stepping.track import View, whole_view
 
 KEPT = ("u", "v", "a", "f", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
@@ -83,6 +93,7 @@ class InterleavedLoop:
         self.joints = joints_of(problem)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
         self.newton = workspace(motion.w.shape, q)
+        self._moved: tuple[FloatArray | None, sp.csr_array] = None, sp.csr_array((0, 0))
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
@@ -103,21 +114,49 @@ class InterleavedLoop:
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays, some at a time."""
         worst, r, steps = 0, recorder, len(recorder.row)
+        seen = self.seen(r.tap.at)
+        peaks = peaks_of(self.T.shape[1] if len(r.peaks.u) else 0, r.peaks.joints.shape[1])
         for first in range(0, steps, BLOCK):
             part = slice(first, min(first + BLOCK, steps))
             given = np.ascontiguousarray(factors[first : part.stop + 1])
             block = self.block(given)
-            kept = self.room(block, r.row[part], r.energies[part])
+            kept = self.room(block, r, part, seen)._replace(peaks=peaks)
+            peaks.first[0] = r.peaks.first[0] + first
             done, turns, residual = run_interleaved(
                 block.plan, self.joints, block.motion, block.products, self.newton, block.factors,
                 kept,
             )  # fmt: skip
             self.finish(block, given, kept, done)
-            self.put(block, given, kept, r, first, done)
+            self.put(block, given, kept, r, first, done, seen)
+            if first + done == steps or turns <= 0:
+                self._compare(peaks, r.peaks)
             if turns <= 0:
                 return first + done, turns, residual
             worst = max(worst, turns)
         return steps, worst, 0.0
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are: they are made block by block, supports move within one."""
+        return whole_view(self.motion, unknowns, "reaction", "contact")
+
+    def seen(self, unknowns: IntArray) -> Seen:
+        """How unknowns follow from those of the factor."""
+        rows = self.T[unknowns]
+        at = np.unique(rows.indices).astype(np.int64)
+        return Seen(unknowns, at, sp.csr_array(rows[:, at]))
+
+    def _compare(self, own: Peaks, to: Peaks) -> None:
+        """The largest values of some steps with those before, at unknowns that no support holds."""
+        if not len(to.u):
+            return
+        free = np.flatnonzero(np.diff(self.T.indptr) == 1)
+        at = self.T.indices[self.T.indptr[free]]
+        factor = self.T.data[self.T.indptr[free]]
+        values = factor * own.u[at]
+        larger = np.abs(values) > np.abs(to.u[free])
+        to.u[free[larger]], to.when[free[larger]] = values[larger], own.when[at][larger]
+        larger = own.joints > to.joints
+        to.joints[larger], to.joints_when[larger] = own.joints[larger], own.joints_when[larger]
 
     def block(self, factors: FloatArray) -> PreparedBlock:
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
@@ -161,8 +200,16 @@ class InterleavedLoop:
         X, c = block.columns.X, block.course
         u, v, a = self.T @ u, self.T @ v, self.T @ a
         if X.shape[1]:
-            u, v, a = u + X @ c.c[k], v + X @ c.v[k], a + X @ c.a[k]
+            moved = self._columns(block)
+            u, v, a = u + moved @ c.c[k], v + moved @ c.v[k], a + moved @ c.a[k]
         return u, v, a
+
+    def _columns(self, block: PreparedBlock) -> sp.csr_array:
+        """The columns of the supports, most of whose entries are zero."""
+        X = block.columns.X
+        if self._moved[0] is not X:
+            self._moved = X, sp.csr_array(X)
+        return self._moved[1]
 
     def _folded(self, x: FloatArray) -> FloatArray:
         """q of an admissible x = T q."""
@@ -187,22 +234,57 @@ class InterleavedLoop:
             r += p.interface.J.T @ f
         return r
 
-    def room(self, block: PreparedBlock, row: IntArray, energies: FloatArray) -> Recorder:
-        """Room for the kept steps of a block, whose rows in the end are `row`."""
+    def room(self, block: PreparedBlock, to: Recorder, part: slice, seen: Seen) -> Recorder:
+        """Room for the kept steps of a block, that is a part of all steps."""
+        row, m = to.row[part], block.motion
         work = np.zeros((2, len(row), block.factors.shape[1]))
-        return recorder_of(block.motion, rows_of(row >= 0), energies, KEPT, work=work)
+        shapes: dict[str, tuple[int, ...]] = dict.fromkeys("uva", seen.at.shape)
+        shapes |= {name: getattr(m, name).shape for name in ("w", "t", "state")}
+        tap = tap_of(rows_of(to.tap.row[part] >= 0), seen.at, shapes)
+        energies = to.energies[part]
+        return recorder_of(m, rows_of(row >= 0), energies, KEPT, work=work, tap=tap)
 
     def put(
         self, block: PreparedBlock, factors: FloatArray, kept: Recorder, to: Recorder, first: int,
-        done: int,
+        done: int, seen: Seen,
     ) -> None:  # fmt: skip
-        """Kept instants of a block that begins with step `first` as whole arrays."""
+        """Kept instants of a block that begins with step `first` as whole arrays, and the tap."""
         for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
             row, at = int(kept.row[k]), int(to.row[first + k])
             u, v, a = self._unfolded(block, kept.u[row], kept.v[row], kept.a[row], k + 1)
             to.u[at], to.v[at], to.a[at] = u, v, a
             to.reaction[at] = self._reaction(u, v, a, kept.f[row], factors[k + 1])
             to.w[at], to.t[at], to.state[at] = kept.w[row], kept.t[row], kept.state[row]
+        steps = np.flatnonzero(kept.tap.row[:done] >= 0)
+        if not len(steps):
+            return
+        own, tap, count, c = kept.tap, to.tap, len(steps), block.course
+        start = int(tap.row[first + steps[0]])
+        rows = slice(start, start + count)
+        for name, course in (("u", c.c), ("v", c.v), ("a", c.a)):
+            found = seen.of(getattr(own, name)[:count])
+            if block.columns.X.shape[1]:
+                found += (self._columns(block)[seen.unknowns] @ course[steps + 1].T).T
+            getattr(tap, name)[rows] = found
+        tap.w[rows], tap.t[rows], tap.state[rows] = own.w[:count], own.t[:count], own.state[:count]
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """Unknowns (p,) of the problem as `matrix` (p, c) times entries (c,) of the factor's."""
+
+    unknowns: IntArray
+    at: IntArray
+    matrix: sp.csr_array
+
+    def of(self, z: FloatArray) -> FloatArray:
+        """Unknowns (k, p) of entries (k, c)."""
+        entries = np.diff(self.matrix.indptr)
+        if entries.max(initial=0) > 1:
+            return np.asarray((self.matrix @ z.T).T)
+        found = np.zeros((len(z), len(entries)))
+        found[:, entries == 1] = z[:, self.matrix.indices] * self.matrix.data
+        return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from ssilang.kernel.stepping.rests.sparse.interleaved import (
     BLOCK,
     InterleavedLoop,
     PreparedBlock,
+    Seen,
     fits,
 )
 from ssilang.kernel.stepping.rests.sparse.interleaved_batch_loop import Batch, run_interleaved_batch
@@ -26,11 +27,13 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Outcome,
     Recorder,
+    Tap,
     ends_of,
     part_of,
     recorder_of,
     stacked,
 )
+from ssilang.kernel.stepping.track import View
 
 
 class InterleavedBatch:
@@ -52,14 +55,15 @@ class InterleavedBatch:
 
     def run(
         self, factors: list[FloatArray], rows: list[IntArray], history: list[FloatArray],
-        times: FloatArray,
+        times: FloatArray, taps: list[Tap],
     ) -> tuple[list[Outcome], list[Instants]]:  # fmt: skip
         """Steps of all problems; see `run_many.Engine`. One that fails takes no further part."""
         steps = len(rows[0])
         recorders = [
-            recorder_of(loop.motion, row, energies)
-            for loop, row, energies in zip(self.loops, rows, history, strict=True)
+            recorder_of(loop.motion, row, energies, tap=tap)
+            for loop, row, energies, tap in zip(self.loops, rows, history, taps, strict=True)
         ]
+        seen = self.loops[0].seen(taps[0].at)
         outcomes: list[Outcome] = [(0, -1, np.nan)] * len(self.loops)
         for j in self._alive:
             outcomes[j] = (steps, 1, 0.0)
@@ -69,6 +73,7 @@ class InterleavedBatch:
                 BlockTask(
                     j, self.loops[j],
                     np.ascontiguousarray(factors[j][first : part.stop + 1]), recorders[j], part,
+                    seen,
                 )
                 for j in self._alive
             ]  # fmt: skip
@@ -82,6 +87,10 @@ class InterleavedBatch:
                     outcomes[task.place] = (steps, max(outcomes[task.place][1], turns), 0.0)
         instants = [kept_instants(x.problem, r) for x, r in zip(self.loops, recorders, strict=True)]
         return outcomes, instants
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are."""
+        return self.loops[0].view(unknowns)
 
     def _leave_out(self, place: int) -> None:
         at = self._alive.index(place)
@@ -118,10 +127,12 @@ class InterleavedBatch:
         """One recorder for all, with as many rows as the fullest and the work of all loads."""
         fullest = max(own, key=lambda r: len(r.u))
         work = np.zeros((2, len(fullest.row), len(self._loads.forces)))
-        found: Recorder = stacked([fullest._replace(work=work)] * len(own))
+        tapped = max((r.tap for r in own), key=lambda t: len(t.u))
+        found: Recorder = stacked([fullest._replace(work=work, tap=tapped)] * len(own))
         return found._replace(
-            row=np.stack([r.row for r in own]), energies=np.stack([r.energies for r in own])
-        )
+            row=np.stack([r.row for r in own]), energies=np.stack([r.energies for r in own]),
+            tap=found.tap._replace(row=np.stack([r.tap.row for r in own])),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,21 +144,24 @@ class BlockTask:
     factors: FloatArray
     recorder: Recorder
     part: slice
+    seen: Seen
 
     def room(self, block: PreparedBlock) -> Recorder:
         """Room for its kept steps."""
-        r = self.recorder
-        return self.loop.room(block, r.row[self.part], r.energies[self.part])
+        return self.loop.room(block, self.recorder, self.part, self.seen)
 
     def put(self, block: PreparedBlock, kept: Recorder, done: int) -> None:
         """Motion, energies and kept instants of a block of which some steps were done."""
         self.loop.finish(block, self.factors, kept, done)
-        self.loop.put(block, self.factors, kept, self.recorder, self.part.start, done)
+        self.loop.put(block, self.factors, kept, self.recorder, self.part.start, done, self.seen)
 
     def alone(self) -> Outcome:
         """Its steps by its own loop."""
         r, part = self.recorder, self.part
-        return self.loop.run(self.factors, r._replace(row=r.row[part], energies=r.energies[part]))
+        tap = r.tap._replace(row=r.tap.row[part])
+        return self.loop.run(
+            self.factors, r._replace(row=r.row[part], energies=r.energies[part], tap=tap)
+        )
 
 
 def _left(record: Any, at: int) -> Any:

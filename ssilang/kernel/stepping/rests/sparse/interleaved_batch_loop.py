@@ -29,7 +29,7 @@ from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     settle_interface,
 )
 from ssilang.kernel.stepping.state import Ends, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at
+from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at, tap
 
 
 class Batch(NamedTuple):
@@ -116,6 +116,8 @@ def _end_of_step(
     copy_state(x.energies, own.energies[k])
     if own.row[k] >= 0:
         keep(x, own, own.row[k])
+    if own.tap.row[k] >= 0:
+        tap(x, own.tap, own.tap.row[k])
 
 
 @compiled

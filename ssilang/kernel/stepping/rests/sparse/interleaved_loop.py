@@ -48,7 +48,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, from_past, keep
+from ssilang.kernel.stepping.verbs import advance, from_past, keep, tap, watch
 
 
 class Sparse(NamedTuple):
@@ -403,4 +403,8 @@ def run_interleaved(
         copy_state(sweep.next_load_change, sweep.load_change)
         if to.row[k] >= 0:
             keep(x, to, to.row[k])
+        if to.tap.row[k] >= 0:
+            tap(x, to.tap, to.tap.row[k])
+        if len(to.peaks.u):
+            watch(x, to.peaks, k)
     return steps, worst, 0.0

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
@@ -29,8 +29,10 @@ from ssilang.kernel.stepping.state import (
     WHOLE,
     Motion,
     Outcome,
+    Peaks,
     Recorder,
 )
+from ssilang.kernel.stepping.track import View, whole_view
 
 NOTHING = np.zeros(0)
 
@@ -150,8 +152,7 @@ class SparseLoop:
                 return k, -1, np.inf
             self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
             r.energies[k] = self.motion.energies
-            if r.row[k] >= 0:
-                keep_whole(self.motion, r, int(r.row[k]))
+            keep_whole(self.motion, r, k)
         return len(r.row), worst, 0.0
 
     def _gap(self, factors: FloatArray) -> FloatArray:
@@ -225,10 +226,31 @@ class SparseLoop:
             m.energies[LOST] = self._joints_lost + before + rubbed
 
 
-def keep_whole(m: Motion, to: Recorder, row: int) -> None:
-    """The present state of a whole problem into a row."""
-    for name in WHOLE:
-        getattr(to, name)[row] = getattr(m, name)
+def keep_whole(m: Motion, to: Recorder, k: int) -> None:
+    """The state of a whole problem at the end of step k into its rows, if it has any."""
+    row, tapped = to.row[k], to.tap.row[k]
+    if row >= 0:
+        for name in WHOLE:
+            getattr(to, name)[row] = getattr(m, name)
+    if tapped >= 0:
+        for name in ("u", "v", "a", "reaction"):
+            getattr(to.tap, name)[tapped] = getattr(m, name)[to.tap.at]
+        for name in ("w", "t", "state", "contact"):
+            getattr(to.tap, name)[tapped] = getattr(m, name)
+    if len(to.peaks.u):
+        watch_whole(m, to.peaks, k)
+
+
+def watch_whole(m: Motion, to: Peaks, k: int) -> None:
+    """As the verb `watch`, of arrays at once."""
+    step = to.first[0] + k + 1.0
+    larger = np.abs(m.u) > np.abs(to.u)
+    to.u[larger], to.when[larger] = m.u[larger], step
+    if to.joints.shape[1]:
+        shear = np.linalg.norm(m.t[:, :-1], axis=1)
+        found = np.stack([m.w[:, -1], -m.t[:, -1], shear])
+        larger = found > to.joints
+        to.joints[larger], to.joints_when[larger] = found[larger], step
 
 
 @dataclass(eq=False)
@@ -247,3 +269,7 @@ class SparseSteps:
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
         self.loop.problem = problem
+
+    def view(self, unknowns: IntArray) -> View:
+        """Unknowns as they are."""
+        return whole_view(self.loop.motion, unknowns)

@@ -1,0 +1,1 @@
+"""What an editor asks of a script: problems, help, completion, names, layout; `server` answers."""

@@ -1,0 +1,159 @@
+"""A script as an editor sees it: its text, cut once into tokens, phrases and names."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from ssilang.cli.editor.names import Names, names_of
+from ssilang.cli.editor.tokens import CLOSES, OPENS, Phrase, Token, phrases_of, tokens_of
+from ssilang.language.registry import Operator, find_operator, keywords_of
+from ssilang.language.text.source import Source
+from ssilang.language.vocabulary import words_of
+
+
+@dataclass(frozen=True)
+class Place:
+    """What stands at an offset of a text.
+
+    Attributes
+    ----------
+    token : Token or None
+        The token that the offset stands in, or right behind.
+    operator : Operator or None
+        The operator that a word there belongs to: the last one before it in its parentheses.
+    procedure : str
+        The procedure that the phrase calls, '' if none.
+    path : tuple of Token
+        Base and indices before the token, when it is an index of a table.
+    before : tuple of Token
+        The tokens of the statement up to it.
+    """
+
+    phrase: Phrase | None
+    token: Token | None
+    operator: Operator | None = None
+    procedure: str = ""
+    path: tuple[Token, ...] = ()
+    before: tuple[Token, ...] = ()
+
+
+@dataclass(frozen=True)
+class Document:
+    """A text and what was found in it; made anew at each change."""
+
+    source: Source
+    procedures: frozenset[str] = field(default=frozenset(), repr=False)
+
+    @classmethod
+    def of(
+        cls, text: str, path: Path | None = None, procedures: frozenset[str] = frozenset()
+    ) -> Document:
+        """The document of a text with any kind of line ends."""
+        plain = text.replace("\r\n", "\n").replace("\r", "\n")
+        return cls(Source(str(path) if path else "script", plain, path), procedures)
+
+    @cached_property
+    def tokens(self) -> list[Token]:
+        """All tokens."""
+        return tokens_of(self.source.code)
+
+    @cached_property
+    def phrases(self) -> list[Phrase]:
+        """All statements."""
+        return list(phrases_of(self.tokens))
+
+    @cached_property
+    def names(self) -> Names:
+        """The names of the script."""
+        return names_of(self.phrases)
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [p.start for p in self.phrases]
+
+    def phrase_at(self, offset: int) -> Phrase | None:
+        """The statement that an offset stands in: from its first token to its semicolon."""
+        i = bisect_right(self._starts, offset) - 1
+        if i < 0:
+            return None
+        phrase = self.phrases[i]
+        return None if phrase.closed and offset >= phrase.end else phrase
+
+    def place(self, offset: int) -> Place:
+        """What stands at an offset."""
+        phrase = self.phrase_at(offset)
+        if phrase is None:
+            return Place(None, None)
+        token = next((t for t in phrase.tokens if t.start <= offset <= t.end and t.is_word), None)
+        end = token.start if token is not None else offset
+        before = tuple(t for t in phrase.tokens if t.end <= end)
+        operator, procedure = self._owner(before, phrase)
+        return Place(phrase, token, operator, procedure, _path(before), before)
+
+    def _owner(self, before: tuple[Token, ...], phrase: Phrase) -> tuple[Operator | None, str]:
+        """Operator and procedure that the word behind these tokens belongs to."""
+        stack: list[tuple[Operator | None, str]] = [(None, "")]
+        equal = phrase.equal
+        for i, token in enumerate(before):
+            if token.kind == OPENS:
+                stack.append((None, ""))
+            elif token.kind == CLOSES and len(stack) > 1:
+                stack.pop()
+            elif token.is_word and (equal is None or i > equal) and not _is_index(before, i):
+                stack[-1] = self._next_owner(stack[-1], token)
+        return stack[-1]
+
+    def _next_owner(
+        self, owner: tuple[Operator | None, str], token: Token
+    ) -> tuple[Operator | None, str]:
+        if token.kind == "WORD" and token.name in self.procedures:
+            return None, token.name
+        if owner[0] is not None and knows(owner[0], token.name):
+            return owner
+        defined = self.names.found and token.name in self._defined
+        found = None if token.kind == "WORD" and defined else find_operator(token.name)
+        named = found is not None and (token.kind == "WORD" or len(token.name) > 1)
+        return (found, "") if named and found is not None and token.name[0].isalpha() else owner
+
+    @cached_property
+    def _defined(self) -> frozenset[str]:
+        return frozenset(o.name for o in self.names.found if o.defines)
+
+    def scope_at(self, offset: int) -> int:
+        """Which procedure of the script an offset stands in, 0 if none."""
+        scope = count = 0
+        for phrase in self.phrases:
+            if phrase.start > offset:
+                break
+            if phrase.first_word in ("DEBP", "DEBM"):
+                count += 1
+                scope = count
+            elif phrase.first_word in ("FINP", "FINM") and phrase.end <= offset:
+                scope = 0
+        return scope
+
+
+def knows(operator: Operator, word: str) -> bool:
+    """Whether a word is a keyword of an operator, or one that it takes of the vocabulary."""
+    short = word[:4].rstrip()
+    return any(w.rstrip()[:4] == short for w in (*keywords_of(operator), *words_of(operator.name)))
+
+
+def _is_index(tokens: tuple[Token, ...], i: int) -> bool:
+    return i > 0 and tokens[i - 1].kind == "_DOT"
+
+
+def _path(before: tuple[Token, ...]) -> tuple[Token, ...]:
+    """Base and indices in front of a dot at the end, the base first."""
+    found: list[Token] = []
+    i = len(before)
+    while i >= 2 and before[i - 1].kind == "_DOT":
+        token = before[i - 2]
+        if not token.is_word and token.kind != "INTEGER":
+            return ()
+        found.append(token)
+        i -= 2
+    return tuple(reversed(found))

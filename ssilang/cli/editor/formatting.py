@@ -1,0 +1,185 @@
+"""`ssilang format`: the layout of a script; what it means and its comments stay as they are."""
+
+from __future__ import annotations
+
+import difflib
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TextIO
+
+from ssilang.io.atomic import replacing
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.parser import end_of_run, quick_reader
+from ssilang.language.text.printer import same_tree
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.messages.message import teller
+
+OK, FAILED, USAGE = 0, 1, 2
+
+_STEP = "  "  # of each block
+_GOES_ON = "   "  # of the lines of a statement behind its first
+_EMPTY_LINES = 2  # in a row, at most
+_OPENS = frozenset({"SI", "REPE", "DEBP", "DEBM"})
+_CLOSES = frozenset({"FINS", "FINP", "FINM"})
+
+_Token = tuple[str, int, int]
+"""Kind, start and end."""
+
+
+def formatted(source: Source) -> str:
+    """The text of a script, laid out.
+
+    Blocks are indented by two blanks; one blank stands between words, none inside of parentheses;
+    lines are broken where they were. Comments, strings, and what stands behind the last `FIN ;`
+    are not touched.
+
+    Raises
+    ------
+    SeveralErrors, SsiError
+        If the script is not sound: nothing can be laid out then.
+    """
+    tree = parse(source)
+    end = end_of_run(source) or len(source.text)
+    text = _laid_out(source, end) + source.text[end:]
+    text = text.rstrip("\n") + "\n" if text.strip() else ""
+    made = parse(Source(source.name, text, source.path))
+    # what no rule above foresees stays as it is written
+    return text if same_tree(tree.body, made.body) else source.text
+
+
+def _laid_out(source: Source, end: int) -> str:
+    """The statements up to `end`, one after the other, with what stands between them."""
+    code, parts = source.code[:end], list[str]()
+    depth = at = 0
+    before = ""
+    for statement in _statements(code):
+        word = _first_word(code, statement)
+        outer = word in _CLOSES or word == "SINO" or (word == "FIN" and len(statement) > 2)
+        depth = max(0, depth - outer)
+        for number, (kind, start, stop) in enumerate(statement):
+            shift = _STEP * depth + (_GOES_ON if number else "")
+            gap = source.text[at:start]
+            lines = gap.split("\n")
+            if at == 0:  # the file begins with comments, or with the statement
+                parts += [*(line[1:] + "\n" for line in _below(lines[:-1])), shift]
+            elif len(lines) == 1:
+                parts.append(_between(gap, before, kind))
+            else:
+                rest = lines[-1].strip()  # commas
+                parts += [lines[0].rstrip(), *_below(lines[1:-1]), "\n", shift]
+                parts.append(f"{rest} " if rest else "")
+            parts.append(code[start:stop])
+            before, at = kind, stop
+        depth += word in _OPENS or word == "SINO"
+    tail = [line.rstrip() for line in source.text[at:end].split("\n")]
+    return "".join(parts) + "\n".join(tail)
+
+
+def _statements(code: str) -> Iterator[list[_Token]]:
+    held: list[_Token] = []
+    for token in quick_reader().tokens(code):
+        held.append(token)
+        if token[0] == "_SEMICOLON":
+            yield held
+            held = []
+    if held:
+        yield held
+
+
+def _first_word(code: str, statement: list[_Token]) -> str:
+    kind, start, end = statement[0]
+    if kind not in ("WORD", "STRING") or any(k == "_EQUAL" for k, _, _ in statement):
+        return ""
+    return code[start:end].strip("'").upper()[:4].rstrip()
+
+
+def _below(lines: list[str]) -> Iterator[str]:
+    """Comments and empty lines, each with the line end before it."""
+    empty = 0
+    for line in lines:
+        shown = line.rstrip()
+        empty = 0 if shown else empty + 1
+        if empty <= _EMPTY_LINES:
+            yield f"\n{shown}"
+
+
+def _between(gap: str, before: str, kind: str) -> str:
+    """Blanks between two tokens of one line; commas and the like stay."""
+    if gap.strip():
+        return ", " if gap.strip() == "," else gap
+    if kind in ("_SEMICOLON", "_EQUAL") or before in ("_EQUAL", "_SEMICOLON"):
+        return " "
+    if before == "LPAR" or kind == "RPAR":
+        return ""
+    return " " if gap else ""
+
+
+# ---- the command ------------------------------------------------------------------------------
+
+
+def format_files(
+    files: list[str], check: bool, diff: bool, language: str, out: TextIO, err: TextIO
+) -> int:
+    """Lay out files (`-`: standard input to standard output); returns the exit code.
+
+    With `check`, nothing is written and the exit code is 1 if a file would change; with `diff`,
+    the changes are printed instead of being made.
+    """
+    told, code = teller(language), OK
+    for name in files:
+        try:
+            source = _read(name)
+            text = formatted(source)
+        except SeveralErrors as several:
+            for error in several.errors:
+                err.write(render(error, language) + "\n")
+            code = max(code, FAILED)
+            continue
+        except SsiError as error:
+            err.write(render(error, language) + "\n")
+            code = max(code, USAGE if error.span is None else FAILED)
+            continue
+        changes = text != source.text
+        if name == "-" and not (check or diff):
+            out.write(text)
+        elif changes and diff:
+            out.writelines(_differences(source, text))
+        elif changes and not check:
+            _write(source, text)
+            out.write(told("cli.formatted", file=name) + "\n")
+        if changes and (check or diff):
+            code = max(code, FAILED)
+            if check and not diff:
+                out.write(told("cli.would-format", file=name) + "\n")
+    return code
+
+
+def _read(name: str) -> Source:
+    if name == "-":
+        return Source.decode("standard input", sys.stdin.buffer.read())
+    return read_source(Path(name))
+
+
+def _differences(source: Source, text: str) -> list[str]:
+    before, after = source.text.splitlines(True), text.splitlines(True)
+    return list(difflib.unified_diff(before, after, source.name, source.name))
+
+
+def _write(source: Source, text: str) -> None:
+    """Write a file whole or not at all, with the letters and line ends that it had."""
+    path = source.path
+    assert path is not None
+    data = path.read_bytes()
+    if b"\r\n" in data:
+        text = text.replace("\n", "\r\n")
+    try:
+        data.decode("utf-8")
+        encoding = "utf-8-sig" if data.startswith(b"\xef\xbb\xbf") else "utf-8"
+    except UnicodeDecodeError:
+        encoding = "latin-1"
+    with replacing(path) as stream:
+        stream.write(text.encode(encoding))

@@ -1,0 +1,457 @@
+"""`ssilang lsp`: the language server, over standard input and output.
+
+Protocol: https://microsoft.github.io/language-server-protocol. The text is cut anew at each change
+(some milliseconds for a thousand lines); problems are looked for when no key has come for a moment.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+from pygls.uris import from_fs_path, to_fs_path
+from pygls.workspace import TextDocument
+
+from ssilang import __version__
+from ssilang.cli.editor import complete, information, outline
+from ssilang.cli.editor.document import Document
+from ssilang.cli.editor.formatting import formatted
+from ssilang.cli.editor.names import Occurrence
+from ssilang.cli.editor.problems import Findings, Fix, Problem, find_problems
+from ssilang.language.registry import find_operator
+from ssilang.language.run.library import Library
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.messages.message import teller
+from ssilang.operators.loader import load_operators
+
+WAIT = 0.15
+"""Seconds without a key after which problems are looked for."""
+
+_NOTHING = Findings((), {})
+_TRIGGERS = ["'", ".", " "]
+_SEVERITY = {
+    "error": lsp.DiagnosticSeverity.Error,
+    "warning": lsp.DiagnosticSeverity.Warning,
+}
+_FADED = frozenset({"unused-name"})
+_CANDIDATES: dict[complete.Kind, lsp.CompletionItemKind] = {
+    "operator": lsp.CompletionItemKind.Function,
+    "procedure": lsp.CompletionItemKind.Method,
+    "control": lsp.CompletionItemKind.Keyword,
+    "keyword": lsp.CompletionItemKind.EnumMember,
+    "entry": lsp.CompletionItemKind.Property,
+    "word": lsp.CompletionItemKind.Value,
+    "name": lsp.CompletionItemKind.Variable,
+    "file": lsp.CompletionItemKind.File,
+}
+_ORDER = ("entry", "keyword", "word", "file", "name", "control", "operator", "procedure")
+_SYMBOLS = {
+    "procedure": lsp.SymbolKind.Function,
+    "loop": lsp.SymbolKind.Array,
+    "parameter": lsp.SymbolKind.TypeParameter,
+    "variable": lsp.SymbolKind.Variable,
+}
+
+
+@dataclass
+class Open:
+    """A document that the editor holds, and what was last found in it."""
+
+    document: Document
+    version: int | None
+    findings: Findings = _NOTHING
+    waiting: asyncio.Task[None] | None = None
+    shown: list[lsp.Diagnostic] = field(default_factory=list)
+
+
+class Server(LanguageServer):
+    """Holds the open documents; its features are registered below."""
+
+    def __init__(self, language: str = "en") -> None:
+        super().__init__("ssilang", __version__)
+        self.language = language
+        load_operators()
+        self.library = Library(Path())
+        self.open: dict[str, Open] = {}
+
+    def document(self, uri: str) -> Document:
+        """The text as it is now, cut."""
+        text = self.workspace.get_text_document(uri)
+        held = self.open.get(uri)
+        if held is not None and held.version == text.version:
+            return held.document
+        path = to_fs_path(uri)
+        made = Document.of(text.source, Path(path) if path else None, self.library.standard_names)
+        if held is None:
+            self.open[uri] = Open(made, text.version)
+        else:
+            held.document, held.version = made, text.version
+        return made
+
+    def findings(self, uri: str) -> Findings:
+        """What was last found in a document."""
+        self.document(uri)
+        return self.open[uri].findings
+
+    # ---- places ---------------------------------------------------------------------------------
+
+    def _text(self, uri: str) -> TextDocument:
+        return self.workspace.get_text_document(uri)
+
+    def offset(self, uri: str, position: lsp.Position) -> int:
+        """Where a position of the editor stands in our text."""
+        text = self._text(uri)
+        own = text.position_codec.position_from_client_units(text.lines, position)
+        return self.document(uri).source.offset(own.line + 1, own.character + 1)
+
+    def range(self, uri: str, start: int, end: int) -> lsp.Range:
+        """A part of our text as the editor counts it."""
+        source, text = self.document(uri).source, self._text(uri)
+        made = lsp.Range(_position(source.position(start)), _position(source.position(end)))
+        return text.position_codec.range_to_client_units(text.lines, made)
+
+    # ---- problems -------------------------------------------------------------------------------
+
+    def look_later(self, uri: str) -> None:
+        """Look for problems when no key has come for a moment."""
+        self.document(uri)
+        held = self.open[uri]
+        if held.waiting is not None:
+            held.waiting.cancel()
+        held.waiting = asyncio.ensure_future(self._look(uri))
+
+    async def _look(self, uri: str) -> None:
+        with contextlib.suppress(asyncio.CancelledError):
+            await asyncio.sleep(WAIT)
+            source = self.document(uri).source
+            loop = asyncio.get_running_loop()
+            found = await loop.run_in_executor(None, find_problems, source, self.language)
+            held = self.open.get(uri)
+            if held is None or held.document.source is not source:
+                return  # the text has changed: another look is under way
+            held.findings = found
+            self.publish(uri, [self._diagnostic(uri, p) for p in found.problems], held.version)
+
+    def publish(
+        self, uri: str, diagnostics: list[lsp.Diagnostic], version: int | None = None
+    ) -> None:
+        """Tell the editor what is wrong."""
+        self.text_document_publish_diagnostics(
+            lsp.PublishDiagnosticsParams(uri, diagnostics, version)
+        )
+
+    def _diagnostic(self, uri: str, problem: Problem) -> lsp.Diagnostic:
+        message = "\n".join(p for p in (problem.text, problem.hint) if p)
+        return lsp.Diagnostic(
+            self.range(uri, problem.start, problem.end),
+            message,
+            severity=_SEVERITY[problem.severity],
+            code=problem.code,
+            source="ssilang",
+            tags=[lsp.DiagnosticTag.Unnecessary] if problem.code in _FADED else None,
+            data=[self._fix(uri, fix) for fix in problem.fixes],
+        )
+
+    def _fix(self, uri: str, fix: Fix) -> dict[str, Any]:
+        where = self.range(uri, fix.start, fix.end)
+        ends = [[p.line, p.character] for p in (where.start, where.end)]
+        return {"title": fix.title, "range": ends, "text": fix.text}
+
+    def reader(self, uri: str) -> information.Reader:
+        """What answers questions about a document."""
+        document = self.document(uri)
+        return information.Reader(document, self.findings(uri), self.library, self.language)
+
+
+def _position(place: tuple[int, int]) -> lsp.Position:
+    line, column = place
+    return lsp.Position(line - 1, column - 1)
+
+
+def start(language: str) -> None:
+    """Serve the editor that started this process, until it ends the session."""
+    # the protocol's own streams: nothing that is printed may come between
+    with os.fdopen(os.dup(0), "rb") as reads, os.fdopen(os.dup(1), "wb") as writes:
+        os.dup2(2, 1)
+        make_server(language).start_io(reads, writes)
+
+
+def make_server(language: str = "en") -> Server:
+    """A server with all its features."""
+    server = Server(language)
+    for register in (_documents, _help, _names, _layout):
+        register(server)
+    return server
+
+
+# ---- texts -----------------------------------------------------------------------------------
+
+
+def _documents(server: Server) -> None:
+    @server.feature(lsp.INITIALIZE)
+    def initialize(params: lsp.InitializeParams) -> None:
+        options = params.initialization_options
+        asked = options.get("language") if isinstance(options, dict) else None
+        if asked in ("en", "fr"):
+            server.language = asked
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
+    async def opened(params: lsp.DidOpenTextDocumentParams) -> None:
+        server.look_later(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
+    async def changed(params: lsp.DidChangeTextDocumentParams) -> None:
+        server.look_later(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
+    async def saved(params: lsp.DidSaveTextDocumentParams) -> None:
+        server.look_later(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
+    def closed(params: lsp.DidCloseTextDocumentParams) -> None:
+        uri = params.text_document.uri
+        held = server.open.pop(uri, None)
+        if held is not None and held.waiting is not None:
+            held.waiting.cancel()
+        server.publish(uri, [])
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_CODE_ACTION,
+        lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
+    )
+    def actions(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        uri = params.text_document.uri
+        found = []
+        for diagnostic in params.context.diagnostics:
+            fixes = diagnostic.data if isinstance(diagnostic.data, list) else []
+            for i, fix in enumerate(fixes):
+                (a, b), (c, d) = fix["range"]
+                where = lsp.Range(lsp.Position(a, b), lsp.Position(c, d))
+                edit = lsp.WorkspaceEdit({uri: [lsp.TextEdit(where, fix["text"])]})
+                found.append(
+                    lsp.CodeAction(
+                        fix["title"],
+                        lsp.CodeActionKind.QuickFix,
+                        [diagnostic],
+                        is_preferred=i == 0,
+                        edit=edit,
+                    )
+                )
+        return found
+
+
+# ---- help ------------------------------------------------------------------------------------
+
+
+def _help(server: Server) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_HOVER)
+    def hover(params: lsp.HoverParams) -> lsp.Hover | None:
+        uri = params.text_document.uri
+        found = server.reader(uri).hover(server.offset(uri, params.position))
+        if found is None:
+            return None
+        text, begin, end = found
+        return lsp.Hover(_markdown(text), server.range(uri, begin, end))
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_COMPLETION,
+        lsp.CompletionOptions(trigger_characters=_TRIGGERS, resolve_provider=True),
+    )
+    def completion(params: lsp.CompletionParams) -> lsp.CompletionList:
+        uri = params.text_document.uri
+        offset = server.offset(uri, params.position)
+        found = complete.candidates(server.document(uri), offset, server.library, server.language)
+        items = [_item(server, uri, candidate) for candidate in found]
+        return lsp.CompletionList(is_incomplete=False, items=items)
+
+    @server.feature(lsp.COMPLETION_ITEM_RESOLVE)
+    def resolve(item: lsp.CompletionItem) -> lsp.CompletionItem:
+        if item.kind in (lsp.CompletionItemKind.Function, lsp.CompletionItemKind.Method):
+            reader = information.Reader(Document.of(""), _NOTHING, server.library, server.language)
+            item.documentation = _markdown(reader.page(item.label))
+        return item
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_SIGNATURE_HELP, lsp.SignatureHelpOptions(trigger_characters=[" ", "'"])
+    )
+    def signature(params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+        uri = params.text_document.uri
+        place = server.document(uri).place(server.offset(uri, params.position))
+        if place.operator is None:
+            return None
+        typed = [t.name for t in place.before if t.kind == "STRING"]
+        lines, active = information.signatures(place.operator, typed)
+        told = place.operator.help.told(server.language)
+        made = [lsp.SignatureInformation(line, documentation=_markdown(told)) for line in lines]
+        return lsp.SignatureHelp(made, active_signature=active) if made else None
+
+
+def _item(server: Server, uri: str, candidate: complete.Candidate) -> lsp.CompletionItem:
+    where = server.range(uri, candidate.start, candidate.end)
+    order = _ORDER.index(candidate.kind)
+    return lsp.CompletionItem(
+        candidate.label,
+        kind=_CANDIDATES[candidate.kind],
+        detail=candidate.detail or None,
+        sort_text=f"{order}{candidate.label}",
+        filter_text=candidate.text,
+        text_edit=lsp.TextEdit(where, candidate.text),
+    )
+
+
+def _markdown(text: str) -> lsp.MarkupContent:
+    return lsp.MarkupContent(lsp.MarkupKind.Markdown, text)
+
+
+# ---- names -----------------------------------------------------------------------------------
+
+
+def _names(server: Server) -> None:
+    def name_at(uri: str, position: lsp.Position) -> Occurrence | None:
+        return server.document(uri).names.at(server.offset(uri, position))
+
+    def locations(uri: str, found: Iterable[Occurrence]) -> list[lsp.Location]:
+        return [lsp.Location(uri, server.range(uri, o.start, o.end)) for o in found]
+
+    @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+    def definition(params: lsp.DefinitionParams) -> list[lsp.Location]:
+        uri = params.text_document.uri
+        name = name_at(uri, params.position)
+        if name is not None:
+            return locations(uri, server.document(uri).names.definitions(name))
+        token = server.document(uri).place(server.offset(uri, params.position)).token
+        path = server.library.standard_files.get(token.name) if token is not None else None
+        target = from_fs_path(str(path)) if path is not None else None
+        nowhere = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
+        return [lsp.Location(target, nowhere)] if target else []
+
+    @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
+    def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
+        uri = params.text_document.uri
+        name = name_at(uri, params.position)
+        found = server.document(uri).names.alike(name) if name is not None else []
+        return locations(uri, (o for o in found if params.context.include_declaration or
+                               not o.defines))  # fmt: skip
+
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
+    def highlight(params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
+        uri = params.text_document.uri
+        name = name_at(uri, params.position)
+        found = server.document(uri).names.alike(name) if name is not None else []
+        kinds = (lsp.DocumentHighlightKind.Read, lsp.DocumentHighlightKind.Write)
+        return [
+            lsp.DocumentHighlight(server.range(uri, o.start, o.end), kinds[o.defines])
+            for o in found
+        ]
+
+    @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)
+    def may_rename(params: lsp.PrepareRenameParams) -> lsp.Range | None:
+        uri = params.text_document.uri
+        name = name_at(uri, params.position)
+        return server.range(uri, name.start, name.end) if name is not None else None
+
+    @server.feature(lsp.TEXT_DOCUMENT_RENAME, lsp.RenameOptions(prepare_provider=True))
+    def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+        uri = params.text_document.uri
+        document = server.document(uri)
+        name = name_at(uri, params.position)
+        if name is None:
+            return None
+        if not _renamable(params.new_name, document):
+            told = teller(server.language)("cli.rename-taken", name=params.new_name)
+            raise JsonRpcException(told, code=lsp.LSPErrorCodes.RequestFailed)
+        edits = [
+            lsp.TextEdit(server.range(uri, o.start, o.end), params.new_name)
+            for o in document.names.alike(name)
+        ]
+        return lsp.WorkspaceEdit({uri: edits})
+
+
+def _renamable(new: str, document: Document) -> bool:
+    """Whether a name may be given: a word that is free, and names no operator."""
+    made = Document.of(f"{new} = 1 ;")
+    whole = len(made.tokens) == 4 and made.tokens[0].text == new and made.tokens[0].kind == "WORD"
+    taken = {o.name for o in document.names.found}
+    return whole and new.upper() not in taken and find_operator(new.upper()) is None
+
+
+# ---- layout ----------------------------------------------------------------------------------
+
+
+def _layout(server: Server) -> None:
+    @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+    def symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+        uri = params.text_document.uri
+        return [_symbol(server, uri, part) for part in outline.outline(server.document(uri))]
+
+    @server.feature(lsp.TEXT_DOCUMENT_FOLDING_RANGE)
+    def folding(params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+        document = server.document(params.text_document.uri)
+        kinds = {"region": lsp.FoldingRangeKind.Region, "comment": lsp.FoldingRangeKind.Comment}
+        return [
+            lsp.FoldingRange(first, last, kind=kinds[kind])
+            for first, last, kind in outline.folds(document)
+        ]
+
+    legend = lsp.SemanticTokensLegend([*outline.COLOURS], [])
+
+    @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, legend)
+    def colours(params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
+        uri = params.text_document.uri
+        return lsp.SemanticTokens(_encoded(server, uri))
+
+    @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
+    def layout(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+        uri = params.text_document.uri
+        source = server.document(uri).source
+        try:
+            text = formatted(source)
+        except (SeveralErrors, SsiError):
+            return []  # the problems are told already
+        if text == source.text:
+            return []
+        return [lsp.TextEdit(server.range(uri, 0, len(source.text)), text)]
+
+
+def _symbol(server: Server, uri: str, part: outline.Part) -> lsp.DocumentSymbol:
+    return lsp.DocumentSymbol(
+        part.name,
+        _SYMBOLS[part.kind],
+        server.range(uri, part.start, part.end),
+        server.range(uri, part.name_start, part.name_end),
+        children=[_symbol(server, uri, inner) for inner in part.inner],
+    )
+
+
+def _encoded(server: Server, uri: str) -> list[int]:
+    """Colours as the protocol wants them: line and column from the one before, length, which."""
+    data: list[int] = []
+    line = column = 0
+    document = server.document(uri)
+    text = server._text(uri)
+    for start_, end_, colour in outline.colours(document):
+        for a, b in _by_line(document.source.text, start_, end_):
+            row, place = (n - 1 for n in document.source.position(a))
+            units = text.position_codec.client_num_units(document.source.text[a:b])
+            before = text.position_codec.client_num_units(document.source.text[a - place : a])
+            data += [row - line, before - column if row == line else before, units]
+            data += [outline.COLOURS.index(colour), 0]
+            line, column = row, before
+    return data
+
+
+def _by_line(text: str, start_: int, end_: int) -> Iterable[tuple[int, int]]:
+    """The parts of a word that runs over line ends."""
+    at = start_
+    for part in text[start_:end_].split("\n"):
+        if part:
+            yield at, at + len(part)
+        at += len(part) + 1

@@ -1,0 +1,56 @@
+"""Kept code is loaded without what only compiling needs, and goes together with new code."""
+
+import os
+import subprocess
+import sys
+
+PROGRAM = """
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.base.compiled.compiler import compiled
+
+
+@compiled
+def spread(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    made = np.zeros((len(x), len(y)))
+    for i in range(len(x)):
+        made[i] = x[i] * y
+    return made @ y
+
+
+@compiled
+def total(x: np.ndarray, y: np.ndarray) -> float:
+    return spread(x, y).sum()
+"""
+
+RUN = """
+import sys
+import numpy as np
+import program
+
+x, y = np.array([1.0, 2.0]), np.array([3.0, 4.0])
+print(program.spread(x, y))
+print("numba.np.arrayobj" in sys.modules, len(program.spread.stats.cache_hits))
+if sys.argv[1:]:  # code that is not kept yet, with kept code in it
+    print(program.total(x, y))
+"""
+
+
+def test_kept_code_loads_without_the_compiler_and_serves_new_code(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    (tmp_path / "run.py").write_text(RUN)
+    given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    given |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": os.pathsep.join(sys.path)}
+    shown = []
+    for more in ([], [], ["new"]):
+        made = subprocess.run(
+            [sys.executable, "run.py", *more], capture_output=True, text=True, cwd=tmp_path,
+            env=given, check=False,
+        )  # fmt: skip
+        assert made.returncode == 0, made.stderr
+        shown.append(made.stdout.splitlines())
+    # y.y = 25: x times 25, in all 75
+    assert shown == [["[25. 50.]", "True 0"], ["[25. 50.]", "False 1"],
+                     ["[25. 50.]", "False 1", "75.0"]]  # fmt: skip

@@ -1,0 +1,58 @@
+"""Mean shocks counted by hand, envelopes against the energy that they keep."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.records.envelope import energy_envelope, mean_shock
+
+T = np.arange(12.0) * 0.5
+
+
+@pytest.mark.parametrize("first", [1, 2, 3])
+def test_shocks_are_found_wherever_they_begin(first):
+    y = np.zeros(12)
+    y[first : first + 3] = [4.0, -2.0, 1.0]
+    y[first + 5 : first + 7] = [-3.0, 6.0]
+    t, mean = mean_shock(T, y, 40.0, 1.0, None)  # above 2.4: at `first` and five samples later
+    np.testing.assert_allclose(t, [0.0, 0.5, 1.0])
+    np.testing.assert_allclose(mean, [(4 - 3) / 2, (-2 + 6) / 2, (1 + 0) / 2])
+
+
+def test_a_shock_longer_than_its_recording_is_one():
+    y = np.array([0.0, 5.0, 5.0, 5.0, 5.0, 0.0, 0.0, 3.0, 3.0, 0.0, 0.0, 0.0])
+    _, mean = mean_shock(T, y, 50.0, 0.5, None)
+    np.testing.assert_allclose(mean, [4.0, 4.0])
+    _, mean = mean_shock(T, y, 50.0, 0.5, 1)
+    np.testing.assert_allclose(mean, [5.0, 5.0])
+
+
+@pytest.mark.parametrize("percent", [50.0, 99.0])
+def test_a_shock_that_the_record_cuts_does_not_count(percent):
+    y = np.zeros(12)
+    y[11] = 1.0
+    with pytest.raises(FieldError) as refused:
+        mean_shock(T, y, percent, 1.0, None)
+    assert refused.value.code == "kernel.records.record-no-whole-shock"
+    y[9] = 1.0
+    with pytest.raises(FieldError):
+        mean_shock(T, y, percent, 1.5, None)
+
+
+def test_an_envelope_has_the_energy_of_the_signal_on_each_interval():
+    rng = np.random.default_rng(4)
+    x = np.linspace(0.0, 3.0, 301)
+    y = rng.standard_normal(301) * np.exp(-((x - 1.0) ** 2))
+    places, values = energy_envelope(x, y, 10)
+    assert (values >= 0.0).all()
+    assert places[0] == x[0]
+    assert places[-1] == x[-1]
+    line = np.interp(x, places, values)
+    ends = np.searchsorted(x, places)
+    for begin, end in itertools.pairwise(ends):
+        part = slice(begin + 1, end + 1)
+        assert np.sum(line[part] ** 2) == pytest.approx(np.sum(y[part] ** 2), rel=1e-9)

@@ -1,0 +1,332 @@
+"""Rows that loops record against whole fields kept at every step, loop by loop."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.recorder import Recorder
+from references.rocking_beam import rocking
+from references.soil_block import FRICTION, soil_block
+
+from ssilang.kernel.curves.curve import Load
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.stepping import choose, run
+from ssilang.kernel.stepping import run_many as together
+from ssilang.kernel.stepping.choose import only
+from ssilang.kernel.stepping.driven import Additions
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.newmark import Scheme, hht
+from ssilang.kernel.stepping.problem.loading import Loading
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.track import Track
+
+SIZE = (16, 8, 4)
+FIELDS, JOINTS = ("u", "v", "a"), ("w", "t", "state")
+STEPS = 150
+
+
+def bouncing(shear=0.0, moving=False, dashpot=False, scheme=None, feet=3, more=0, idle=False):
+    """Masses in a row on joints without tension, shaken; `more` masses hang on the last.
+
+    `moving`: the ground moves too; `idle`: a point without mass has a velocity.
+    """
+    bench, tops, grounds = Bench(), [], []
+    for i in range(feet):
+        ground, top = bench.node(float(i), -1.0), bench.node(float(i), 0.0)
+        bench.fix(ground, "UX")
+        grounds.append(bench.relate([(1.0, "UY", ground)]))
+        bench.fix(top, "UX") if not shear else bench.spring(1e5, top, unknown="UX")
+        bench.mass(500.0 * (i + 1), top)
+        bench.joint("SEG2", [ground, top], "JOI1", KN=2e6, KS=shear, V1X=0.0, V1Y=1.0)
+        if tops:
+            bench.spring(3e5, tops[-1], top)
+        tops.append(top)
+    for i in range(more):
+        top = bench.node(10.0 + i, 0.0)
+        bench.fix(top, "UX")
+        bench.mass(300.0, top)
+        bench.spring(2e5, tops[-1], top)
+        tops.append(top)
+    bench.spring(1e4, tops[0])
+    velocity = None
+    if idle:
+        light = bench.node(20.0, 0.0)
+        bench.spring(1e4, light)
+        velocity = bench.field((light, "UY", 0.3))
+    if dashpot:
+        bench.dashpot(900.0, tops[0])
+    t = 2e-3 * np.arange(STEPS + 1)
+    weight = bench.field(*((n, "FY", -4000.0) for n in tops))
+    push = bench.field((tops[-1], "FY", 6e3), (tops[0], "FY", -3e3))
+    parts = bench.load(weight).parts + bench.load(push, t, np.sin(25.0 * t)).parts
+    if moving:
+        imposed = NodeField.of(bench.table, np.array([grounds[0]]), {"FLX": np.array([1.0])})
+        parts += bench.load(imposed, t, 2e-3 * np.sin(40.0 * t)).parts
+    fall = bench.field(*((n, "UY", 2e-3 * (i + 1)) for i, n in enumerate(tops)))
+    return make_problem(
+        Inputs(
+            bench.stiffness, t, bench.mass_matrix, bench.damping, Load(parts), fall, velocity,
+            model=bench.model, characteristics=bench.characteristics, scheme=scheme or Scheme(),
+        )
+    )  # fmt: skip
+
+
+def stopped(dashpot=False, **options):
+    """Masses over stops, which push by relations."""
+    bench, nodes = Bench(), []
+    for i in range(4):
+        node = bench.node(float(i), 0.0)
+        bench.mass(20.0 * (1 + i), node)
+        bench.fix(node, "UX")
+        bench.relate([(1.0, "UY", node)], sense=1)
+        if nodes:
+            bench.spring(4e5, nodes[-1], node)
+        nodes.append(node)
+    if dashpot:
+        bench.dashpot(300.0, nodes[0])
+    t = 2e-3 * np.arange(STEPS + 1)
+    weight = bench.field(*((n, "FY", -1200.0) for n in nodes))
+    fall = bench.field(*((n, "UY", 0.002 * (i + 1)) for i, n in enumerate(nodes)))
+    return make_problem(
+        Inputs(
+            bench.stiffness, t, bench.mass_matrix, bench.damping, bench.load(weight),
+            displacement=fall, **options,
+        )
+    )  # fmt: skip
+
+
+def shaken_from_below(problem):
+    """The base moves as a sine by imposed values, beside what is given."""
+    x = problem.times
+    imposed = np.zeros_like(problem.loading.imposed)
+    imposed[:, -1] = 1e-3
+    curves = (*problem.loading.curves[:-1], (x, np.sin(12.0 * x)))
+    return replace(problem, loading=Loading(problem.loading.forces, imposed, curves))
+
+
+def large(**given):
+    return soil_block(steps=STEPS, size=SIZE, joint=FRICTION, **given)
+
+
+CASES = {
+    "one mode": lambda: bouncing(feet=1),
+    "one mode, another at rest": lambda: bouncing(feet=1, idle=True),
+    "one spring": lambda: bouncing(feet=1, more=2),
+    "springs": bouncing,
+    "modes": lambda: bouncing(shear=1e5),
+    "still supports": lambda: bouncing(shear=1e5, dashpot=True),
+    "dense": lambda: bouncing(shear=1e5, moving=True),
+    "dissection": large,
+    "dissection, supports that move": lambda: shaken_from_below(large()),
+    "condensed": lambda: large(scheme=hht(0.1)),
+    "conserving": lambda: replace(large(), scheme=Scheme(conserving=True)),
+    "adaptive": lambda: bouncing(shear=1e5, scheme=Scheme(adaptive=True)),
+    "full Newton": lambda: bouncing(shear=1e5),
+    "relations on modes": stopped,
+    "relations": lambda: stopped(dashpot=True),
+}
+
+
+def kept(problem, full=False, driver=None):
+    """All instants whole, and the rows of two tracks in the same run."""
+    n, size = len(problem.times), problem.numbering.size
+    every, some = np.ones(n, bool), np.arange(n) % 7 == 3
+    recorder = Recorder(n)
+    tracks = [
+        Track(every, np.arange(size)[1::3]),
+        Track(some, np.arange(size)[-2:]),
+        Track(every, np.arange(size)),
+    ]
+    history = integrate(problem, [recorder, *tracks], full_newton=full, driver=driver)
+    return history, recorder, tracks
+
+
+def assert_same(recorder, tracks):
+    size = len(recorder.of("u")[0])
+    for track in tracks:
+        times = np.array([s.time for s in recorder.snapshots])
+        assert np.array_equal(track.times, times[track.wanted])
+        for name in FIELDS:
+            whole = recorder.of(name)[track.wanted]
+            assert np.abs(whole).max() > 0.0
+            assert np.array_equal(track.values(name, track.unknowns), whole[:, track.unknowns])
+            last = track.unknowns[-1:]
+            assert np.array_equal(track.values(name, last), whole[:, last])
+        for name in JOINTS:
+            assert np.array_equal(track.joints(name), recorder.of(name)[track.wanted])
+        contact = np.concatenate([rows.tap.contact for rows in track.pieces])
+        if contact.size:
+            assert np.array_equal(contact, recorder.of("contact")[track.wanted])
+    forces, scale = recorder.of("reaction"), np.abs(recorder.of("reaction")).max()
+    whole = next(track for track in tracks if len(track.unknowns) == size)
+    found = np.concatenate([rows.values("reaction") for rows in whole.pieces])
+    assert np.abs(found - forces).max() <= 1e-9 * scale  # sums in another order
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_rows_are_those_of_whole_fields_to_the_last_bit(name, monkeypatch):
+    rule = name.split(",")[0]
+    monkeypatch.setattr(choose, "RULES", only(rule))
+    history, recorder, tracks = kept(CASES[name](), full=rule == "full Newton")
+    assert history.method.code == only(rule)[0].said
+    assert_same(recorder, tracks)
+    if recorder.of("w").size:
+        assert recorder.of("w")[..., -1].max() > 0.0  # it opens
+        assert recorder.of("t")[..., -1].min() < 0.0  # and closes
+
+
+def test_pieces_that_fit_in_memory_hold_the_same(monkeypatch):
+    whole = kept(bouncing())[2]
+    monkeypatch.setattr(run, "CHUNK_VALUES", 400)
+    for old, new in zip(whole, kept(bouncing())[2], strict=True):
+        assert len(new.pieces) > len(old.pieces)
+        found, exact = (t.values("u", t.unknowns) for t in (new, old))
+        assert np.abs(found - exact).max() <= 1e-12 * np.abs(exact).max()
+
+
+def test_a_track_of_few_unknowns_lets_go_of_the_coordinates(monkeypatch):
+    monkeypatch.setattr("ssilang.kernel.stepping.track.MOST_COORDINATES", 0)
+    _, recorder, tracks = kept(bouncing())
+    assert tracks[1].pieces[-1].tap.u.shape[1] == 2
+    assert_same(recorder, tracks)
+
+
+def test_steps_with_additions_are_recorded(monkeypatch):
+    problem = bouncing(shear=1e5)
+    node = int(problem.numbering.nodes[-1])
+    push = NodeField.of(problem.numbering.table, np.array([node]), {"FY": np.array([500.0])})
+    _, recorder, tracks = kept(problem, driver=lambda t, state, p: Additions(force=push))
+    assert_same(recorder, tracks)
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_rows_of_reduced_models(moving):
+    problem = soil_block(steps=STEPS, joint=FRICTION)
+    problem = shaken_from_below(problem) if moving else problem
+    n = len(problem.times)
+    recorder, track = Recorder(n), Track(np.ones(n, bool), np.arange(problem.numbering.size)[5::40])
+    history = integrate_reduced(problem, 1e-3, [recorder, track])
+    assert history.loop == "reduced"
+    assert np.array_equal(track.times, problem.times)
+    for name in FIELDS:  # products of few rows sum in another order
+        whole = recorder.of(name)[:, track.unknowns]
+        gap = track.values(name, track.unknowns) - whole
+        assert np.abs(gap).max() <= 1e-12 * np.abs(recorder.of(name)).max(), name
+    for name in JOINTS:
+        assert np.array_equal(track.joints(name), recorder.of(name))
+
+
+def scaled(problem, factor):
+    given = problem.loading
+    curves = (*given.curves[:-1], (given.curves[-1][0], factor * given.curves[-1][1]))
+    return replace(problem, loading=Loading(given.forces, given.imposed, curves))
+
+
+@pytest.mark.parametrize(
+    "whole", [rocking(Scheme(), STEPS), large()], ids=["springs", "dissection"]
+)
+def test_rows_of_motions_side_by_side(whole):
+    n, size = len(whole.times), whole.numbering.size
+    problems = [scaled(whole, f) for f in (0.4, 1.0, 1.3)]
+    asked = [
+        (np.ones(n, bool), np.arange(size)[::3]),
+        (np.arange(n) % 5 == 1, np.arange(size)[4:6]),
+        (np.arange(n) > 70, np.arange(size)),
+    ]
+    observers = [[Recorder(n), Track(*a)] for a in asked]
+    found = together.integrate_together(problems, observers)
+    assert all(h.together == 3 for h in found)
+    for recorder, track in observers:
+        for name in FIELDS:
+            exact = recorder.of(name)[track.wanted][:, track.unknowns]
+            assert np.array_equal(track.values(name, track.unknowns), exact)
+        for name in JOINTS:
+            assert np.array_equal(track.joints(name), recorder.of(name)[track.wanted])
+
+
+def test_a_motion_that_fails_side_by_side_leaves_its_rows():
+    whole = rocking(Scheme(), STEPS)
+    t, y = whole.loading.curves[-1]
+    burst = np.interp(whole.times, t, y) + np.where(np.arange(len(whole.times)) < 40, 0.0, 1e308)
+    curves = (*whole.loading.curves[:-1], (whole.times, burst))
+    lost = replace(whole, loading=replace(whole.loading, curves=curves))
+    n = len(whole.times)
+    tracks = [Track(np.ones(n, bool), np.arange(3)) for _ in range(2)]
+    with np.errstate(all="ignore"):
+        found = together.integrate_together([lost, whole], [[t] for t in tracks])
+    assert isinstance(found[0], Exception)
+    assert 30 < len(tracks[0]) < n
+    assert len(tracks[1]) == n
+
+
+def assert_largest(extremes, recorder):
+    """The extremes are those of all instants, kept whole."""
+    p = extremes.problem
+    found, numbering = extremes.found(), p.numbering
+    reactions = np.array([s.support_forces for s in recorder.snapshots])
+    u = recorder.of("u")
+    for code, (name, dual) in enumerate(zip(numbering.unknowns, numbering.duals, strict=True)):
+        mine = np.flatnonzero(numbering.codes == code)
+        for kind, label, values in (("DEPL", name, u), ("REACTIONS", dual, reactions)):
+            peak = found[kind, label]
+            top = np.abs(values[:, mine]).max()
+            scale = np.abs(values).max()
+            assert abs(abs(peak.value) - top) <= 1e-9 * scale
+            if top > 1e-6 * scale:
+                assert abs(values[peak.step, peak.place] - peak.value) <= 1e-9 * scale
+                assert numbering.codes[peak.place] == code
+    if not len(recorder.of("w")[0]):
+        return
+    w, t = recorder.of("w"), recorder.of("t")
+    shear = np.linalg.norm(t[..., :-1], axis=-1)
+    for kind, values in (
+        ("OUVERTURE", np.maximum(w[..., -1], 0.0)),
+        ("COMPRESSION", np.minimum(t[..., -1], 0.0)),
+        ("CISAILLEMENT", shear),
+    ):
+        peak, top = found[kind, ""], np.abs(values).max()
+        assert abs(peak.value) == pytest.approx(top, rel=1e-12)
+        assert values[peak.step, peak.place] == pytest.approx(peak.value, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_extremes_are_the_maximum_over_all_steps(name, monkeypatch):
+    rule, n = name.split(",")[0], STEPS + 1
+    monkeypatch.setattr(choose, "RULES", only(rule))
+    problem = CASES[name]()
+    recorder, extremes = Recorder(n), Extremes(problem=problem)
+    integrate(problem, [recorder, extremes], full_newton=rule == "full Newton")
+    assert_largest(extremes, recorder)
+    unasked = Extremes(problem=problem, asked=False)
+    integrate(problem, [unasked], full_newton=rule == "full Newton")
+    assert unasked.known is only(rule)[0].inside
+    if unasked.known:
+        assert_largest(unasked, recorder)
+
+
+def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
+    whole = large()
+    times = np.concatenate([whole.times[:91], whole.times[90] + 0.6 * whole.times[1:60]])
+    problem = replace(whole, times=times)
+    monkeypatch.setattr(run, "CHUNK_VALUES", 30_000)
+    recorder, extremes = Recorder(len(times)), Extremes(problem=problem, asked=False)
+    integrate(problem, [recorder, extremes])
+    assert extremes.known
+    assert_largest(extremes, recorder)
+
+
+def test_extremes_side_by_side_and_of_reduced_models():
+    whole = large()
+    n = len(whole.times)
+    problems = [scaled(whole, f) for f in (0.5, 1.2)]
+    observers = [[Recorder(n), Extremes(problem=p)] for p in problems]
+    together.integrate_together(problems, observers)
+    for recorder, extremes in observers:
+        assert_largest(extremes, recorder)
+    problem = soil_block(steps=STEPS, joint=FRICTION)
+    recorder, extremes = Recorder(n), Extremes(problem=problem)
+    assert integrate_reduced(problem, 1e-3, [recorder, extremes]).loop == "reduced"
+    assert_largest(extremes, recorder)

@@ -1,0 +1,140 @@
+"""Histories that DYNAMIC records at a few nodes against fields of whole bodies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.kernel.stepping.node_track import NodeTrack
+
+BLOCK = """
+OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
+C = DROI 4 (0. 0.) (1. 0.) ; SOL = C TRAN 2 (0. -1.) ;
+A = DROI 4 (0. 0.) (1. 0.) ; BLOC = A TRAN 2 (0. 1.) ;
+J = RACC 0.01 A C ; M = MODE (SOL ET BLOC) 'MECANIQUE' 'ELASTIQUE' ;
+MA = MATE M 'YOUN' 1.E9 'NU' 0.2 'RHO' 2000. ;
+MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; AJ = MATE MJ 'KN' 1.E8 'KS' 1.E8 ;
+B1 = BLOQ 'DEPL' (COTE 3 SOL) ; T = TABL ; T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = AJ ;
+T . 'RIGI' = (RIGI M MA) ET B1 ; T . 'MASS' = MASS M MA ;
+W = (T . 'MASS') * (MANU 'CHPO' BLOC 1 'UY' -9.81) ;
+S = (T . 'MASS') * (MANU 'CHPO' BLOC 1 'UX' 90.) ;
+T . 'CHAR' = (CHAR 'MECA' W (EVOL MANU (PROG 0. 9.) (PROG 1. 1.))) ET
+  (CHAR 'MECA' S (EVOL MANU (PROG 0. 0.01 0.02) (PROG 1. -1. 1.))) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-4 0.02 ; T . 'PAS_SAUVES' = 3 ;
+P = BLOC POIN 'PROC' (0. 1.) ; PM = POIN 2 (EXTR B1 'MAIL' 'MULT') ;
+{step}
+R1 = DYNAMIC T ;
+T . 'MAILLAGE_SAUVE' = (MANU 'POI1' P) ET (EXTR B1 'MAIL' 'MULT') ;
+R2 = DYNAMIC T ;
+"""
+LOOPS = {
+    "dissection or modes": "",
+    "conserving": "T . 'CONSERVATIF' = VRAI ;",
+    "full Newton": "T . 'NEWTON_COMPLET' = VRAI ;",
+    "adaptive": "T . 'PAS_ADAPTE' = VRAI ;",
+    "reduced": "T . 'REDUCTION' = 1.E-2 ;",
+}
+
+
+def ran(text):
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find
+
+
+@pytest.mark.parametrize("step", LOOPS.values(), ids=LOOPS)
+def test_fields_at_a_few_nodes_are_those_of_the_body(step):
+    find = ran(BLOCK.format(step=step))
+    whole, few = find("R1"), find("R2")
+    node = find("P").node
+    places = [i for i, _ in few.items() if type(i) is int]
+    assert places == [i for i, _ in whole.items() if type(i) is int] == list(range(1, 36))
+    for place in places:
+        a, b = whole.get(place), few.get(place)
+        assert a.get("TEMP") == b.get("TEMP")
+        for index in ("DEPL", "VITE", "ACCE"):
+            names = ["UX", "UY", "LX"] if index == "DEPL" else ["UX", "UY"]
+            assert sorted(b.get(index).components) == sorted(names)
+            for name, part in b.get(index).components.items():
+                exact = a.get(index).components[name].at(part.nodes)
+                scale = np.abs(a.get(index).components[name].values).max()
+                assert np.abs(part.values - exact).max() <= 1e-9 * scale, (index, name)
+                assert name == "LX" or part.nodes.tolist() == [node]
+        for index in ("SAUTS", "CONTRAINTES", "VARIABLES_INTERNES"):
+            for x, y in zip(a.get(index).blocks, b.get(index).blocks, strict=True):
+                assert x.components.keys() == y.components.keys()
+                for name, values in x.components.items():
+                    assert np.array_equal(values, y.components[name]), name
+
+
+CURVES = {
+    "displacement": (
+        "'DEPL' 'UY' P",
+        lambda s, f: s.get("DEPL").components["UY"].at([f("P").node]),
+    ),
+    "velocity": ("'VITE' 'UX' P", lambda s, f: s.get("VITE").components["UX"].at([f("P").node])),
+    "reaction": ("'DEPL' 'LX' PM", lambda s, f: s.get("DEPL").components["LX"].at([f("PM").node])),
+    "jump": ("'SAUTS' 'DRN' 1 3 2", lambda s, f: s.get("SAUTS").blocks[0].components["DRN"][2, 1:]),
+    "traction": (
+        "'CONTRAINTES' 'SMN' 1 1 1",
+        lambda s, f: s.get("CONTRAINTES").blocks[0].components["SMN"][0, :1],
+    ),
+    "state": (
+        "'VARIABLES_INTERNES' 'ESTO' 1 4 2",
+        lambda s, f: s.get("VARIABLES_INTERNES").blocks[0].components["ESTO"][3, 1:],
+    ),
+    "law": (
+        "'VARIABLES_INTERNES' 'SAUT' 1 1 9",
+        lambda s, f: s.get("VARIABLES_INTERNES").blocks[0].components["SAUT"][0, 1:],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("table", ["R1", "R2"])
+def test_curves_in_time_read_rows_without_making_fields(name, table, monkeypatch):
+    asked, value = CURVES[name]
+    made = []
+    given = NodeTrack.node_field
+    monkeypatch.setattr(
+        NodeTrack, "node_field", lambda s, row, name: made.append(row) or given(s, row, name)
+    )
+    find = ran(BLOCK.format(step="") + f"E = EVOL 'TEMP' {table} {asked} ;")
+    assert set(made) <= {0}  # the first says what components there are
+    curve, steps = find("E").parts[0], find(table)
+    rows = [steps.get(i) for i in range(1, 36)]
+    assert np.array_equal(curve.abscissas, [row.get("TEMP") for row in rows])
+    exact = np.array([float(value(row, find)[0]) for row in rows])
+    assert np.abs(exact).max() > 0.0
+    assert np.abs(curve.ordinates - exact).max() <= 1e-12 * np.abs(exact).max()
+
+
+def test_curves_follow_what_a_script_put_into_the_table():
+    change = "A1 = R2 . 4 ; A1 . 'DEPL' = 2. * (A1 . 'DEPL') ; "
+    ask = "E{i} = EVOL 'TEMP' R2 'DEPL' 'UY' P ; "
+    find = ran(BLOCK.format(step="") + ask.format(i=1) + change + ask.format(i=2))
+    before, after = (find(name).parts[0].ordinates for name in ("E1", "E2"))
+    ratio = np.ones(35)
+    ratio[3] = 2.0
+    assert np.allclose(after, ratio * before, rtol=1e-14)
+
+
+def test_a_node_that_is_not_kept_is_told_with_the_nearest_one():
+    text = BLOCK.format(step="") + "E = EVOL 'TEMP' R2 'DEPL' 'UY' (C POIN 'PROC' (0. 0.)) ;"
+    result = run_text(text)
+    assert result.exit_code != 0
+    assert "0. 1." in result.message
+
+
+def test_lists_and_their_file_hold_the_same_values(tmp_path):
+    more = "T . 'PAS_SAUVES_CSV' = 3 ; T . 'MAILLAGE_CSV' = MANU 'POI1' P ; R3 = DYNAMIC T ;"
+    find = ran(BLOCK.format(step="") + more)
+    lists, node = find("T").get("RESULTATS_CSV"), find("P").node + 1
+    names = [str(i).rstrip() for i, _ in lists.items()]
+    kinds = [f"{w}_{c}_{node}" for w in ("DEPL", "VITE", "ACCE") for c in ("UX", "UY")]
+    assert names[0] == "TEMP"
+    assert sorted(names[1:]) == sorted(kinds)
+    rows = [find("R2").get(i) for i in range(1, 36)]
+    exact = [float(r.get("ACCE").components["UX"].values[0]) for r in rows]
+    assert np.array_equal(lists.get(f"ACCE_UX_{node}").values, exact)
