@@ -1,11 +1,11 @@
 """First use: what compiling costs a machine that has no compiled code yet.
 
-    OMP_NUM_THREADS=1 python benchmarks/first_use.py [case ...]
+    OMP_NUM_THREADS=1 python benchmarks/first_use.py [case|deck ...]
 
 Cases: `oscillator` (the deck club_b_sdm), `frame` (rocking_frame.py), `block` (1 964 unknowns of
-uplift_openseespy.py). Each runs twice, each time in a process of its own, with a folder for
-compiled code that is empty the first time. The difference is printed, in seconds of a clock and of
-a processor: on a busy machine the first says little.
+uplift_openseespy.py); a deck is a file (`cases/*/*.ssi`). Each runs twice, each time in a process
+of its own, with a folder for compiled code that is empty the first time. The difference is printed,
+in seconds of a clock and of a processor: on a busy machine the first says little.
 """
 
 from __future__ import annotations
@@ -19,10 +19,9 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).parent
-DECK = HERE.parent / "cases" / "club_cast3m_2014" / "club_b_sdm.ssi"
+RUN = "from ssilang.cli.main import main; main([{!r}, '--out', '.'])"
 CASES = {
-    "oscillator": f"import sys; sys.argv = ['ssilang', {str(DECK)!r}, '--out', '.']; "
-    "from ssilang.cli.main import main; main()",
+    "oscillator": RUN.format(str(HERE.parent / "cases" / "club_cast3m_2014" / "club_b_sdm.ssi")),
     "frame": "import pathlib, rocking_frame as r; r.ours(2000, 2000, pathlib.Path('.'))",
     "block": "import uplift_openseespy as u; u.run_ssilang(u.make_case(2000, 50))",
 }
@@ -44,11 +43,12 @@ def times(program: str, folder: str) -> tuple[float, float]:
 def main(names: list[str]) -> None:
     """Print one line a case."""
     for name in names or list(CASES):
+        program = CASES.get(name) or RUN.format(str(Path(name).resolve()))
         with tempfile.TemporaryDirectory() as folder:
-            first, second = times(CASES[name], folder), times(CASES[name], folder)
+            first, second = times(program, folder), times(program, folder)
             n = sum(1 for _ in Path(folder).rglob("*.nbi"))
         print(
-            f"{name:12s} {n:4d} functions kept; first run {first[0]:6.1f} s "
+            f"{Path(name).stem:12s} {n:4d} functions kept; first run {first[0]:6.1f} s "
             f"({first[1]:.1f} of a processor), next {second[0]:.1f} s ({second[1]:.1f}), "
             f"compiling {first[0] - second[0]:.1f} s ({first[1] - second[1]:.1f}), "
             f"load {os.getloadavg()[0]:.0f}",

@@ -1,4 +1,4 @@
-"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `repl`, `version`."""
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `warm`, `repl`, `version`."""
 
 from __future__ import annotations
 
@@ -231,6 +231,12 @@ def _sweep(options: argparse.Namespace) -> int:
     )
 
 
+def _warm(options: argparse.Namespace) -> int:
+    from ssilang.cli.warm import warm
+
+    return warm(options.files, [p.resolve() for p in options.allow], options.lang, sys.stdout)
+
+
 def _check(options: argparse.Namespace) -> int:
     from ssilang.cli.check import check_file
     from ssilang.language.say.diagnostics import render
@@ -318,6 +324,7 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "format": _format,
     "help": _help,
     "sweep": _sweep,
+    "warm": _warm,
     "repl": _repl,
     "lsp": _lsp,
     "completion": _completion,

@@ -16,7 +16,8 @@ from typing import Any, NoReturn
 from ssilang.messages.message import Teller, teller
 
 COMMANDS = (
-    "run", "new", "check", "format", "help", "sweep", "repl", "lsp", "completion", "version",
+    "run", "new", "check", "format", "help", "sweep", "warm", "repl", "lsp", "completion",
+    "version",
 )  # fmt: skip
 LANGUAGES = ("en", "fr")
 SHELLS = ("bash", "zsh", "fish", "words")
@@ -124,6 +125,7 @@ def parser(words: Sequence[str]) -> Parser:
     helper.add_argument("word", nargs="*", help="cli.usage-word")
     _language_argument(helper)
     _sweep(command("sweep", help="cli.usage-sweep"))
+    _warm(command("warm", help="cli.usage-warm", epilog="cli.usage-warm-example"))
     _session_arguments(command("repl", help="cli.usage-repl"))
     _language_argument(command("lsp", help="cli.usage-lsp"))
     shell = command("completion", help="cli.usage-completion")
@@ -164,6 +166,12 @@ def _sweep(sweep: argparse.ArgumentParser) -> None:
     sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
     _allowed(sweep)
     _language_argument(sweep)
+
+
+def _warm(warm: argparse.ArgumentParser) -> None:
+    warm.add_argument("files", nargs="*", type=Path, metavar="DECK", help="cli.usage-warm-files")
+    _allowed(warm)
+    _language_argument(warm)
 
 
 def _session_arguments(to: argparse.ArgumentParser) -> None:

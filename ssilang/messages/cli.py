@@ -119,6 +119,24 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "list-of-help": Message(
         "`ssilang help` lists all of them", "`ssilang help --lang fr` en donne la liste"
     ),
+    "warm-nothing-kept": Message(
+        "compiled code would end with this process",
+        "le code compilé finirait avec ce processus",
+        "unset SSILANG_PLAIN_NUMBA, and give the user a home folder, or NUMBA_CACHE_DIR, that "
+        "nobody else can write to",
+        "enlevez SSILANG_PLAIN_NUMBA, et donnez à l'utilisateur un répertoire personnel, ou "
+        "NUMBA_CACHE_DIR, où personne d'autre ne peut écrire",
+    ),
+    "warm-deck": Message(
+        "{deck}: {count} {count:function|functions} compiled, {seconds:.1f} s",
+        "{deck} : {count} {count:fonction compilée|fonctions compilées}, {seconds:.1f} s",
+    ),
+    "warmed": Message(
+        "{count} {count:function|functions} compiled for {decks} {decks:deck|decks} in "
+        "{seconds:.0f} s; {folder} keeps {kept}",
+        "{count} {count:fonction compilée|fonctions compilées} pour {decks} "
+        "{decks:jeu|jeux} de données en {seconds:.0f} s ; {folder} en garde {kept}",
+    ),
     # ---- usage of the command line
     "usage": Message("usage: ", "utilisation : "),
     "usage-positional": Message("positional arguments", "arguments"),
@@ -145,6 +163,21 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-sweep": Message(
         "run a script over parameters and motions",
         "exécute un script pour plusieurs paramètres et accélérogrammes",
+    ),
+    "usage-warm": Message(
+        "compile what scripts need, for images and clusters",
+        "compile ce que demandent des scripts, pour les images et les clusters",
+    ),
+    "usage-warm-files": Message(
+        "scripts to run for it (default: those that come with the program)",
+        "scripts à exécuter pour cela (par défaut ceux qui viennent avec le programme)",
+    ),
+    "usage-warm-example": Message(
+        "Example, in the recipe of an image: RUN pip install ssilang && ssilang warm. Each user "
+        "of a machine has his own compiled code, unless NUMBA_CACHE_DIR names a folder.",
+        "Exemple, dans la recette d'une image : RUN pip install ssilang && ssilang warm. Chaque "
+        "utilisateur d'une machine a son propre code compilé, sauf si NUMBA_CACHE_DIR nomme un "
+        "répertoire.",
     ),
     "usage-repl": Message("interactive session", "session interactive"),
     "usage-version": Message("version of the program", "version du programme"),

@@ -91,13 +91,29 @@ def _is_package(module: str, package: Path) -> bool:
     return package.joinpath(*module.split(".")[1:]).is_dir()
 
 
+def kept_code() -> tuple[Path, int] | None:
+    """The folder that keeps code for later processes and the number of functions in it, if any."""
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    places = (Path(given),) if given else () if PLAIN else _places()
+    base = _given(given) if given else None if PLAIN else _base()
+    if base is None or base not in [place.resolve() for place in places]:
+        return None
+    return base, sum(1 for _ in base.rglob("*.nbc"))
+
+
+def _places() -> tuple[Path, Path]:
+    """The user's folder for code, and a temporary one."""
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return (
+        Path(home) / "ssilang" / "compiled",
+        Path(tempfile.gettempdir()) / f"ssilang-{user_number()}",
+    )
+
+
 @cache
 def _base() -> Path | None:
     """Folder that keeps code: the user's, a temporary one, a new one, or None if none is safe."""
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    kept = Path(home) / "ssilang" / "compiled"
-    other = Path(tempfile.gettempdir()) / f"ssilang-{user_number()}"
-    return _first_private(kept, other)
+    return _first_private(*_places())
 
 
 @cache

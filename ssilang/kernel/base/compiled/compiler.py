@@ -17,6 +17,7 @@ import numba
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.cache import folder_of
 from ssilang.kernel.base.compiled.kept import keep
+from ssilang.kernel.base.compiled.linked import Linked
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -55,9 +56,11 @@ def _made(function: Function, freedom: set[str] | bool, inline: bool = False) ->
     if kept is not None:
         numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
     options = _OPTIONS | {"_nrt": PLAIN or counts(function)}
-    options |= {"fastmath": freedom, "forceinline": inline, "cache": PLAIN and kept is not None}
-    made = numba.njit(**options)(function)
-    if kept is not None and not PLAIN and made is not function:  # it is where nothing is compiled
+    options |= {"fastmath": freedom, "forceinline": inline}
+    if PLAIN or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return cast(Function, numba.njit(cache=kept is not None, **options)(function))
+    made = Linked(function, None, options | {"nopython": True, "boundscheck": None})
+    if kept is not None:
         keep(made)
     return cast(Function, made)
 
