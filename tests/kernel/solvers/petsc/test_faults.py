@@ -256,8 +256,16 @@ def test_a_rank_killed_during_a_solve_ends_the_server(mpi):
     killer.join()
 
 
+@pytest.fixture
+def heeded():
+    """Ctrl-C interrupts, also where whoever started the tests had it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @there
-def test_an_interruption_during_a_solve_ends_the_server(mpi):
+def test_an_interruption_during_a_solve_ends_the_server(mpi, heeded):
     server = PetscServer(COMMAND)
     factor = server.factorise(A, True)
     os.kill(other_rank(server), signal.SIGSTOP)
