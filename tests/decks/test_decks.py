@@ -40,6 +40,10 @@ SPOILT = [
     ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("seismic/tower_on_cones.ssi", "'RAID' KH0", "'RAID' (1.02 * KH0)"),
+    ("starters/oscillator.ssi", "'INRY' INE0 'INRZ' INE0", "'INRY' INE0 'INRZ' (1.02 * INE0)"),
+    ("starters/frame.ssi", "(-1. * G0)", "(-1.001 * G0)"),
+    ("starters/tower.ssi", "'RHO' 2000.", "'RHO' 2001."),
+    ("starters/raft.ssi", "FG = FORC (0. 0. (-1. * WEI0))", "FG = FORC (0. 0. (-1.01 * WEI0))"),
     ("seismic/tower_quake.ssi", ". 'YOUNG' = YOUS", ". 'YOUNG' = 1.02 * YOUS"),
 ]
 

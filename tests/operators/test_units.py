@@ -253,7 +253,7 @@ def test_vtk_files_hold_the_units_with_their_sizes(tmp_path: Path) -> None:
     made = run_text(f"{BODY}OPTI 'UNIT' 'N-MM' ; {text}", tmp_path)
     assert made.exit_code == 0, made.message
     held = meshio.read(tmp_path / "s.vtu").field_data
-    sizes = {name: float(value[0]) for name, value in held.items()}
+    sizes = {name: float(value[0]) for name, value in held.items() if ": " in name}
     assert sizes == pytest.approx(
         {"length: mm": 1e-3, "force: N": 1.0, "mass: t": 1e3, "time: s": 1.0, "stress: MPa": 1e6,
          "energy: mJ": 1e-3}

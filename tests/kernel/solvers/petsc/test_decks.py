@@ -216,9 +216,10 @@ def test_the_option_is_read_back_and_its_words_are_checked(tmp_path):
     assert "PETSC" in result.message
 
 
-def test_the_command_line_takes_the_command(tmp_path):
+def test_the_command_line_takes_the_command(tmp_path, monkeypatch):
     from ssilang.cli.main import main
 
+    monkeypatch.chdir(tmp_path)
     script = tmp_path / "case.ssi"
     script.write_text(HEAD + ASKED + "FIN ;")
     out = ["--out", str(tmp_path / "out"), "-q"]
