@@ -13,7 +13,6 @@ from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Script
 
 
 def check_file(source: Source, syntax_only: bool, language: str, out: TextIO) -> bool:
@@ -32,17 +31,23 @@ def check_file(source: Source, syntax_only: bool, language: str, out: TextIO) ->
 
 def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:
     """Errors and warnings of a script in the order of its text, and the names that it knows."""
+    problems, names, _ = typed_source(source, syntax_only)
+    return problems, names
+
+
+def typed_source(
+    source: Source, syntax_only: bool = False
+) -> tuple[list[SsiError], set[str], dict[int, str]]:
+    """As `check_source`, and the types that names get, by where the name stands."""
     try:
         script = parse(source)
     except SeveralErrors as several:
-        return several.errors, set()
+        return several.errors, set(), {}
     except SsiError as error:
-        return [error], set()
-    return ([], set()) if syntax_only else _problems(script, source)
-
-
-def _problems(script: Script, source: Source) -> tuple[list[SsiError], set[str]]:
-    """Errors and warnings of a script whose structure is sound, and the names that it knows."""
+        return [error], set(), {}
+    if syntax_only:
+        return [], set(), {}
     session = make_session(source, RunOptions(), io.StringIO())
     names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-    return Checker(session).check(script), names
+    checker = Checker(session)
+    return checker.check(script), names, checker.types

@@ -9,7 +9,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.values import Table
 from ssilang.language.vocabulary import words_of
 
-_CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
+CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
 _WORD = re.compile(r"[@&!#%]?\w*$")
 _TABLE_PATH = re.compile(r"([@&!]?\w+(?:\s*\.\s*(?:'[^']*'|\w+))*)\s*\.\s*('?)([^'.()]*)$")
 _ANY_WORD = re.compile(r"[@&!]?[^\W\d]\w*|\*\*|[-+*/]")
@@ -52,7 +52,7 @@ def _open_quote(text: str) -> str | None:
 
 def _names(text: str, session: Session) -> set[str]:
     operators = {o.full_name for group in operators_by_family().values() for o in group}
-    names = {n for n in operators if n[0].isalpha()} | {*_CONTROL}
+    names = {n for n in operators if n[0].isalpha()} | {*CONTROL}
     names |= session.frame.names() | session.library.standard_names
     return names | set(_keywords(text))
 

@@ -31,6 +31,7 @@ class Checker:
     def __init__(self, session: Session) -> None:
         self.session = session
         self.problems: list[SsiError] = []
+        self.types: dict[int, str] = {}  # of what names are given, by where the name stands
         self.phrases = PhraseReader(session, self._report)
         self._procedures: list[tree.Definition] = []
         self._names: set[str] = set()
@@ -240,6 +241,7 @@ class Checker:
             if isinstance(target, tree.Name):
                 known = values is not None and i < len(values)
                 scope.values[target.text] = values[i] if known and values else UNKNOWN
+                self.types[target.span.start] = kind_word(scope.values[target.text])
 
 
 @cache

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
+from ssilang.cli.completion import CONTROL
 from ssilang.cli.editor.document import Document, Place
 from ssilang.cli.editor.tables import entries_at
 from ssilang.kernel.elements.catalog import ELEMENTS
@@ -18,7 +19,6 @@ from ssilang.language.vocabulary.terms import Word
 from ssilang.messages.message import teller
 from ssilang.operators.vocabulary import words
 
-CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
 _FILES = frozenset({"LIRE", "ACQU", "REST", "SORT", "SAUV", "OPTI"})
 _MOST_FILES = 200
 

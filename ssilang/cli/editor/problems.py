@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import cast
 
-from ssilang.cli.checking.kinds import kind_word
-from ssilang.cli.checking.scope import Scope, assigned_names
-from ssilang.cli.checking.walk import Checker
-from ssilang.cli.run import RunOptions, make_session
+from ssilang.cli.check import typed_source
 from ssilang.language.say.diagnostics import sentence, suggestion
-from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.text import tree
+from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
-from ssilang.language.text.structure import parse
 from ssilang.messages.message import teller
 
 
@@ -51,35 +45,10 @@ class Findings:
     types: dict[int, str]
 
 
-class _TypedChecker(Checker):
-    """A checker that remembers the types of the values that names get."""
-
-    def __init__(self, session: Any) -> None:
-        super().__init__(session)
-        self.types: dict[int, str] = {}
-
-    def _assign(self, statement: tree.Statement, values: list[Any] | None, scope: Scope) -> None:
-        super()._assign(statement, values, scope)
-        for target in statement.targets:
-            if isinstance(target, tree.Name):
-                self.types[target.span.start] = kind_word(scope.values[target.text])
-
-
 def find_problems(source: Source, language: str, syntax_only: bool = False) -> Findings:
     """Everything that can be said of a script without running it, or of its structure alone."""
-    try:
-        script = parse(source)
-    except SeveralErrors as several:
-        return Findings(tuple(_problems(several.errors, set(), source, language)), {})
-    except SsiError as error:
-        return Findings(tuple(_problems([error], set(), source, language)), {})
-    if syntax_only:
-        return Findings((), {})
-    session = make_session(source, RunOptions(), io.StringIO())
-    names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-    checker = _TypedChecker(session)
-    found = checker.check(script)
-    return Findings(tuple(_problems(found, names, source, language)), checker.types)
+    found, names, types = typed_source(source, syntax_only)
+    return Findings(tuple(_problems(found, names, source, language)), types)
 
 
 def _problems(
@@ -115,12 +84,8 @@ def _fixes(error: SsiError, names: set[str], source: Source, language: str) -> I
     elif error.code == "extra-paren":
         yield Fix(told("cli.fix-remove"), span.start, span.end, "")
     elif error.code == "decimal-comma":
-        yield Fix(
-            told("cli.fix-replace", near=span.text.replace(",", ".")),
-            span.start,
-            span.end,
-            span.text.replace(",", "."),
-        )
+        point = span.text.replace(",", ".")
+        yield Fix(told("cli.fix-replace", near=point), span.start, span.end, point)
     if "begins_line" in error.data:
         yield from _semicolon_before(error, source, language)
     yield from _near(error, names, language)
