@@ -14,16 +14,9 @@ advance = compiled_inline(newmark.advanced)
 from_past = compiled_inline(newmark.from_past)
 
 
-@apart
 @compiled
-def keep(x: Motion, to: Recorder, row: int) -> None:
-    """The present state into a row of those of its parts that are kept."""
-    if len(to.u):
-        copy_state(x.u, to.u[row])
-        copy_state(x.v, to.v[row])
-        copy_state(x.a, to.a[row])
-    if len(to.reaction):
-        copy_state(x.reaction, to.reaction[row])
+def _keep_joints(x: Motion, to: Recorder | Tap, row: int) -> None:
+    """Forces and state of relations and joints into a row, whole."""
     if len(to.f):
         copy_state(x.f, to.f[row])
     if len(to.w):
@@ -34,6 +27,19 @@ def keep(x: Motion, to: Recorder, row: int) -> None:
         copy_rows(x.state, to.state[row])
     if len(to.contact):
         copy_state(x.contact, to.contact[row])
+
+
+@apart
+@compiled
+def keep(x: Motion, to: Recorder, row: int) -> None:
+    """The present state into a row of those of its parts that are kept."""
+    if len(to.u):
+        copy_state(x.u, to.u[row])
+        copy_state(x.v, to.v[row])
+        copy_state(x.a, to.a[row])
+    if len(to.reaction):
+        copy_state(x.reaction, to.reaction[row])
+    _keep_joints(x, to, row)
 
 
 @apart
@@ -46,16 +52,7 @@ def tap(x: Motion, to: Tap, row: int) -> None:
     if len(to.reaction):
         for i in range(len(to.at)):
             to.reaction[row, i] = x.reaction[to.at[i]]
-    if len(to.f):
-        copy_state(x.f, to.f[row])
-    if len(to.w):
-        copy_rows(x.w, to.w[row])
-    if len(to.t):
-        copy_rows(x.t, to.t[row])
-    if len(to.state):
-        copy_rows(x.state, to.state[row])
-    if len(to.contact):
-        copy_state(x.contact, to.contact[row])
+    _keep_joints(x, to, row)
 
 
 @apart
