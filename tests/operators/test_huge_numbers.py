@@ -175,3 +175,25 @@ def test_a_message_shows_an_integer_that_is_no_real():
     assert "steps of 1 from 3 to 2" in sentence(
         "operators.lists.steps-not-finite", {**data, "start": 3}, "en"
     )
+
+
+def test_an_operator_that_fails_over_a_matrix_names_it(tmp_path):
+    text = (
+        "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; K = (APPU 'UX' 4. P1) ET (APPU 'UX' 9. P2) ;"
+        "M = MASS 'UX' 1. (P1 ET P2) ; B = VIBR 'SIMU' 0.1 2 K M ; MP = PJBA B M ;"
+        "T = VIBC MP (PJBA B K) (PJBA B (AMOR 'UX' X (P1 ET P2))) ;"
+    )
+    result = run_text(NAN + text, tmp_path)
+    assert [e.code for e in result.errors] == ["operand-not-finite"]
+    assert result.errors[0].span.text.startswith("(PJBA B (AMOR 'UX' X ")
+
+
+def test_arrays_that_no_memory_holds_are_told(tmp_path):
+    text = (
+        "OPTI DIME 2 ELEM SEG2 MODE PLAN ; P1 = 0. 0. ; T = TABL ; T . 'N_HARMONIQUE' = 10 ** 9 ;"
+        "T . 'RIGIDITE_CONSTANTE' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 2. 0. 0. 3.) ;"
+        "T . 'AMORTISSEMENT_CONSTANT' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 0.1 0. 0. 0.1) ;"
+        "T . 'MASSE_CONSTANTE' = (MASS 'UX' 1. P1) ET (MASS 'UY' 1. P1) ; HBM T ;"
+    )
+    result = run_text(text, tmp_path)
+    assert [e.code for e in result.errors] == ["memory"]
