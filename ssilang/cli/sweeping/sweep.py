@@ -21,6 +21,7 @@ from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
 from ssilang.messages.message import Teller, sentence, teller
+from ssilang.system_reasons import system_reason
 
 TABLE, PLAIN_TABLE = "sweep.parquet", "sweep.csv"
 TOGETHER = 8
@@ -54,7 +55,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         err.write(render(SsiError.of(problem, None), options.language) + "\n")
         return 2
     except OSError as problem:
-        lost = SsiError("missing-file", None, path=options.deck, reason=problem.strerror)
+        lost = SsiError("missing-file", None, path=options.deck, reason=system_reason(problem))
         err.write(render(lost, options.language) + "\n")
         return 2
     folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
