@@ -88,7 +88,9 @@ def test_words_and_lists_of_words_become_integers():
     assert value("ENTI (MOTS '1.7' '-1.7')").values.tolist() == [1, -1]
 
 
-@pytest.mark.parametrize("phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0", "IFRE -1."])
+@pytest.mark.parametrize(
+    "phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0", "IFRE -1."]
+)
 def test_impossible_value_is_explained(phrase, refused):
     assert "error" in refused(f"X = {phrase} ;")
 
