@@ -28,11 +28,13 @@ STEEL = PLATE.replace("{n}", "3") % ("'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'", "'SIGY
 ELASTIC = PLATE.replace("{n}", "3") % ("'ELASTIQUE'", "")
 LARGE = PLATE.replace("{n}", "12") % ("'ELASTIQUE'", "")
 DECKS = {
-    "bodies that rock": ROCKING + EVERY + "T2 = DYNAMIC T ;",
+    "bodies that rock": ROCKING + EVERY + "T . 'RELATIONS_SAUVEES' = TABL ; "
+    "T . 'RELATIONS_SAUVEES' . 'SOL' = BLO ; T2 = DYNAMIC T ;",
     "two calculations": ROCKING + EVERY + "T2 = DYNAMIC T ; T . 'VITE' = 2. * (T . 'VITE') ; "
     "T . 'FICHIER_VTK' = 'second' ; T . 'FICHIER_CSV' = 'second' ; T3 = DYNAMIC T ;",
     "a plastic plate in motion": STEEL + EVERY + "T . 'CHAR' = T . 'CHARGEMENT' ; "
     "T . 'RIGI' = (RIGI M A) ET B ; T . 'MASS' = MASS M A ; T . 'PAS_SAUVES' = 2 ; "
+    "T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'BASE' = B ; "
     "T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-4 0.008 ; T2 = DYNAMIC T ;",
     "a plastic plate": STEEL + EVERY + "PASAPAS T ;",
     "a plastic plate, moving": STEEL + EVERY + "T . 'DYNAMIQUE' = VRAI ; "
