@@ -15,6 +15,7 @@ from ssilang.messages.message import Sentence
 _TRANSLATIONS = {"UX": 0, "UY": 1, "UZ": 2, "UR": 0}
 _ROTATIONS = {"RX": 0, "RY": 1, "RZ": 2}
 _NAMES = ("X", "Y", "Z")
+_LOOKED_AT = 60  # free motions among which a message looks for those that it names
 
 
 def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> FloatArray:
@@ -62,14 +63,15 @@ def singular(
     Each body that moves is named by its place (if there are several), with the rigid motions
     that are free, and the unknowns that move most.
     """
+    count, motions = motions.shape[1], motions[:, :_LOOKED_AT]
     span = np.linalg.qr(motions)[0]
     free = _most_moved(numbering, span)
     return SingularMatrixError(
         code,
-        count=motions.shape[1],
+        count=count,
         motions=named_motions(numbering, motions, bodies),
         free=free,
-        more=motions.shape[1] - len(free),
+        more=count - len(free),
         apart=0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies),
     )
 
