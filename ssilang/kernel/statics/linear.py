@@ -284,7 +284,8 @@ def _ordering(numbering: Numbering, elimination: Elimination, solver: Solver) ->
         return None
     nodes = numbering.nodes[elimination.masters]
     rigid = rigid_motions(numbering)[elimination.masters]
-    return Ordering(numbering.table.coordinates[nodes], np.zeros(0, np.int64), rigid)
+    points = numbering.table.coordinates[nodes]
+    return Ordering(points, np.zeros(0, np.int64), rigid, nodes, once=True)
 
 
 def _associated_rows(rows: ConstraintRows) -> BoolArray:

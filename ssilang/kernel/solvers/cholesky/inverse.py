@@ -8,14 +8,18 @@ without stiffness are found from a slightly shifted matrix and judged by their e
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
@@ -104,9 +108,12 @@ def invert(
     scaled, scale = _unit_diagonal(A)
     ordering = None if ordering is None else ordering.scaled(scale)
     factor = _try_factors(scaled, symmetric, solver, ordering)
-    if factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
-        return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
-    motions = free_motions(scaled, symmetric, solver)
+    if factor is not None and factor.name == MULTIGRID:
+        motions = cast("MultigridFactor", factor).free_motions()
+    elif factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
+        motions = np.empty((n, 0))
+    else:
+        motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
@@ -149,7 +156,8 @@ def _try_factors(
             factor = factorise(A, positive, solver, ordering)
         except SingularFactorError:
             continue
-        if not positive or accurate(A, factor):
+        # an iteration looks at its residuals by itself
+        if not positive or factor.name == MULTIGRID or accurate(A, factor):
             return factor
     return None
 

@@ -29,11 +29,11 @@ class NotPositiveError(Exception):
 
 
 class TooLargeError(Exception):
-    """Memory would not hold the factor."""
+    """The factor takes more bytes than it may; whether memory would hold it."""
 
-    def __init__(self, n_bytes: float) -> None:
+    def __init__(self, n_bytes: float, fits: bool) -> None:
         super().__init__(f"{n_bytes:g} bytes")
-        self.n_bytes = n_bytes
+        self.n_bytes, self.fits = n_bytes, fits
 
 
 class Panels(NamedTuple):
@@ -65,7 +65,7 @@ class Columns(NamedTuple):
     data: FloatArray
 
 
-def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
+def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panels:
     """Factors of a symmetric positive A (n, n) in the order of a tree.
 
     Raises
@@ -73,7 +73,8 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     NotPositiveError
         If a pivot is not positive.
     TooLargeError
-        If memory would not hold the factor and what is needed to make it.
+        If memory would not hold the factor and what is needed to make it, or that takes more
+        than `most` bytes.
     """
     n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
@@ -83,8 +84,9 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
     needed = 8.0 * (float(at[-1]) + waiting + front)
-    if not fits(needed):
-        raise TooLargeError(needed)
+    held = fits(needed)
+    if needed > most or not held:
+        raise TooLargeError(needed, held)
     panels = Panels(tree.first, ptr, rows, at, np.zeros(at[-1]))
     columns = Columns(indptr, indices, lower.data)
     bad = _factorise(columns, panels, above, np.zeros(waiting), np.zeros(front))
