@@ -30,11 +30,9 @@ MULTIGRID = "multigrid"
 PETSC = "PETSC"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
-OWN = (DISSECTION, MULTIGRID)
-"""Solvers of this house, that no package brings."""
-ONCE, OFTEN = 8e8, 8e9
-"""Bytes of a factor by dissection from which multigrid has solved before it is made (some 100 000
-unknowns of a solid), and from which it steps as fast (some 600 000)."""
+ONCE, OFTEN = 8e8, 4e9
+"""Bytes of a factor by dissection from which multigrid has solved before it is made (some 80 000
+unknowns of a solid), and from which a hundred steps have been made (some 300 000)."""
 DISTRIBUTED = 1_000_000  # unknowns from which several machines are used where a run has them
 
 
@@ -231,8 +229,9 @@ def factorise(
     dissected = ordering is not None and positive and asked.name in (None, DISSECTION)
     name = DISSECTION if dissected else asked.name or choose(A.shape[0], positive)
     backend = BACKENDS.get(name)
-    if name not in OWN and backend is None:
-        raise KernelError("kernel.solvers.no-solver-called", name=name, backends=(*BACKENDS, *OWN))
+    if backend is None and not dissected and name != MULTIGRID:
+        known = (*BACKENDS, MULTIGRID)
+        raise KernelError("kernel.solvers.no-solver-called", name=name, backends=known)
     if backend is not None and not backend.installed:
         raise KernelError(
             "kernel.solvers.not-installed",
@@ -276,11 +275,23 @@ def _by_multigrid(
     return MultigridFactor(A, positive, ordering.rigid, ordering.nodes, asked.tolerance)
 
 
+def factor_is_large(A: sp.csr_array, ordering: Ordering) -> bool:
+    """Whether multigrid makes a hundred steps while a positive A (n, n) is factorised."""
+    if not dissection_pays(A.shape[0]):
+        return False
+    from ssilang.kernel.base.memory import fits
+    from ssilang.kernel.solvers.cholesky.dissection import dissection
+    from ssilang.kernel.solvers.cholesky.multifrontal import factor_bytes
+
+    needed = factor_bytes(A, dissection(A, ordering.points, ordering.last))
+    return needed > OFTEN or not fits(needed)
+
+
 def _dissected(A: sp.csr_array, ordering: Ordering, asked: Solver) -> Factor:
     from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
     from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError, TooLargeError
 
-    limit = (ONCE if ordering.once else OFTEN) if asked.name is None else np.inf
+    limit = ONCE if ordering.once and asked.name is None else np.inf
     for most in (limit, np.inf):
         try:
             return DissectedFactor(A, ordering.points, ordering.last, most)

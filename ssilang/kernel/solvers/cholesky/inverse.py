@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
 SHIFT = 1e-12
+ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +106,7 @@ def invert(
     nothing = np.empty(0, dtype=np.int64)
     if n == 0:
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
-    scaled, scale = _unit_diagonal(A)
+    scaled, scale = unit_diagonal(A)
     ordering = None if ordering is None else ordering.scaled(scale)
     factor = _try_factors(scaled, symmetric, solver, ordering)
     if factor is not None and factor.name == MULTIGRID:
@@ -135,14 +136,27 @@ class _Empty:
         return b
 
 
-def _unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
-    size = np.abs(A.diagonal())
-    largest = np.asarray(abs(A).max(axis=1).toarray(), dtype=float).ravel()
+def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
+    """`S A S` with a diagonal near one, and the diagonal of S; columns are shared with A."""
+    size, rows = np.abs(A.diagonal()), A.shape[0]
+    data = np.empty_like(A.data)
+    largest = np.zeros(rows)
+    parts = [(i, min(i + ROWS, rows)) for i in range(0, rows, ROWS)]
+    for low, high in parts:
+        begin, end = A.indptr[low], A.indptr[high]
+        counts = np.diff(A.indptr[low : high + 1])
+        filled = np.flatnonzero(counts)
+        if end > begin:
+            starts = A.indptr[low:high][filled] - begin
+            largest[low + filled] = np.maximum.reduceat(np.abs(A.data[begin:end]), starts)
     size = np.where(size > 1e-14 * largest, size, largest)
     # powers of two: scaling rounds nothing
     scale = np.exp2(np.round(-0.5 * np.log2(np.where(size > 0.0, size, 1.0))))
-    S = sp.diags_array(scale)
-    return sp.csr_array(S @ A @ S), scale
+    for low, high in parts:
+        part = slice(A.indptr[low], A.indptr[high])
+        data[part] = A.data[part] * scale[A.indices[part]]
+        data[part] *= np.repeat(scale[low:high], np.diff(A.indptr[low : high + 1]))
+    return sp.csr_array((data, A.indices, A.indptr), shape=A.shape), scale
 
 
 def _try_factors(

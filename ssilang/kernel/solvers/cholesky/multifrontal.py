@@ -76,6 +76,40 @@ def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panel
         If memory would not hold the factor and what is needed to make it, or that takes more
         than `most` bytes.
     """
+    plan = _planned(A, tree)
+    held = fits(plan.n_bytes)
+    if plan.n_bytes > most or not held:
+        raise TooLargeError(plan.n_bytes, held)
+    panels = Panels(tree.first, plan.ptr, plan.rows, plan.at, np.zeros(plan.at[-1]))
+    room = np.zeros(plan.waiting), np.zeros(plan.front)
+    bad = _factorise(plan.columns, panels, plan.above, *room)
+    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
+        raise NotPositiveError(f"pivot {bad} is not positive")
+    return panels
+
+
+class _Plan(NamedTuple):
+    """Where the numbers of a factor stand, and what it takes to make it."""
+
+    columns: Columns
+    above: IntArray
+    ptr: IntArray
+    rows: IntArray
+    at: IntArray
+    waiting: int
+    front: int
+
+    @property
+    def n_bytes(self) -> float:
+        return 8.0 * (float(self.at[-1]) + self.waiting + self.front)
+
+
+def factor_bytes(A: sp.csr_array, tree: Tree) -> float:
+    """What the factor in the order of a tree would take while it is made."""
+    return _planned(A, tree).n_bytes
+
+
+def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
@@ -83,16 +117,7 @@ def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panel
     ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
-    needed = 8.0 * (float(at[-1]) + waiting + front)
-    held = fits(needed)
-    if needed > most or not held:
-        raise TooLargeError(needed, held)
-    panels = Panels(tree.first, ptr, rows, at, np.zeros(at[-1]))
-    columns = Columns(indptr, indices, lower.data)
-    bad = _factorise(columns, panels, above, np.zeros(waiting), np.zeros(front))
-    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
-        raise NotPositiveError(f"pivot {bad} is not positive")
-    return panels
+    return _Plan(Columns(indptr, indices, lower.data), above, ptr, rows, at, waiting, front)
 
 
 @compiled

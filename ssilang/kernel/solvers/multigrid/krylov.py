@@ -1,4 +1,4 @@
-"""Preconditioned conjugate gradients."""
+"""Preconditioned iterations: conjugate gradients, minimal residuals."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+
+RESTART = 40  # vectors that are kept
 
 Map = Callable[[FloatArray], FloatArray]
 
@@ -52,3 +54,38 @@ def conjugate_gradients(
         r = r - step * Ap
         before, size = now, float(np.linalg.norm(r))
     return Found(x, turn, size, False)
+
+
+def minimal_residuals(
+    multiply: Map, coarser: Map, b: FloatArray, enough: float, most: int
+) -> Found:
+    """As `conjugate_gradients` for any A (Saad 1993, flexible GMRES), begun anew now and then."""
+    x, r, turns = np.zeros_like(b), b.copy(), 0
+    size = float(np.linalg.norm(r))
+    while size > enough and turns < most:
+        V, Z = [r / size], []
+        H = np.zeros((RESTART + 1, RESTART))
+        for k in range(RESTART):
+            Z.append(np.asarray(coarser(V[k]), dtype=float))
+            w = multiply(Z[k])
+            for _ in range(2):  # Gram and Schmidt, twice
+                for i in range(k + 1):
+                    part = float(V[i] @ w)
+                    H[i, k] += part
+                    w -= part * V[i]
+            H[k + 1, k] = np.linalg.norm(w)
+            turns += 1
+            wanted = np.zeros(k + 2)
+            wanted[0] = size
+            y = np.linalg.lstsq(H[: k + 2, : k + 1], wanted, rcond=None)[0]
+            left = float(np.linalg.norm(wanted - H[: k + 2, : k + 1] @ y))
+            if left <= 0.5 * enough or turns >= most or H[k + 1, k] <= 1e-15 * size:
+                break
+            V.append(w / H[k + 1, k])
+        for z, part in zip(Z, y, strict=True):
+            x += part * z
+        r = b - multiply(x)
+        before, size = size, float(np.linalg.norm(r))
+        if not size < before:
+            break  # it leads nowhere
+    return Found(x, turns, size, size <= enough)

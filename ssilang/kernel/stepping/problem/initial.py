@@ -15,7 +15,11 @@ from ssilang.kernel.interface.response import interface_energies, interface_forc
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.solvers.backends import factorise, goes_to_petsc
+from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients
 from ssilang.kernel.stepping.problem.problem import Problem
+
+MANY = 150_000  # heavy unknowns from which their accelerations are iterated
+EXACT, MOST_TURNS = 1e-14, 500  # of that iteration: masses next to each other are alike
 
 
 @dataclass(eq=False)
@@ -186,6 +190,8 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
             if goes_to_petsc(problem.solver, len(heavy)):
                 factor = factorise(sp.csr_array(block), True, problem.solver)
                 q[heavy] = factor.solve(pushed)
+            elif len(heavy) >= MANY:
+                q[heavy] = _of_heavy(block, pushed)
             else:
                 q[heavy] = spla.splu(block).solve(pushed)
         except (RuntimeError, SingularFactorError):
@@ -194,6 +200,27 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
     a: FloatArray = T @ q
     return a
+
+
+def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
+    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor.
+
+    Raises
+    ------
+    KernelError
+        If the mass is not positive.
+    """
+    diagonal, columns = mass.diagonal(), force.reshape(len(force), -1).T
+    found = [
+        conjugate_gradients(
+            lambda x: mass @ x, lambda r: r / diagonal, np.ascontiguousarray(b),
+            EXACT * float(np.linalg.norm(b)), MOST_TURNS,
+        )
+        for b in columns
+    ]  # fmt: skip
+    if not all(x.converged for x in found):
+        raise KernelError("kernel.stepping.mass-matrix-singular-no")
+    return np.column_stack([x.x for x in found]).reshape(force.shape)
 
 
 def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:
