@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ssilang.io.atomic import write_text
-from ssilang.io.matrix_market import market_lines, node_lines, system_of, unknown_lines
+from ssilang.io.atomic import replacing, write_text
+from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.stl import stl_lines
@@ -174,7 +174,10 @@ def _mat(
     system = system_of(matrix)
     path = target_path(call, ".mm")
     output = run_output(call.session)
-    texts = {path: market_lines(system, str(title))}
+    with replacing(path) as stream:
+        stream.write(market_text(system, str(title)))
+    output.wrote(path)
+    texts = {}
     if unknowns:
         texts[path.with_suffix(".inco")] = unknown_lines(system)
     if places:
