@@ -17,6 +17,7 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded
 from ssilang.io.vtk.cells import ORDERS
+from ssilang.system_reasons import system_reason
 
 # family of elements (letters before the number of nodes) and that number -> cell type
 _SOLIDS = {4: "TET4", 5: "PYR5", 6: "PRI6", 8: "CUB8", 10: "TE10", 15: "PR15", 20: "CU20"}
@@ -85,7 +86,7 @@ def _blocks(
     try:
         text = path.read_text(encoding="latin-1")
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     lines = [t for t in text.splitlines() if t.strip() and not t.startswith("**")]
     starts = [i for i, t in enumerate(lines) if t.startswith("*")]
     for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):

@@ -22,6 +22,7 @@ from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded
 from ssilang.io.vtk.cells import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
+from ssilang.system_reasons import system_reason
 
 _TYPES = {
     "vertex": "POI1", "line": "SEG2", "line3": "SEG3", "triangle": "TRI3", "triangle6": "TRI6",
@@ -94,7 +95,7 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
     try:
         path.open("rb").close()
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     try:
         with redirect_stderr(said), redirect_stdout(said):
             read = _READERS.get(kind, _by_meshio)(path, kind)

@@ -12,6 +12,7 @@ from pathlib import Path
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.foreign import read_foreign
+from ssilang.system_reasons import system_reason
 
 # commands of a .geo file that run programs, or read and write other files than itself
 _OUTWARD = re.compile(
@@ -46,7 +47,7 @@ def read_geo(path: Path, dimension: int) -> FileMesh:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     outward = _OUTWARD.search(_COMMENT.sub("", text))
     if outward is not None:
         raise InputError("io.geo-reaches-out", name=path.name, word=outward.group(0)[:40])
