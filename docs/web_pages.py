@@ -65,7 +65,7 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Others", (("OpenSees", "docs/opensees.md"), ("Cast3M", "docs/differences.md"))),
     ("Français", (
         ("Présentation", "docs/fr/README.md"), ("Le langage", "docs/fr/language.md"),
-        ("Le décollement", "docs/fr/uplift.md"),
+        ("Le décollement", "docs/fr/uplift.md"), ("Questions", "docs/fr/faq.md"),
     )),
     ("Inside", (
         ("The house", "docs/architecture.md"), ("Contributing", "CONTRIBUTING.md"),
