@@ -28,6 +28,7 @@ _KEPT = (
     "benchmarks/*.md", "benchmarks/pictures/*.png", "editors/vscode/README.md",
 )  # fmt: skip
 _LINES_OF_A_HEAD = 10
+_SIGN = re.compile(r"([\\`*_<>\[\]])")  # says something to Markdown, and is plain text in a head
 
 _CONFIG = """\
 site_name: ssilang
@@ -143,8 +144,8 @@ def gallery_markdown(found: Sequence[Deck]) -> str:
             lines += [f"[![{deck.title}]({deck.place.split('/')[0]}/pictures/"
                       f"{deck.pictures[0].name}){{ width=420 }}]({deck.place}.md)", ""]  # fmt: skip
         said = [t for t in re.split(r"\n\s*\n", deck.head) if re.match(r"[A-Z]\w+\. ", t)]
-        told = "\n".join(said).splitlines()[:_LINES_OF_A_HEAD]
-        lines += ["\n".join(told), "", f"[The deck]({deck.place}.md)", ""]
+        told = "\n\n".join(said).split("\n")[: _LINES_OF_A_HEAD + len(said) - 1]
+        lines += [_SIGN.sub(r"\\\1", "\n".join(told)), "", f"[The deck]({deck.place}.md)", ""]
     return "\n".join(lines)
 
 

@@ -262,6 +262,8 @@ MESSAGES: dict[str, Message] = {
     "mesh-file-empty": Message(
         "{name} holds no nodes that are read as {kind}",
         "{name} ne contient pas de noeuds lisibles comme {kind}",
+        "an AVS file ends in .inp too: OPTI LECT names it, LIRE 'AVS' reads it",
+        "un fichier AVS finit aussi par .inp : OPTI LECT le nomme, LIRE 'AVS' le lit",
     ),
     "mesh-file-cut": Message(
         "{name} is cut: {kind} ends with {end}",

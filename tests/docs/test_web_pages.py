@@ -51,6 +51,8 @@ def test_the_site_is_made_and_no_link_leads_nowhere(web, tmp_path, capfd):
     assert 'href="docs/uplift.html' in front
     deck = tmp_path / "site" / "cases" / "footing" / "strip_uplift.html"
     assert "pictures/strip_uplift.png" in deck.read_text(encoding="utf-8")
+    gallery = (tmp_path / "site" / "cases" / "gallery.html").read_text(encoding="utf-8")
+    assert "n**2 pi/(2 L**2) sqrt(E I/(rho A))" in gallery  # signs of formulas are no emphasis
     index = json.loads((tmp_path / "site" / "search" / "search_index.json").read_text())
     places = {d["location"].partition("#")[0] for d in index["docs"]}
     assert {"docs/reference/lire.html", "docs/reference/mailler.html"} <= places

@@ -80,8 +80,10 @@ MESSAGES: dict[str, Message] = {
         severity="warning",
     ),
     "mesh-not-of-dimension": Message(
-        "{name}: {count} {count:node lies|nodes lie} outside of dimension {dimension}",
-        "{name} : {count} {count:noeud est|noeuds sont} hors de la dimension {dimension}",
+        "{name}: {count} {count:node has|nodes have} a coordinate beyond the {dimension} of OPTI "
+        "DIME",
+        "{name} : {count} {count:noeud a|noeuds ont} une coordonnée au-delà des {dimension} d'OPTI "
+        "DIME",
         "OPTI DIME 3, or a mesh whose other coordinates are 0",
         "OPTI DIME 3, ou un maillage dont les autres coordonnées sont 0",
     ),

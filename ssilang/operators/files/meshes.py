@@ -120,7 +120,7 @@ def _by_word(call: Call, word: str, file: str) -> Table:
     return mesh_table(call, str(file), _BY_WORD[word])
 
 
-@LIRE.form(lead("word", "MOT"), lead("file", "MOT"), gives=())
+@LIRE.form(lead("word", "MOT"), lead("file", "MOT"), gives="TABLE")
 def _no_format(call: Call, word: str, file: str) -> NoReturn:
     raise call.error("operators.files.no-such-format", word, **_formats(str(word)))
 
