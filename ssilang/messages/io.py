@@ -46,6 +46,14 @@ MESSAGES: dict[str, Message] = {
         "there is nothing to draw: the mesh is empty",
         "il n'y a rien à tracer : le maillage est vide",
     ),
+    "no-drawing-in-space": Message(
+        "the picture is left out: nothing here draws in space without a screen ({reason})",
+        "l'image est omise : rien ici ne dessine en 3D sans écran ({reason})",
+        "install Mesa, on Debian: apt-get install libegl1 libgl1-mesa-dri; or look at the results "
+        "in ParaView (SORT 'VTK')",
+        "installez Mesa, sous Debian : apt-get install libegl1 libgl1-mesa-dri ; ou regardez les "
+        "résultats dans ParaView (SORT 'VTK')",
+    ),
     "marq-no-marker": Message(
         "MARQ has no marker",
         "MARQ n'a pas de marqueur",
