@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ssilang.language.say.diagnostics import render, sentence
 from ssilang.language.say.errors import SsiError
-
-if TYPE_CHECKING:
-    from ssilang.api.result import Result
 
 
 @dataclass(frozen=True)
@@ -82,7 +79,7 @@ class Error(Exception):
     [1. 2.]
     """
 
-    def __init__(self, notices: Sequence[Notice], result: Result | None = None) -> None:
+    def __init__(self, notices: Sequence[Notice], result: Any = None) -> None:
         super().__init__("\n\n".join(n.message for n in notices))
         self.notices, self.result = tuple(notices), result
 
