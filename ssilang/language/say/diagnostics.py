@@ -92,7 +92,11 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
     hint = message.hint(error.code, data, language, script=True).strip()
-    before = (_held_hint(data, language), _line_hint(data, language))
+    before = (
+        _held_hint(data, language),
+        _quoted_hint(data, language),
+        _line_hint(data, language),
+    )
     return text, "\n".join(h for h in (*before, hint) if h)
 
 
@@ -113,6 +117,12 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
         return ""
     word, holder = data["held_word"]
     return message.sentence("held-word", {"word": word, "holder": holder}, language)
+
+
+def _quoted_hint(data: dict[str, Any], language: str) -> str:
+    """Says that a word in quotes is run where it names an operator, and how to write the word."""
+    word = data.get("quoted_operator")
+    return message.sentence("quoted-operator", {"word": word}, language) if word else ""
 
 
 def _line_hint(data: dict[str, Any], language: str) -> str:
@@ -283,6 +293,8 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
+    if word in (names := frozenset(names)):  # of a word in quotes: the name alone is no error
+        return Sentence("word-and-name", word=word)
     foreign = hints.foreign_hint(word)
     if foreign:
         return foreign

@@ -7,7 +7,6 @@ from typing import Any, NoReturn
 
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.messages.message import Sentence
@@ -33,6 +32,7 @@ def mess(call: Call) -> None:
     call.session.print(read_text(call, apart=True))
 
 
+_BLANK_LINES = 1000  # that SAUT prints at most
 _OF_LIBRARY = "stdlib."
 _STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
 
@@ -136,10 +136,12 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> NoReturn:
         examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
     ),
 )
-def saut(session: Session, count: int, what: str | None) -> None:
+def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
-    for _ in range(1 if what == "PAGE" else max(count, 0)):
-        session.print("")
+    if not 0 <= count <= _BLANK_LINES:
+        raise call.error("operators.texts.blank-lines", count, most=_BLANK_LINES, found=count)
+    for _ in range(1 if what == "PAGE" else count):
+        call.session.print("")
 
 
 @operator(
