@@ -14,6 +14,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.messages.message import sentence, teller
 
 LANGUAGE = "SSILANG_LANGUAGE"
+"""Of the kernel's environment: the language of its messages."""
 NAME = "gibiane"
 
 

@@ -11,7 +11,7 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO, cast
 
 from ipykernel.kernelbase import Kernel
 
@@ -35,9 +35,6 @@ from ssilang.language.text.structure import parse
 from ssilang.language.values import type_of
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.loader import load_operators
-
-LANGUAGE = "SSILANG_LANGUAGE"
-"""Of the environment: 'en' or 'fr', the language of messages."""
 
 Reply = dict[str, Any]
 
@@ -67,11 +64,11 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         self._progress_in = -1  # the cell that has a line of progress
         options = RunOptions(
             output_directory=Path("results") / "notebook",
-            language=os.environ.get(LANGUAGE, "en"),
+            language=os.environ.get("SSILANG_LANGUAGE", "en"),
         )
-        self.gibiane = make_session(Source("session", ""), options, self._text)
+        self.gibiane = make_session(Source("session", ""), options, cast(TextIO, self._text))
         self.gibiane.on_warning = lambda w: self._stream("stderr", self._told(w) + "\n")
-        follow_loops(self.gibiane, self._progress)  # type: ignore[arg-type]
+        follow_loops(self.gibiane, cast(TextIO, self._progress))
         self._pictures = 0
 
     # ---- cells ---------------------------------------------------------------------------------
@@ -103,7 +100,7 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         """Run a text in the session; what goes wrong. The session goes on."""
         session = self.gibiane
         session.was_interrupted()  # what came before this cell is over
-        before, sys.stderr = sys.stderr, self._progress  # type: ignore[assignment]
+        before, sys.stderr = sys.stderr, cast(TextIO, self._progress)
         try:
             with listening(own=False):
                 for node in parse(source).body:
