@@ -262,10 +262,11 @@ MESSAGES: dict[str, Message] = {
         "{name} n'est pas un fichier UNV lisible : {error}",
     ),
     "no-readable-mesh-file": Message(
-        "{name} cannot be read as {kind}: {error}",
-        "{name} ne se lit pas comme {kind} : {error}",
-        "the file is damaged, or of another format or version",
-        "le fichier est abîmé, ou d'un autre format ou d'une autre version",
+        "{name} cannot be read as {kind}{error:?: {error}}",
+        "{name} ne se lit pas comme {kind}{error:? : {error}}",
+        "the file is damaged, of another format or version, or has cells that are not read",
+        "le fichier est abîmé, d'un autre format ou d'une autre version, ou a des éléments qui ne "
+        "se lisent pas",
     ),
     "mesh-file-empty": Message(
         "{name} holds no nodes that are read as {kind}",
