@@ -276,4 +276,21 @@ MESSAGES: dict[str, Message] = {
         "compiling the time loop, once on this machine (5 to 40 s)",
         "compilation de la boucle en temps, une fois sur cette machine (5 à 40 s)",
     ),
+    "nothing-moves": Message(
+        "nothing sets anything in motion: no load, no initial displacement, no initial velocity",
+        "rien ne met quoi que ce soit en mouvement : ni chargement, ni déplacement ou vitesse "
+        "initiaux",
+        "TAB1 . 'CHAR', 'DEPL' or 'VITE'",
+        "TAB1 . 'CHAR', 'DEPL' ou 'VITE'",
+        severity="warning",
+    ),
+    "load-ends": Message(
+        "the curve of the loads {name} ends at {end:.6g} with {value:.4g}, which is kept until "
+        "{last:.6g}",
+        "l'évolution du chargement {name} finit à {end:.6g} par {value:.4g}, gardé jusqu'à "
+        "{last:.6g}",
+        "give the curve to the end of the calculation; are its times in other units?",
+        "donnez l'évolution jusqu'à la fin du calcul ; ses temps sont-ils dans une autre unité ?",
+        severity="warning",
+    ),
 }

@@ -27,8 +27,10 @@ from ssilang.operators.dynamics.histories import TableObserver
 from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
 from ssilang.operators.dynamics.reports import (
     report,
+    warn_at_rest,
     warn_motion_elsewhere,
     warn_of_connections,
+    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -76,6 +78,8 @@ def zdyn(call: Call, table: Table) -> Table:
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
     warn_motion_elsewhere(entries, problem, inputs)
+    warn_at_rest(entries, inputs)
+    warn_of_loads_that_end(entries, inputs.load, times)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
