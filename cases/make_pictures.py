@@ -25,6 +25,7 @@ PICTURES = {
     "club_cast3m_2014/rocking_two_pairs": {1: "rocking_two_pairs"},
     "footing/strip_uplift": {1: "strip_uplift"},
     "footing/disc_uplift": {1: "disc_uplift"},
+    "footing/embedded_disc": {2: "disc_impedance"},
     "footing/onset_of_uplift": {1: "onset_of_uplift"},
     "footing/macro_element": {2: "macro_rocking"},
     "footing/winkler_beam": {1: "winkler_beam"},
