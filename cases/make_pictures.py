@@ -43,6 +43,8 @@ PICTURES = {
     "basics/beam_frequencies": {1: "beam_frequencies"},
     "basics/bar_frequencies": {1: "bar_frequencies"},
     "impact/bar_bounce": {1: "bar_bounce"},
+    "published/friction_slider": {1: "friction_slider"},
+    "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/tower_quake": {
         1: "quake_surface",
