@@ -59,6 +59,10 @@ MESSAGES: dict[str, Message] = {
         "write it as a FLOTTANT, with a dot or an exponent",
         "écrivez-le comme un FLOTTANT, avec un point ou un exposant",
     ),
+    "long-real": Message(
+        "{text} is beyond 1.8E308, the largest FLOTTANT",
+        "{text} dépasse 1.8E308, le plus grand FLOTTANT",
+    ),
     # ---- syntax
     "syntax": Message("unexpected {found!r}", "{found!r} inattendu"),
     "unclosed-string": Message(

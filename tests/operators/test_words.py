@@ -176,3 +176,10 @@ def test_tables_in_tables_are_printed_as_deep_as_said():
     assert ["DEEP" in text for text in found] == [False, False, True, True]
     assert found[1].count("Table of") == 2
     assert found[2] == found[3]  # a table that holds itself ends there
+
+
+@pytest.mark.parametrize("count", [-1, 10**9])
+def test_blank_lines_have_a_limit(count, tmp_path):
+    result = run_text(f"N = {count} ; SAUT N 'LIGN' ;", tmp_path)
+    assert [e.code for e in result.errors] == ["operators.texts.blank-lines"]
+    assert result.errors[0].span.text == "N"

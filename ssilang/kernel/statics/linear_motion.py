@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularMatrixError
+from ssilang.kernel.base.graph import chains, entries, parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.statics.doubled import lying_on
@@ -40,21 +41,20 @@ def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> Flo
     return motions
 
 
-def bodies_of(numbering: Numbering, *couplings: sp.csr_array) -> IntArray:
-    """Body (0, 1 ...) of each unknown (n,): those of a node, and those that a row couples.
+def tied(numbering: Numbering, relations: sp.csr_array, *matrices: sp.csr_array) -> IntArray:
+    """Body (0, 1 ...) of each unknown (n,): those of a node, and those that are coupled.
 
-    `couplings` are a stiffness (n, n) or relation rows (m, n).
+    Parameters
+    ----------
+    relations : csr array (m, n)
+        Each row couples.
+    matrices : csr arrays (n, n)
+        Stiffness, mass.
     """
-    from scipy.sparse.csgraph import connected_components
-
-    n = numbering.size
-    _, node = np.unique(numbering.nodes, return_inverse=True)
-    same = sp.csr_array((np.ones(n), (node, np.arange(n))), shape=(node.max(initial=-1) + 1, n))
-    graph = abs(same).T @ abs(same)
-    for rows in couplings:
-        graph = graph + (abs(rows).T @ abs(rows) if rows.shape[0] != n else abs(rows))
-    labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
-    return labels
+    order = np.argsort(numbering.nodes, kind="stable")
+    same = numbering.nodes[order][1:] == numbering.nodes[order][:-1]
+    of_nodes = order[:-1][same], order[1:][same]
+    return parts_of(numbering.size, of_nodes, chains(relations), *map(entries, matrices))
 
 
 def singular(

@@ -30,6 +30,8 @@ MADE_LISTS = {
 }  # fmt: skip
 """Types whose first four letters are an operator's, with the operators that make them."""
 _SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
+# how numpy begins to refuse an array that no memory holds
+_BEYOND_MEMORY = ("array is too big", "Maximum allowed")
 _PART = 255  # operands of a long chain `a + b + c ...` that are run together, an odd number
 
 
@@ -156,6 +158,8 @@ class PhraseRunner(OperandReader):
         except Exception as problem:
             if self.session.was_interrupted():  # it fails over what it swallowed
                 raise KeyboardInterrupt from problem
+            if isinstance(problem, ValueError) and str(problem).startswith(_BEYOND_MEMORY):
+                raise SsiError("memory", span, operator=name) from None
             if not isinstance(problem, Said):
                 raise SsiError(
                     "internal",

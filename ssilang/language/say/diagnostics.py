@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
-from ssilang.language.near import LIKE, VERY_LIKE, nearest
+from ssilang.language.near import LIKE, SHORT_LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
@@ -18,7 +18,6 @@ from ssilang.messages import message
 from ssilang.messages.message import Sentence
 from ssilang.resources import resource
 
-_SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
@@ -272,7 +271,7 @@ def _keyword_hint(data: dict[str, object]) -> hints.Hint:
             continue
         if dual:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=dual)
-        near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
+        near = nearest(word, keywords) or nearest(word, others, SHORT_LIKE)
         if near:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=near)
     return ""

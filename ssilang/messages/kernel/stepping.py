@@ -68,6 +68,12 @@ MESSAGES: dict[str, Message] = {
         "the times of a calculation must be at least two and strictly increase",
         "les instants d'un calcul sont deux au moins et croissent strictement",
     ),
+    "step-too-short": Message(
+        "a time step of {step} s is too short to calculate with",
+        "un pas de temps de {step} s est trop petit pour un calcul",
+        "look at the list of times",
+        "regardez la liste des instants",
+    ),
     "initial-field-values-not": Message(
         "an initial field has values that are not finite numbers",
         "un champ initial a des valeurs qui ne sont pas des nombres finis",
@@ -260,6 +266,10 @@ MESSAGES: dict[str, Message] = {
     "loop-dissection": Message(
         "condensed, nested dissection: linear but for {q} joint unknowns",
         "condensé, dissection emboîtée : linéaire hormis {q} inconnues de joint",
+    ),
+    "loop-multigrid": Message(
+        "Newton's method, multigrid at each turn: linear but for {q} joint unknowns",
+        "méthode de Newton, multigrille à chaque tour : linéaire hormis {q} inconnues de joint",
     ),
     "loop-condensed": Message(
         "condensed, sparse: linear but for {q} joint unknowns",

@@ -35,6 +35,10 @@ MESSAGES: dict[str, Message] = {
         "types are {known_types:words}",
         "les types sont {known_types:words}",
     ),
+    "blank-lines": Message(
+        "SAUT prints 0 to {most} blank lines, not {found}",
+        "SAUT imprime de 0 à {most} lignes vides, pas {found}",
+    ),
     # ---- numbers of ERRE
     "out-of-tolerance": Message(
         "the deck found a result out of tolerance{said:?: {said}}",

@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.values import ListReel
 
 
@@ -32,6 +33,8 @@ def _numbers_in(value: object) -> list[Any]:
     if isinstance(value, CellField):
         parts = (v for b in value.blocks for v in b.components.values())
         return [v for v in parts if v.dtype.kind == "f"]
+    if isinstance(value, Matrix):
+        return [b.values for b in value.blocks] + [r.coefficients for r in value.relations]
     if isinstance(value, Curve):
         return [a for p in value.parts for a in (p.abscissas, p.ordinates)]
     if isinstance(value, Load):

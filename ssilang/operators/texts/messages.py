@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.messages.message import Sentence
+from ssilang.messages.message import Sentence, find
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
 
@@ -33,13 +32,26 @@ def mess(call: Call) -> None:
     call.session.print(read_text(call, apart=True))
 
 
+_BLANK_LINES = 1000  # that SAUT prints at most
 _OF_LIBRARY = "stdlib."
 _STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
 
 
-def _of_library(call: Call, code: str, values: Sequence[Any]) -> SsiError:
-    """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
-    return SsiError(code, call.span, **filling(values), number=_STOPPED)
+def _tell(call: Call, code: str, values: Sequence[Any]) -> None:
+    """What a procedure of the library refuses or warns of: a code, then what fills its sentence.
+
+    The sentence says which of the two it is; a warning is shown at the call in the script.
+    """
+    if find(code).severity == "error":
+        raise SsiError(code, call.span, **filling(values), number=_STOPPED)
+    warning = SsiError(code, call.span, **filling(values))
+    warning.warns = True
+    frame = call.session.frame
+    while frame.caller is not None:
+        if frame.pending is not None:
+            warning.calls.append((frame.procedure, frame.pending.span))
+        frame = frame.caller
+    call.session.report(warning)
 
 
 _NUMBERED = {
@@ -118,9 +130,10 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         fr="ce qui complète une phrase de la bibliothèque",
     ),
 )
-def _worded(call: Call, text: str, values: tuple[Any, ...]) -> NoReturn:
+def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     if text.startswith(_OF_LIBRARY):
-        raise _of_library(call, str(text), values)
+        _tell(call, str(text), values)
+        return
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 
@@ -136,10 +149,12 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> NoReturn:
         examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
     ),
 )
-def saut(session: Session, count: int, what: str | None) -> None:
+def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
-    for _ in range(1 if what == "PAGE" else max(count, 0)):
-        session.print("")
+    if not 0 <= count <= _BLANK_LINES:
+        raise call.error("operators.texts.blank-lines", count, most=_BLANK_LINES, found=count)
+    for _ in range(1 if what == "PAGE" else count):
+        call.session.print("")
 
 
 @operator(

@@ -189,6 +189,9 @@ def _checked_times(times: FloatArray) -> FloatArray:
     times = np.asarray(times, dtype=float)
     if len(times) < 2 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
         raise KernelError("kernel.stepping.times-calculation-must-least")
+    shortest = float(np.diff(times).min())
+    if shortest**2 < np.finfo(float).tiny:  # accelerations are divided by its square
+        raise KernelError("kernel.stepping.step-too-short", step=shortest)
     return times
 
 
