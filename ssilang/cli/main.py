@@ -158,6 +158,9 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
+    from ssilang.kernel.base.compiled import ALLOWED
+
+    ALLOWED.add("beside")
     run_options = _run_options(options)
     run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)

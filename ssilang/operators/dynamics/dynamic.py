@@ -72,6 +72,7 @@ MOST_STEPS = 1e9
 )
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
+    from ssilang.kernel.base.compiled.beside import tell_ahead
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_track import NodeTrack
@@ -101,6 +102,8 @@ def zdyn(call: Call, table: Table) -> Table:
     observers = [o for o in given if o is not None]
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
+        if not problem.small:
+            tell_ahead("_factorise", "run_interleaved")
     try:
         history = _integrated(entries, problem, observers, line, bodies)
     finally:
