@@ -156,7 +156,8 @@ def _run(options: argparse.Namespace) -> int:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
     run_options = _run_options(options)
-    run_options.summary = options.file != "-" or options.out is not None
+    run_options.report = options.report
+    run_options.summary = options.file != "-" or options.out is not None or options.report
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
         from ssilang.cli.repl import interact
@@ -209,6 +210,20 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given
+
+
+def _report(options: argparse.Namespace) -> int:
+    from ssilang.cli.run import write_report
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
+
+    try:
+        sys.stdout.write(write_report(options.folder, options.lang) + "\n")
+    except (InputError, OutputError) as problem:
+        sys.stderr.write(render(SsiError.of(problem, None), options.lang) + "\n")
+        return USAGE if isinstance(problem, InputError) else FAILED
+    return OK
 
 
 def _sweep(options: argparse.Namespace) -> int:
@@ -319,6 +334,7 @@ def _version(options: argparse.Namespace) -> int:
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
+    "report": _report,
     "new": _new,
     "check": _check,
     "format": _format,
