@@ -157,7 +157,7 @@ def _run(options: argparse.Namespace) -> int:
         return USAGE
     run_options = _run_options(options)
     run_options.report = options.report
-    run_options.summary = options.file != "-" or options.out is not None or options.report
+    run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
         from ssilang.cli.repl import interact

@@ -68,7 +68,7 @@ class RunOptions:
     quiet: bool = False
     verbose: bool = False  # say by which method each calculation is done
     summary: bool = False  # write summary.json into the output folder
-    report: bool = False  # and report.html
+    report: bool = False  # write report.html too, and the summary
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     resume: bool = False  # go on from what an earlier run of the deck kept
@@ -150,8 +150,9 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     follow_loops(session, err)
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own
+    summary = options.summary or options.report
     try:
-        if options.summary:  # it writes there in any case
+        if summary:  # it writes there in any case
             hold_folder(session)
         keep_for(session, source, options)
         if options.report:
@@ -182,7 +183,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         _tell(errors, coloured(message, err), options.debug, err)
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
     result = RunResult(code, session, errors=errors, message=message)
-    if options.summary and not refused:  # what stands there is the other run's
+    if summary and not refused:  # what stands there is the other run's
         _summarise(result, source, err, options.quiet)
         if options.report:
             _report(result, err, options.quiet)

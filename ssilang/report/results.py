@@ -17,6 +17,7 @@ import numpy as np
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.recording import CONTENTS, FOLDER
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.text.source import Source
 
 SUMMARY = "summary.json"
 SERIES = (".vtkhdf", ".pvd")
@@ -105,8 +106,8 @@ def read_results(folder: Path) -> Results:
     text, changed = contents.get("text", ""), False
     if not contents:
         text, changed = _text(folder, summary)
-    pictures = [p for p in found if p.suffix == ".png" and p.name in own]
     drawn = {name for d in contents.get("drawings", ()) for name in d["files"]}
+    pictures = [p for p in found if p.suffix == ".png" and p.name in own - drawn]
     return Results(
         folder, summary, deck, text, changed, bool(contents),
         [_calculation(folder, c, unread) for c in contents.get("calculations", ())],
@@ -116,7 +117,7 @@ def read_results(folder: Path) -> Results:
             for s in contents.get("shapes", ())
         ],
         contents.get("left_out", {}),
-        series, tables, [p for p in pictures if p.name not in drawn], unread,
+        series, tables, pictures, unread,
     )  # fmt: skip
 
 
@@ -128,9 +129,34 @@ def _summary(folder: Path) -> dict[str, Any]:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as problem:
         raise InputError("report.damaged", path=path, problem=problem) from None
-    if not isinstance(found, dict) or "version" not in found:
+    if not isinstance(found, dict) or not _is_sound(found):
         raise InputError("report.not-a-summary", path=path)
     return found
+
+
+_LISTS = {
+    "files": ("path", "bytes"), "figures": ("name", "value", "expected", "tolerance", "ok"),
+    "warnings": ("line", "text"), "errors": ("line", "text"),
+}  # fmt: skip
+"""What each entry of a summary's lists has."""
+
+
+def _is_sound(summary: dict[str, Any]) -> bool:
+    """Whether a summary has what a report reads."""
+    lists = [(summary.get(name), keys) for name, keys in _LISTS.items()]
+    if not all(isinstance(rows, list) and _have(rows, keys) for rows, keys in lists):
+        return False
+    statistics, units = summary.get("statistics"), summary.get("units")
+    if not isinstance(statistics, dict) or not isinstance(units, dict | None):
+        return False
+    runs = statistics.get("calculations", [])
+    plain = all(isinstance(summary.get(n), str) for n in ("version", "deck"))
+    plain = plain and isinstance(summary.get("seconds"), int | float)
+    return plain and isinstance(runs, list) and _have(runs, ()) and "system" in (units or "system")
+
+
+def _have(rows: list[Any], keys: tuple[str, ...]) -> bool:
+    return all(isinstance(row, dict) and row.keys() >= set(keys) for row in rows)
 
 
 def _contents(folder: Path, own: set[str], ended: bool, unread: list[str]) -> dict[str, Any]:
@@ -141,16 +167,29 @@ def _contents(folder: Path, own: set[str], ended: bool, unread: list[str]) -> di
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
+        found = None
+    if not isinstance(found, dict) or not all(
+        isinstance(found.get(key), list) and _have(found[key], keys)
+        for key, keys in _RECORDED.items()
+    ):
         unread.append(name)
         return {}
-    return found if isinstance(found, dict) else {}
+    return found
+
+
+_RECORDED = {
+    "calculations": ("procedure", "table", "scene", "whole", "footings", "largest"),
+    "drawings": ("title", "x", "y", "log", "files", "curves"),
+    "shapes": ("name", "kind", "scene", "frequencies"),
+}
+"""What each entry of a record's lists has."""
 
 
 def _text(folder: Path, summary: dict[str, Any]) -> tuple[str, bool]:
     """The deck as it is now, and whether it is younger than the run."""
     path = Path(str(summary.get("deck", "")))
     try:
-        text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+        text = Source.decode("", path.read_bytes()).text if path.is_file() else ""
         changed = bool(text) and path.stat().st_mtime > (folder / SUMMARY).stat().st_mtime
     except OSError:
         return "", False

@@ -211,6 +211,15 @@ def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_p
     assert len(share["lines"][0]["x"]) == 200  # the last line is cut
 
 
+def test_a_damaged_record_is_named(rocking: Path, tmp_path: Path) -> None:
+    (tmp_path / "report").mkdir()
+    (tmp_path / "summary.json").write_bytes((rocking / "summary.json").read_bytes())
+    for text in ("{", "[]", '{"calculations": [3]}', '{"calculations": []}'):
+        (tmp_path / "report" / "contents.json").write_text(text)
+        write_report(tmp_path, "en")
+        assert "Damaged, not shown: report/contents.json" in Sections(page(tmp_path)).text["header"]
+
+
 @pytest.mark.parametrize(
     ("files", "said"),
     [
@@ -219,6 +228,7 @@ def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_p
         ({"a.txt": "no"}, "holds no results of a run"),
         ({"summary.json": "{"}, "cannot be read"),
         ({"summary.json": "[1]"}, "is not the summary of a run"),
+        ({"summary.json": '{"version": "0.1", "files": 3}'}, "is not the summary of a run"),
     ],
 )
 def test_folders_without_a_run_are_refused(

@@ -220,7 +220,8 @@ def _footing(parts: list[tuple[JointCells, int, IntArray]], numbering: Numbering
         nodes = j.zone.cells.nodes
         x = nodes.coordinates
         sides = [nodes.resolve(j.upper[cells]), nodes.resolve(j.lower[cells])]
-        middle = (x[sides[0]] + x[sides[1]]) / 2.0
+        # two points may stand apart: the structure's is where its force acts
+        middle = (x[sides[0]] + x[sides[1]]) / 2.0 if _is_face(j) else x[sides[turned]]
         points.append((first + cells[:, None] * g + np.arange(g)).ravel())
         weights.append(j.weights[cells].ravel())
         # from the other side jumps and tractions are the same in axes that all point away

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -56,8 +57,8 @@ def _is_displacement(value: object) -> bool:
 
 
 def _modes(value: object) -> Iterator[tuple[float, NodeField]]:
-    """Frequency and shape of the modes of a table BASE_MODALE or of its MODES."""
-    if not isinstance(value, Table):
+    """Frequency and shape of the modes of a table BASE_MODALE or BASE_DE_MODES."""
+    if not isinstance(value, Table) or value.subtype not in ("BASE_MODALE", "BASE_DE_MODES"):
         return
     inner = value.get("MODES") if value.has("MODES") else value
     for index, entry in inner.items() if isinstance(inner, Table) else ():
@@ -65,7 +66,9 @@ def _modes(value: object) -> Iterator[tuple[float, NodeField]]:
             continue
         shape = entry.get("DEFORMEE_MODALE") if entry.has("DEFORMEE_MODALE") else None
         frequency = entry.get("FREQUENCE") if entry.has("FREQUENCE") else None
-        if isinstance(shape, NodeField) and isinstance(frequency, int | float):
+        if not isinstance(shape, NodeField) or not isinstance(frequency, int | float):
+            continue
+        if math.isfinite(frequency):
             yield float(frequency), shape
 
 
