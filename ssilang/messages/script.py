@@ -279,6 +279,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "bring the signal to a constant step by IPOL",
         "portez le signal à un pas constant par IPOL",
     ),
+    "kernel.solvers.unknowns-without-stiffness": (
+        "are there bodies with YOUN = 0? leave them out of the model (MODE)",
+        "y a-t-il des corps de YOUN = 0 ? laissez-les hors du modèle (MODE)",
+    ),
     "kernel.solvers.no-set-active-unilateral": (
         "turn the field of 'DUAL' round, or take MINI for MAXI",
         "retournez le champ de 'DUAL', ou prenez MINI au lieu de MAXI",
@@ -293,6 +297,12 @@ HINTS: dict[str, tuple[str, str]] = {
         "sans ELIM 0, ni STAB, ni relations avec une duale ; un solveur direct prend les autres",
     ),
     "kernel.solvers.multigrid-did-not-converge": (
+        "hold every body (BLOQ); OPTI 'SOLVEUR' 'AUTO' factorises where memory holds the factor, "
+        "and says which motion is free; OPTI 'SOLVEUR' 'MULTIGRILLE' 1.E-8 asks for less",
+        "tenez chaque corps (BLOQ) ; OPTI 'SOLVEUR' 'AUTO' factorise si la mémoire suffit, et dit "
+        "quel mouvement est libre ; OPTI 'SOLVEUR' 'MULTIGRILLE' 1.E-8 demande moins",
+    ),
+    "kernel.solvers.petsc-did-not-converge": (
         "hold every body (BLOQ); with more memory a direct solver says which motion is free",
         "tenez chaque corps (BLOQ) ; avec plus de mémoire un solveur direct dit quel "
         "mouvement est libre",

@@ -23,8 +23,13 @@ from ssilang.operators.dynamics.checkpoints import (
     kept_calculation,
     steps_of_reprise,
 )
-from ssilang.operators.dynamics.histories import TableObserver
-from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
+from ssilang.operators.dynamics.histories import TableObserver, forces_table
+from ssilang.operators.dynamics.motion_files import (
+    csv_observer,
+    force_track,
+    nodes_asked,
+    vtk_observer,
+)
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
@@ -84,13 +89,14 @@ def zdyn(call: Call, table: Table) -> Table:
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
+    forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     record = calculation_record(entries, problem, inputs)
     asked_for = entries.flag("EXTREMES") or record is not None
     extremes = Extremes(problem=problem, asked=asked_for)
     uplift = UpliftWatch.of(problem)
     lists = None if csv is None else csv.track
-    given = (results.observer, vtk, lists, extremes, uplift)
+    given = (results.observer, vtk, lists, forces, extremes, uplift)
     observers = [o for o in given if o is not None]
     observers += [] if record is None else record.observers
     if not is_compiled("stepping"):
@@ -105,6 +111,8 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
+    if forces is not None:
+        entries.table.set(Mot("RESULTATS_RELATIONS"), forces_table(forces))
     if extremes.known:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
