@@ -79,6 +79,12 @@ MESSAGES: dict[str, Message] = {
         "run without --resume",
         "calculer sans --resume",
     ),
+    "checkpoint-of-report": Message(
+        "the run that left '{folder}' was made {reported:?with|without} --report",
+        "le calcul qui a laissé '{folder}' a été fait {reported:?avec|sans} --report",
+        "go on in the same way: --resume {reported:?--report|without --report}",
+        "continuer de la même façon : --resume {reported:?--report|sans --report}",
+    ),
     "charmeca-gives-a-table": Message(
         "the procedure CHARMECA must give one TABLE",
         "la procédure CHARMECA doit rendre une TABLE",
