@@ -13,7 +13,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
 
-SELDOM = frozenset({"numpy.f2py", "numpy.testing", "yaml"})
+SELDOM = frozenset({"numpy.f2py", "numpy.ma", "numpy.testing", "yaml"})
 
 
 class LateFinder:

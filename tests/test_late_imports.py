@@ -31,6 +31,7 @@ def test_sparse_matrices_and_compiled_code_load_none_of_them():
     [
         ("import ssilang, numpy as np; print(np.testing.suppress_warnings.__name__)",
          ["suppress_warnings"]),
+        ("import ssilang, numpy as np; print(np.ma.masked_less([1, 2], 2).count())", ["1"]),
         ("import ssilang; from numpy.testing import assert_equal; assert_equal(1, 1)", []),
         ("import ssilang, numpy.f2py; print(callable(numpy.f2py.run_main))", ["True"]),
         ("import ssilang, numpy.f2py.auxfuncs as f; print(f.isscalar.__name__)", ["isscalar"]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import io
 import os
 import sys
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
 
 OK, FAILED, USAGE = 0, 1, 2
+SELDOM = 10_000  # new objects between two searches for garbage: a start makes a hundred thousand
 _LEADING = (*COMMANDS, "-h", "--help", "--version")
 
 
@@ -27,6 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0 fine, 1 the script failed or was interrupted, 2 wrong usage, 141 nobody reads the output.
     """
+    gc.set_threshold(SELDOM)
     words = _command_first(list(sys.argv[1:] if arguments is None else arguments))
     named = bool(words) and words[0] in _LEADING
     reader = parser(words)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import sys
+import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,12 +18,14 @@ from typing import TYPE_CHECKING, Any, TextIO
 from ssilang.cli.colour import coloured
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
+from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
 from ssilang.language.say.visible import visible
+from ssilang.language.text import tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
@@ -31,6 +35,8 @@ from ssilang.messages.message import sentence
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Deck
+
+_NAMED = 20  # names of a script that a message lists
 
 
 @dataclass
@@ -48,11 +54,14 @@ class RunResult:
         The rendered errors.
     session : Session
         With all objects of the script, in `session.root`.
+    seconds : float
+        What it took, without what it left to others.
     """
 
     exit_code: int
     session: Session
     output: str = ""
+    seconds: float = 0.0
     errors: list[SsiError] = field(default_factory=list)
     message: str = ""
 
@@ -128,7 +137,8 @@ def execute(session: Session, source: Source) -> None:
         session.assignments = first_assignments(script.body)
     except RecursionError:
         raise SsiError("nesting", None) from None
-    for name in session.given.keys() - session.assignments.keys():
+    for name in sorted(session.given.keys() - session.assignments.keys()):
+        refuse_unknown(name, source, session.assignments)
         session.root.assign(name, session.given.pop(name))
     try:
         session.evaluator.run_top(script.body)
@@ -138,6 +148,51 @@ def execute(session: Session, source: Source) -> None:
         if error.span is None:
             error.span = session.evaluator.current_span
         raise
+
+
+def refuse_unknown(name: str, source: Source, assigned: Iterable[str]) -> None:
+    """Refuse a value given to a name that neither the script nor a procedure beside it has.
+
+    Raises
+    ------
+    SsiError
+        'cli.no-such-parameter'.
+    """
+    word = re.compile(rf"(?<![\w@!&]){re.escape(name)}(?!\w)", re.IGNORECASE)
+    if word.search(source.code):
+        return
+    if source.path is not None:
+        for path in source.path.parent.glob("@*"):
+            if path.is_file() and word.search(read_source(path).code):
+                return
+    known = list(assigned)
+    near = nearest(name, known, SHORT_LIKE)
+    raise SsiError("cli.no-such-parameter", None, name=name, near=near, known=known[:_NAMED])
+
+
+def phrase_values(session: Session, source: Source) -> list[Any]:
+    """Run statements in a session; the values of the last one, if it assigns nothing.
+
+    Raises
+    ------
+    SsiError, SeveralErrors
+        What is wrong in them.
+    """
+    run = session.evaluator
+    body = run.guarded(lambda: parse(source), None, source.name).body
+    last = body[-1] if body else None
+    shows = isinstance(last, tree.Statement) and not last.assigns
+    try:
+        run.run_top(body[:-1] if shows else body)
+        if not isinstance(last, tree.Statement) or not shows:
+            return []
+        found: list[Any] = run.guarded(lambda: run.values_of(last), last.span, "")
+    except StopRun:
+        return []
+    except SsiError as error:
+        error.span = error.span or run.current_span
+        raise
+    return found
 
 
 def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
@@ -177,7 +232,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     if not left:
         _tell(errors, coloured(message, err), options.debug, err)
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
-    result = RunResult(code, session, errors=errors, message=message)
+    seconds = time.perf_counter() - session.started - session.away()
+    result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
     if options.summary and not refused:  # what stands there is the other run's
         _summarise(result, source, err, options.quiet)
     _release_folder(session)

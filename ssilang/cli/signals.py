@@ -29,16 +29,17 @@ def take() -> bool:
 
 
 @contextmanager
-def listening() -> Iterator[None]:
+def listening(own: bool = True) -> Iterator[None]:
     """Turn SIGINT, SIGTERM and SIGHUP into KeyboardInterrupt: a run told to end writes its files.
 
-    A hang-up that was ignored before (nohup) is ignored still.
+    A hang-up that was ignored before (nohup) is ignored still. In a process that is not our `own`,
+    SIGINT alone is listened to.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    numbers = [signal.SIGINT, signal.SIGTERM]
-    hangup = getattr(signal, "SIGHUP", None)  # not on every system
+    numbers = [signal.SIGINT, signal.SIGTERM] if own else [signal.SIGINT]
+    hangup = getattr(signal, "SIGHUP", None) if own else None  # not on every system
     if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:
         numbers.append(hangup)
     before = [signal.signal(n, interrupt) for n in numbers]

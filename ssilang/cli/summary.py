@@ -15,7 +15,7 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -49,7 +49,7 @@ def write_summary(
         "files": files,
         "warnings": [_message(w, session.language) for w in session.warnings],
         "errors": [_message(e, session.language) for e in errors],
-        "pictures": [f["path"] for f in files if Path(f["path"]).suffix in _PICTURES],
+        "pictures": [p.as_posix() for p in pictures_among(Path(f["path"]) for f in files)],
         "figures": [_figure(c) for c in session.checks],
         "units": None if units is None else {"system": units.name, **units.base()},
         "statistics": session.statistics,
@@ -81,16 +81,25 @@ def _message(error: SsiError, language: str) -> dict[str, Any]:
     return {"code": error.code, "line": line, "text": sentence(error, language, ())[0]}
 
 
+def pictures_among(files: Iterable[Path]) -> list[Path]:
+    """Those of a run's files that are pictures."""
+    return [p for p in files if p.suffix in _PICTURES]
+
+
+def is_within(check: Check) -> bool | None:
+    """Whether a figure is within its tolerance, None where nothing was expected."""
+    if check.expected is None or check.tolerance is None:
+        return None
+    return abs(check.value - check.expected) <= check.tolerance
+
+
 def _figure(check: Check) -> dict[str, Any]:
-    ok = None
-    if check.expected is not None and check.tolerance is not None:
-        ok = abs(check.value - check.expected) <= check.tolerance
     return {
         "name": check.name,
         "value": check.value,
         "expected": check.expected,
         "tolerance": check.tolerance,
-        "ok": ok,
+        "ok": is_within(check),
     }
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO
 
 from ssilang.io.errors import OutputError
+from ssilang.system_reasons import system_reason
 
 
 @contextmanager
@@ -57,4 +58,4 @@ def usual_rights() -> int:
 
 def cannot_write(path: Path, error: OSError) -> OutputError:
     """The error of a place that cannot be written."""
-    return OutputError("io.cannot-written", path=path, strerror=error.strerror or error)
+    return OutputError("io.cannot-written", path=path, strerror=system_reason(error))

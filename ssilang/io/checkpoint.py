@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
+from ssilang.system_reasons import system_reason
 
 FORMAT = "ssilang-checkpoint"
 VERSION = 1
@@ -143,7 +144,7 @@ class Checkpoints:
         except OSError as error:
             path = self._path(number, "rows")
             raise OutputError(
-                "io.cannot-written", path=path, strerror=error.strerror or error
+                "io.cannot-written", path=path, strerror=system_reason(error)
             ) from error
         arrays: list[NDArray[Any]] = []
         head = {

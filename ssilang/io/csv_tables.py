@@ -12,6 +12,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.system_reasons import system_reason
 
 _TITLE_WIDTH = 12
 _GAP = 3  # blank lines between two groups of columns
@@ -88,7 +89,7 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> Rows:
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     regular = _regular(text, separator, first_line)
     if regular is not None:
         return regular

@@ -11,6 +11,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.system_reasons import system_reason
 
 _DIGITS = 12  # of a number of values that a file can hold
 _HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
@@ -60,7 +61,7 @@ def read_peer(path: Path) -> PeerRecord:
     try:
         lines = path.read_text(encoding="latin-1").splitlines()
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     count, dt = _sizes(path, lines)
     values = np.array([_real(t) for t in _values(path, lines)])
     if len(values) < count:

@@ -15,6 +15,7 @@ from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
+from ssilang.system_reasons import system_reason
 
 if TYPE_CHECKING:
     from ssilang.io.vtk.series import Series
@@ -250,7 +251,7 @@ def _place(folder: Path, name: str) -> Path:
         if os.path.islink(path):  # what resolve leaves is a loop
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     except (OSError, ValueError, RuntimeError) as error:
-        reason = getattr(error, "strerror", None) or error
+        reason = system_reason(error)
         raise OutputError("io.no-such-place", name=_shown(name), reason=reason) from error
     return path
 

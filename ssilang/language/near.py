@@ -9,6 +9,9 @@ from itertools import takewhile
 LIKE, VERY_LIKE = 0.7, 0.8
 """Part of the letters of two words that agree."""
 
+SHORT_LIKE = 0.6
+"""Of names of two or three letters, one slip is a third."""
+
 
 @lru_cache(maxsize=1 << 16)
 def slips(a: str, b: str) -> int:

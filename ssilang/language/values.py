@@ -157,6 +157,10 @@ class Table:
         """Forget an index; nothing happens if it does not exist."""
         self._items.pop(key_of(index), None)
 
+    def indices(self) -> list[object]:
+        """Indices, in order of creation; no value is made for them."""
+        return [index for index, _ in self._items.values()]
+
     def items(self) -> list[tuple[object, object]]:
         """Pairs (index, value), in order of creation."""
         return list(self._items.values())
@@ -258,6 +262,11 @@ class LazyRows(Table):
         self._items["E", index] = (index, PENDING)
         self.rows[index] = row
 
+    @property
+    def words(self) -> list[str]:
+        """Indices of its entries, none of which is made for that."""
+        return [str(index).rstrip() for index, _ in self._words.values()]
+
     def promises(self, index: object) -> bool:
         """Whether there are entries not made yet, that will hold the index."""
         waits = self._source is not None and len(self._source) > 0
@@ -278,6 +287,11 @@ class LazyRows(Table):
     def __len__(self) -> int:
         self._list()
         return super().__len__()
+
+    def indices(self) -> list[object]:
+        """Indices, in order of creation; no value is made for them."""
+        self._list()
+        return super().indices()
 
     def set(self, index: object, value: object) -> None:
         """Create or replace a value."""

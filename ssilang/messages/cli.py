@@ -37,6 +37,12 @@ MESSAGES: dict[str, Message] = {
         "{text} gives {name} several values: that is a sweep",
         "{text} donne à {name} plusieurs valeurs : c'est un balayage",
     ),
+    "no-such-parameter": Message(
+        "a value is given to {name}, that the script does not have",
+        "une valeur est donnée à {name}, que le jeu de données n'a pas",
+        "{near:?did you mean {near}?|{known:?its names are {known:and}}}",
+        "{near:?vouliez-vous dire {near} ?|{known:?ses noms sont {known:and}}}",
+    ),
     "range-values": Message(
         "the range {text} has {count} {count:value|values}",
         "l'intervalle {text} a {count} {count:valeur|valeurs}",

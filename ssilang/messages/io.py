@@ -264,4 +264,26 @@ MESSAGES: dict[str, Message] = {
         "the file is cut: fetch it again",
         "le fichier est tronqué : récupérez-le de nouveau",
     ),
+    # ---- reasons of the system (ssilang/system_reasons.py)
+    "reason-missing": Message("no such file or folder", "fichier ou dossier introuvable"),
+    "reason-forbidden": Message("permission denied", "accès refusé"),
+    "reason-folder": Message("it is a folder", "c'est un dossier"),
+    "reason-no-folder": Message(
+        "a part of its path is no folder", "une partie de son chemin n'est pas un dossier"
+    ),
+    "reason-there-already": Message("it exists already", "il existe déjà"),
+    "reason-name-too-long": Message("the name is too long", "le nom est trop long"),
+    "reason-links-in-a-ring": Message(
+        "its links lead back to themselves", "ses liens ramènent à eux-mêmes"
+    ),
+    "reason-disk-full": Message("no space is left on the disk", "le disque est plein"),
+    "reason-read-only": Message(
+        "the file system is read-only", "le système de fichiers est en lecture seule"
+    ),
+    "reason-file-too-large": Message("the file is too large", "le fichier est trop gros"),
+    "reason-many-files-open": Message("too many files are open", "trop de fichiers sont ouverts"),
+    "reason-device": Message("the device failed", "le périphérique a échoué"),
+    "reason-nought-in-a-name": Message(
+        "the sign of code 0 stands in no name", "le signe de code 0 n'entre dans aucun nom"
+    ),
 }

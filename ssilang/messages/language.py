@@ -59,6 +59,10 @@ MESSAGES: dict[str, Message] = {
         "write it as a FLOTTANT, with a dot or an exponent",
         "écrivez-le comme un FLOTTANT, avec un point ou un exposant",
     ),
+    "long-real": Message(
+        "{text} is beyond 1.8E308, the largest FLOTTANT",
+        "{text} dépasse 1.8E308, le plus grand FLOTTANT",
+    ),
     # ---- syntax
     "syntax": Message("unexpected {found!r}", "{found!r} inattendu"),
     "unclosed-string": Message(
@@ -248,14 +252,18 @@ MESSAGES: dict[str, Message] = {
         "{comment_hint}",
     ),
     "condition": Message(
-        "SI needs one LOGIQUE, found {found}",
-        "SI demande un LOGIQUE, trouvé {found}",
-        "comparisons are written > < >EG <EG EGA NEG, and phrases run from left to right",
-        "les comparaisons s'écrivent > < >EG <EG EGA NEG, et les phrases vont de gauche à droite",
+        "SI needs one LOGIQUE, found {found}{word:? ('{word}')}",
+        "SI demande un LOGIQUE, trouvé {found}{word:? ('{word}')}",
+        "{word:?write {word} alone: in quotes, or behind MOT, it is a word|comparisons are written "
+        "> < >EG <EG EGA NEG, and phrases run from left to right}",
+        "{word:?écrivez {word} seul : entre apostrophes, ou derrière MOT, c'est un mot|les "
+        "comparaisons s'écrivent > < >EG <EG EGA NEG, et les phrases vont de gauche à droite}",
     ),
     "loop-count": Message(
-        "REPE needs an ENTIER as its number of turns, found {found}",
-        "REPE demande un ENTIER comme nombre de tours, trouvé {found}",
+        "REPE needs an ENTIER as its number of turns, found {found}{word:? ('{word}')}",
+        "REPE demande un ENTIER comme nombre de tours, trouvé {found}{word:? ('{word}')}",
+        "{word:?write {word} alone: in quotes, or behind MOT, it is a word}",
+        "{word:?écrivez {word} seul : entre apostrophes, ou derrière MOT, c'est un mot}",
     ),
     "index": Message(
         "the index of a table must be one object", "l'indice d'une table doit être un objet"
@@ -368,6 +376,8 @@ MESSAGES: dict[str, Message] = {
     "entry-type": Message(
         "{procedure}: {where} must be {kinds}, found {found}",
         "{procedure} : {where} doit être {kinds}, trouvé {found}",
+        "{en:?{where}: {en}}{made:?\nmade by {made:or}}",
+        "{fr:?{where} : {fr}}{made:?\nse fait par {made:or}}",
     ),
     "entry-value": Message(
         "{procedure}: {where} is '{given}'",
@@ -532,6 +542,10 @@ MESSAGES: dict[str, Message] = {
         "TRAC dessine les maillages et les champs, DESS les courbes",
     ),
     "write-power": Message("a power is written A ** 3", "une puissance s'écrit A ** 3"),
+    "write-weight": Message(
+        "the weight of bodies is (MASS MODL1 MAT1) * (MANU 'CHPO' MAIL1 2 'UX' 0. 'UY' -9.81)",
+        "le poids de corps est (MASS MODL1 MAT1) * (MANU 'CHPO' MAIL1 2 'UX' 0. 'UY' -9.81)",
+    ),
     "write-root": Message(
         "a square root is written X ** 0.5", "une racine carrée s'écrit X ** 0.5"
     ),
@@ -610,6 +624,16 @@ MESSAGES: dict[str, Message] = {
         "a word, EGA {holder} 'OTHER' compares it",
         "'{word}', la valeur de {holder}, nomme un opérateur, exécuté : MOT {holder} le prend "
         "comme mot, EGA {holder} 'AUTRE' le compare",
+    ),
+    "quoted-operator": Message(
+        "'{word}' names an operator, which quotes do not keep from running: MOT '{word}' is the "
+        "word",
+        "'{word}' nomme un opérateur, que les apostrophes n'empêchent pas d'agir : MOT '{word}' "
+        "est le mot",
+    ),
+    "word-and-name": Message(
+        "in quotes, or behind MOT, {word} is a word: {word} alone is the object of that name",
+        "entre apostrophes, ou derrière MOT, {word} est un mot : {word} seul est l'objet de ce nom",
     ),
     "found-word": Message(", found {found}", ", trouvé {found}"),
     "nothing": Message("nothing", "rien"),

@@ -279,6 +279,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "bring the signal to a constant step by IPOL",
         "portez le signal à un pas constant par IPOL",
     ),
+    "kernel.solvers.unknowns-without-stiffness": (
+        "are there bodies with YOUN = 0? leave them out of the model (MODE)",
+        "y a-t-il des corps de YOUN = 0 ? laissez-les hors du modèle (MODE)",
+    ),
     "kernel.solvers.no-set-active-unilateral": (
         "turn the field of 'DUAL' round, or take MINI for MAXI",
         "retournez le champ de 'DUAL', ou prenez MINI au lieu de MAXI",

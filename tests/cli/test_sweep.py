@@ -183,7 +183,7 @@ def test_another_script_makes_the_runs_of_a_folder_anew(deck, tmp_path):
     assert code == 0
     assert "done already" not in said
     assert pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()[0]["square"] == 0.2
-    deck.write_text("ERRE 'wrong' ;")  # a run that fails leaves no row of the one before
+    deck.write_text("AG = 1. ; ERRE 'wrong' ;")  # a run that fails leaves no row of the one before
     assert run(options)[0] == 1
     deck.write_text(DECK)
     assert "done already" not in run(options)[1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 import shutil
@@ -13,6 +12,7 @@ import pytest
 
 from ssilang.io.errors import OutputError
 from ssilang.io.run_output import RunOutput
+from ssilang.messages.message import sentence
 
 
 @pytest.fixture
@@ -240,10 +240,11 @@ def test_files_have_the_rights_that_the_user_gives(output: RunOutput, mask: int,
     assert target.stat().st_mode & 0o777 == mode
 
 
-def test_what_cannot_be_written_is_told_in_the_system_s_words(output: RunOutput) -> None:
+def test_what_cannot_be_written_is_told_in_the_reader_s_language(output: RunOutput) -> None:
     target = output.target("log.txt")
     assert target is not None
     target.mkdir(parents=True)
     with pytest.raises(OutputError) as refused:
         output.add_lines("SORT", target, ["text"])
-    assert refused.value.data["strerror"] == os.strerror(errno.EISDIR)
+    assert sentence("io.cannot-written", refused.value.data).endswith("it is a folder")
+    assert sentence("io.cannot-written", refused.value.data, "fr").endswith("c'est un dossier")

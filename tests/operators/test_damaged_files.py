@@ -178,6 +178,8 @@ _HEADS = {
     "no records": lambda h: h.update(records=[3]),
     "no names": lambda h: h["records"][0].update(names=3),
     "no objects": lambda h: h.update(objects="x"),
+    "a curve of no colour": lambda h: part_of(h, "CurvePart").update(colour=99),
+    "words of fewer points": lambda h: part_of(h, "CurvePart").update(words=["t", ["a"]]),
     "no such array": lambda h: part_of(h, "NodeValues").update(values=["a", 999]),
 }
 
@@ -192,18 +194,19 @@ def test_an_archive_whose_head_is_damaged_fails_when_it_is_read(damage, files, t
     assert run("OPTI REST 'all.sauv' ; REST ; LIST S1 ;", tmp_path).exit_code == 0
 
 
+@pytest.mark.parametrize("array", ["raw", "colours"])
 @pytest.mark.parametrize(
     ("name", "text"),
     [("all.sauv", "OPTI REST 'all.sauv' ; REST ;"), ("mesh", "OPTI LECT 'mesh' ; LIRE S1 ;")],
 )
-def test_an_archive_names_nodes_that_are_there(name, text, files, tmp_path):
+def test_an_archive_names_nodes_and_colours_that_are_there(name, text, array, files, tmp_path):
     with zipfile.ZipFile(io.BytesIO(files[name])) as z:
         members = {n: z.read(n) for n in z.namelist()}
     head = json.loads(members["objects.json"])
-    number = part_of(head, "CellBlock")["raw"][1]
+    number = part_of(head, "CellBlock")[array][1]
     sound = np.load(io.BytesIO(members[f"arrays/{number}.npy"]))
     for first, codes in (
-        (10**6, ["io.damaged-object"]),
+        ({"raw": 10**6, "colours": 99}[array], ["io.damaged-object"]),
         (-1, ["io.damaged-object"]),
         (sound.flat[0], []),
     ):

@@ -197,3 +197,43 @@ def test_arrays_that_no_memory_holds_are_told(tmp_path):
     )
     result = run_text(text, tmp_path)
     assert [e.code for e in result.errors] == ["memory"]
+
+
+def test_stresses_of_a_shell_without_thickness_have_no_principal_values(tmp_path):
+    text = (
+        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (3. 0.) (3. 1.) ;"
+        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'COQ2' ; A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' {} ;"
+        "S = MANU 'CHML' M 'N11' 0.1 'N22' 0.3 'M11' 0. 'M22' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ;"
+        "P = PRIN M S A ;"
+    )
+    assert code_of(text.format("0."), tmp_path) == "kernel.elements.principal-of-no-number"
+    assert code_of(text.format("0.1"), tmp_path) == ""
+
+
+def test_a_mesh_that_would_be_refined_without_end_is_told(tmp_path):
+    text = (
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 ({} 1.) ;"
+        "T = RAFF S (0.6 + (COOR 1 S)) ; MESS (NBEL T) ;"
+    )
+    assert code_of(text.format("1.E9"), tmp_path) == "kernel.mesh.about-cells-needed"
+    assert code_of(text.format("0."), tmp_path) == ""
+
+
+def test_flat_faces_are_no_partners_of_a_joint(tmp_path):
+    text = (
+        "OPTI DIME 3 ELEM QUA4 ; A = (DROI 4 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
+        "B = (DROI 4 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. {}. 0.) ; J = LIAI 1.E-3 A B ;"
+    )
+    assert code_of(text.format(1), tmp_path) == ""
+    assert code_of(text.format(0), tmp_path) not in ("", "internal")
+
+
+@pytest.mark.parametrize(
+    ("second", "code"), [("C * C", ""), ("2.", "operators.curves.fields-of-one-kind")]
+)
+def test_a_table_is_interpolated_between_fields_of_one_kind(second, code, tmp_path):
+    text = (
+        "OPTI DIME 2 ; P = -1. 0. ; C = MANU 'CHPO' P 'T' 3. ; T = TABL 'RESULTAT' ;"
+        f"T . 1.5 = {second} ; T . 3. = C ; X = EXTR (IPOL T 2.) 'T' P ;"
+    )
+    assert code_of(text, tmp_path) == code

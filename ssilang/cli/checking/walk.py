@@ -15,7 +15,7 @@ from ssilang.cli.checking.words import misspelt_words
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
-from ssilang.language.run.phrase_errors import no_result, unended
+from ssilang.language.run.phrase_errors import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -99,6 +99,9 @@ class Checker:
             found = kind_word(left[0].value) if left else "nothing"
             span = left[0].span if left else node.condition.span
             if left and isinstance(left[0].value, Mot) and not left[0].name:
+                error = name_as_word("condition", left, scope.values.get(str(left[0].value)))
+                if error is not None:
+                    raise error
                 self.session.evaluator.refuse_leftovers(left)
             raise SsiError("condition", span, found=found)
 
@@ -108,7 +111,7 @@ class Checker:
             kind = kind_word(left[0].value) if left and len(left) == 1 else ""
             if kind not in ("", "ENTIER", "FLOTTANT", "TEXTE"):
                 if isinstance(left[0].value, Mot) if left else False:
-                    self._undefined(left[0], "REPE")  # type: ignore[index]
+                    self._word_for_a_count(left or [], scope)
                 else:
                     self._report(SsiError("loop-count", node.count[0].span, found=kind))
         before = scope.copy()
@@ -123,6 +126,13 @@ class Checker:
         counter = scope.values[("&" + node.name)[:24]]
         scope.join(before)
         scope.values[("&" + node.name)[:24]] = counter
+
+    def _word_for_a_count(self, words: list[Any], scope: Scope) -> None:
+        error = name_as_word("loop-count", words, scope.values.get(str(words[0].value)))
+        if error is not None:
+            self._report(error)
+        else:
+            self._undefined(words[0], "REPE")
 
     def _undefined(self, operand: Any, operator: str) -> None:
         self._report(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -147,14 +147,26 @@ def cases_of(
             raise GivenError("cli.set-twice", name=name)
         axes[name] = values
     if motions is not None:
-        axes[MOTION] = [*_files_of(motions, [] if left is None else left)]
+        axes[MOTION] = [*motions_in(motions, [] if left is None else left)]
     if not axes:
         raise GivenError("cli.nothing-sweep-set-name")
+    return combined(axes)
+
+
+def combined(axes: Mapping[str, Sequence[Value]]) -> list[Case]:
+    """All combinations of values, those of the last name fastest."""
     rows = itertools.product(*axes.values())
     return [Case(i, dict(zip(axes, row, strict=True))) for i, row in enumerate(rows, start=1)]
 
 
-def _files_of(folder: Path, left: list[Path]) -> list[str]:
+def motions_in(folder: Path, left: list[Path]) -> list[str]:
+    """Paths of the ground motions of a folder; `left` gets the files that are none.
+
+    Raises
+    ------
+    GivenError
+        If it is no folder, or has none.
+    """
     if not folder.is_dir():
         raise GivenError("cli.not-folder-ground-motions", folder=folder)
     files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))

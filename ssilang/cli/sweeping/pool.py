@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import sys
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import wait
+from multiprocessing.context import SpawnContext, SpawnProcess
+from types import ModuleType
 from typing import Any
 
 from ssilang.cli.sweeping.gathering import gathered, run_together
@@ -37,6 +40,29 @@ def _end_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
+class _FreshProcess(SpawnProcess):
+    """A process that begins empty and does not import the caller's own script.
+
+    Python would import it again in each process: a sweep that stands in a script without a guard
+    (`if __name__ == "__main__"`) would begin anew there.
+    """
+
+    def start(self) -> None:
+        """Start it."""
+        main = sys.modules["__main__"]
+        sys.modules["__main__"] = ModuleType("__main__")
+        try:
+            super().start()
+        finally:
+            sys.modules["__main__"] = main
+
+
+class FreshContext(SpawnContext):
+    """How processes begin empty."""
+
+    Process = _FreshProcess
+
+
 def run_here(
     tasks: Sequence[Task],
     jobs: int,
@@ -54,7 +80,8 @@ def run_here(
         Most runs that go side by side in a process. Those of a process that dies are made again,
         each alone.
     """
-    waiting, context = gathered(tasks, jobs, together), get_context(start)
+    waiting = gathered(tasks, jobs, together)
+    context = FreshContext() if start == "spawn" else get_context(start)
     while waiting:
         with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
             futures = {pool.submit(run_together, batch, work): batch for batch in waiting}

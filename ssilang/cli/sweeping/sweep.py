@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
+from ssilang.cli.run import refuse_unknown
 from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import (
+    Row,
     can_write,
     draw_figures,
     write_plain_table,
@@ -19,7 +22,11 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.language.say.diagnostics import render
-from ssilang.language.say.errors import SsiError
+from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
+from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Teller, sentence, teller
 
 TABLE, PLAIN_TABLE = "sweep.parquet", "sweep.csv"
@@ -29,7 +36,7 @@ TOGETHER = 8
 
 @dataclass
 class SweepOptions:
-    """What the command line says of a sweep."""
+    """What the command line, or Python, says of a sweep."""
 
     deck: Path
     settings: list[str] = field(default_factory=list)
@@ -41,6 +48,11 @@ class SweepOptions:
     language: str = "en"
     together: int = TOGETHER
 
+    @property
+    def folder(self) -> Path:
+        """Where runs, tables and pictures go."""
+        return (self.out or Path("results") / f"{self.deck.stem}_sweep").resolve()
+
 
 def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     """Run a sweep; returns the exit code: 1 if a run failed, 2 for a wrong command.
@@ -49,17 +61,27 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     """
     try:
         cases = _checked_cases(options, err)
-        text = options.deck.read_text(encoding="utf-8", errors="replace")
-    except GivenError as problem:
-        err.write(render(SsiError.of(problem, None), options.language) + "\n")
+        rows = run_cases(cases, options, out, err)
+    except SsiError as error:
+        err.write(render(error, options.language) + "\n")
         return 2
-    except OSError as problem:
-        lost = SsiError("missing-file", None, path=options.deck, reason=problem.strerror)
-        err.write(render(lost, options.language) + "\n")
-        return 2
-    folder = (options.out or Path("results") / f"{options.deck.stem}_sweep").resolve()
+    made = write_results(rows, list(cases[0].values), options.folder)
+    out.write(sentence("cli.swept", made, options.language) + "\n")
+    return 1 if made["failed"] else 0
+
+
+def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: TextIO) -> list[Row]:
+    """Rows of all cases, in order; those that the folder has are not run again.
+
+    Raises
+    ------
+    SsiError
+        If the script cannot be read, or does not have a name that is given a value.
+    """
+    source = read_source(options.deck)
+    _check_names(source, cases[0].values)
     tasks = [
-        _task(case, options, folder / "runs" / name, case.key(text))
+        _task(case, options, options.folder / "runs" / name, case.key(source.text))
         for case, name in zip(cases, folder_names(cases), strict=True)
     ]
     rows = {task.number: row for task in tasks if (row := row_of(task)) is not None}
@@ -72,16 +94,26 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}
             err.write(sentence("cli.run-failed", failure, options.language) + "\n")
-    made = _finish([rows[k] for k in sorted(rows)], list(cases[0].values), folder)
-    out.write(sentence("cli.swept", made, options.language) + "\n")
-    return 1 if made["failed"] else 0
+    return [rows[k] for k in sorted(rows)]
+
+
+def _check_names(source: Source, values: Iterable[str]) -> None:
+    """Refuse a name that the script does not have; one that cannot be read says so in each run."""
+    with suppress(SeveralErrors):
+        assigned = first_assignments(parse(source).body)
+        for name in values:
+            if name not in assigned:
+                refuse_unknown(name, source, assigned)
 
 
 def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
-    if options.scheduler and not dask_installed():
-        raise GivenError("cli.cluster-needs-dask-distributed")
     left: list[Path] = []
-    cases = cases_of(options.settings, options.motions, left)
+    try:
+        if options.scheduler and not dask_installed():
+            raise GivenError("cli.cluster-needs-dask-distributed")
+        cases = cases_of(options.settings, options.motions, left)
+    except GivenError as problem:
+        raise SsiError.of(problem, None) from problem
     if left:
         told = {"count": len(left), "names": [p.name for p in left]}
         err.write(sentence("cli.files-no-motions", told, options.language) + "\n")
@@ -115,7 +147,7 @@ def _progress(
     line.close()
 
 
-def _finish(rows: list[dict[str, Any]], swept: list[str], folder: Path) -> dict[str, object]:
+def write_results(rows: list[Row], swept: list[str], folder: Path) -> dict[str, object]:
     """Write tables and pictures; what to say of them."""
     table = folder / PLAIN_TABLE
     write_plain_table(rows, table)

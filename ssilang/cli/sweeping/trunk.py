@@ -10,11 +10,11 @@ from __future__ import annotations
 import gc
 import os
 from collections.abc import Iterator, Sequence
-from multiprocessing import get_all_start_methods, get_context
+from multiprocessing import get_all_start_methods
 from multiprocessing.connection import Connection, wait
 
 from ssilang.cli.sweeping.gathering import run_together
-from ssilang.cli.sweeping.pool import run_here
+from ssilang.cli.sweeping.pool import FreshContext, run_here
 from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
 
 ROUNDS = 4
@@ -40,7 +40,7 @@ def run_grown(
 
     If the trunk dies in the first run, that run is lost and the others are made without it.
     """
-    spawn = get_context("spawn")
+    spawn = FreshContext()
     receiver, sender = spawn.Pipe(duplex=False)
     trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender, together))
     trunk.start()

@@ -13,6 +13,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.mesh.cells import CELL_TYPES
 
@@ -94,7 +95,9 @@ def _cell_block(values: Mapping[str, Any]) -> str:
         return "cell_type"
     if raw.ndim != 2 or raw.shape[1] != kind.n_nodes:
         return "raw"
-    return "" if values["colours"].shape == raw.shape[:1] else "colours"
+    colours = values["colours"]
+    known = colours.shape == raw.shape[:1] and _between(colours, len(NAMES))
+    return "" if known else "colours"
 
 
 def _node_values(values: Mapping[str, Any]) -> str:
@@ -117,7 +120,12 @@ def _known_element(values: Mapping[str, Any]) -> str:
 
 def _curve_part(values: Mapping[str, Any]) -> str:
     x, y = values["abscissas"], values["ordinates"]
-    return "" if x.ndim == 1 and x.shape == y.shape else "ordinates"
+    if x.ndim != 1 or x.shape != y.shape:
+        return "ordinates"
+    if not 0 <= values["colour"] < len(NAMES):
+        return "colour"
+    named = ("words", "abscissa_words")
+    return next((n for n in named if len(values.get(n) or x) != len(x)), "")
 
 
 def _load_part(values: Mapping[str, Any]) -> str:

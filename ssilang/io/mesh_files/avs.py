@@ -21,6 +21,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.system_reasons import system_reason
 
 _KINDS = {
     "POI1": "pt", "SEG2": "line", "SEG3": "line", "TRI3": "tri", "TRI6": "tri", "QUA4": "quad",
@@ -120,7 +121,7 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
     try:
         text = path.read_text(encoding="latin-1")
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     lines = iter([t for t in text.splitlines() if t.strip() and not t.startswith("#")])
     try:
         for _ in range(skip):

@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.system_reasons import system_reason
 
 
 def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
@@ -49,7 +50,7 @@ def read_stl(path: Path) -> FloatArray:
     try:
         raw = path.read_bytes()
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     if len(raw) >= 84:
         (count,) = struct.unpack_from("<I", raw, 80)
         if len(raw) == 84 + 50 * count:

@@ -14,6 +14,7 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.system_reasons import system_reason
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
 _CELLS: dict[int, str] = {
@@ -55,7 +56,7 @@ def read_unv(path: Path) -> UnvMesh:
     try:
         lines = path.read_text(encoding="latin-1").splitlines()
     except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     labels: list[int] = []
     points: list[list[float]] = []
     rows: list[tuple[int, str, list[int]]] = []

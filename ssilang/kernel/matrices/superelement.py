@@ -31,7 +31,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
-from ssilang.kernel.statics.linear_motion import bodies_of, singular
+from ssilang.kernel.statics.linear_motion import singular, tied
 
 LARGEST = 6000  # masters; the condensed matrix is full
 
@@ -149,7 +149,7 @@ def _made(
     inverse = invert(reduced, is_symmetric(matrix))
     if inverse.singular:
         motions = T @ inverse.kernel[: len(elimination.masters)]
-        bodies = bodies_of(numbering, K, rows.C)
+        bodies = tied(numbering, rows.C, K)
         raise singular("kernel.statics.loads-drive-motions", numbering, motions, bodies)
     values = np.zeros((inner + m, m))
     values[inner:] = np.eye(m)

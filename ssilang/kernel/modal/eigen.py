@@ -89,7 +89,7 @@ def _without_idle(problem: ReducedProblem, shift: float, count: int) -> Pairs:
 
     Such motions (rotations of a flat shell about its normal) are held by as few unknowns.
     """
-    size = abs(problem.K).max() / (abs(problem.M).max() or 1.0)
+    size = abs(problem.K).max() / abs(problem.M).max()  # not zero: `check` saw to it
     inverse = invert(problem.bordered(sp.csr_array(problem.K + size * problem.M)), True)
     pinned = inverse.pinned[inverse.pinned < problem.size]
     if len(pinned) == 0:

@@ -19,6 +19,7 @@ from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.linear import LinearSystem
 from ssilang.kernel.stepping.effective import effective_matrix
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.contrast import stiffness_contrast
 from ssilang.kernel.stepping.problem.problem import Problem
 
@@ -35,6 +36,7 @@ class JointConditioning:
     Attributes
     ----------
     number, balanced : float
+        Where a bound above them is small enough to clear the joints, that bound.
     contrast : float
         Stiffness of the joints over that of the bodies at the same unknowns.
     kn : float
@@ -96,7 +98,7 @@ def _product(
     import scipy.sparse.linalg as spla
 
     n = A.shape[0]
-    norm = float(abs(A).sum(axis=0).max())
+    norm = _norm(A)
     if n < 4:
         return norm * float(np.abs(solve(np.eye(n))).sum(axis=0).max())
     inverse = spla.LinearOperator((n, n), matvec=solve, rmatvec=solve_transposed, dtype=float)
@@ -112,17 +114,44 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     if joints is None or contrast is None or problem.numbering.size > LARGEST:
         return None
     T, V = problem.constraints.T, problem.constraints.V
-    A = problem.K
-    if problem.M.nnz:
-        A = effective_matrix(problem, float(np.diff(problem.times).max()))
+    dt = float(np.diff(problem.times).max())
+    A = effective_matrix(problem, dt) if problem.M.nnz else problem.K
     closed = joints.J.T @ sp.csr_array(joints.closed_stiffness()) @ joints.J
-    number = condition_number(sp.csr_array(V.T @ (A + closed) @ T))
-    balanced = number
+    reduced = sp.csr_array(V.T @ (A + closed) @ T)
+    number = balanced = _bound_by_mass(problem, dt, reduced)
+    if number > STRANGE_JOINTS:
+        number = balanced = condition_number(reduced)
     if number > STRANGE_JOINTS:
         balanced = condition_number(sp.csr_array(V.T @ (A + closed / contrast) @ T))
     return JointConditioning(
         number, balanced, contrast, float(np.median(joints.parameters[:, Parameter.KN]))
     )
+
+
+def _bound_by_mass(problem: Problem, dt: float, A: sp.csr_array) -> float:
+    """A bound above the condition number of A (n, n) scaled to a unit diagonal, without a factor.
+
+    Stiffness and damping take no energy, so that all eigenvalues of the scaled matrix stand above
+    the least share r of a diagonal mass in its diagonal: |A^-1|_1 <= sqrt(n)/r. Infinite where
+    unknowns have no mass, or coupled ones. (A geometric stiffness may take energy; bodies that
+    buckle are as badly conditioned with other joints, which are not to blame.)
+    """
+    T = problem.constraints.T
+    diagonal = A.diagonal()
+    if not problem.constraints.associated or not len(diagonal) or diagonal.min() <= 0.0:
+        return np.inf
+    mass = sp.csr_array(T.T @ problem.M @ T)
+    own = mass.diagonal()
+    if own.min() <= 0.0 or np.count_nonzero(mass.data) != len(own):
+        return np.inf
+    share = newmark_of(problem.scheme, dt).mass * float((own / diagonal).min())
+    scale = sp.diags_array(1.0 / np.sqrt(diagonal))
+    return _norm(sp.csr_array(scale @ A @ scale)) * float(np.sqrt(len(own))) / share
+
+
+def _norm(A: sp.csr_array) -> float:
+    """The 1-norm: the largest sum of a column."""
+    return float(abs(A).sum(axis=0).max())
 
 
 @dataclass(frozen=True)

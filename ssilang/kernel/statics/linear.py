@@ -41,10 +41,10 @@ from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.kernel.statics.linear_motion import (
-    bodies_of,
     named_motions,
     rigid_motions,
     singular,
+    tied,
 )
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -179,7 +179,7 @@ class LinearSystem:
         excited = np.abs(work) > BALANCED
         if excited.any():
             motions = self.free_motions[:, excited]
-            bodies = bodies_of(self.numbering, self.K, self.rows.C)
+            bodies = tied(self.numbering, self.rows.C, self.K)
             raise singular("kernel.statics.loads-drive-motions", self.numbering, motions, bodies)
         return b
 
@@ -216,7 +216,7 @@ class LinearSystem:
         """The failure with the motions that only contact holds."""
         if not self.inverse.singular:
             return failure
-        bodies = bodies_of(self.numbering, self.K, self.rows.C[self.saddle])
+        bodies = tied(self.numbering, self.rows.C[self.saddle], self.K)
         named = named_motions(self.numbering, self.free_motions, bodies)
         return ConvergenceError(
             "kernel.statics.held-by-contact-alone", failure=failure, motions=named

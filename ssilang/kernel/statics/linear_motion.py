@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularMatrixError
+from ssilang.kernel.base.graph import chains, entries, parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.statics.doubled import lying_on
@@ -14,6 +17,7 @@ from ssilang.messages.message import Sentence
 _TRANSLATIONS = {"UX": 0, "UY": 1, "UZ": 2, "UR": 0}
 _ROTATIONS = {"RX": 0, "RY": 1, "RZ": 2}
 _NAMES = ("X", "Y", "Z")
+_LOOKED_AT = 60  # free motions among which a message looks for those that it names
 
 
 def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> FloatArray:
@@ -37,21 +41,20 @@ def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> Flo
     return motions
 
 
-def bodies_of(numbering: Numbering, *couplings: sp.csr_array) -> IntArray:
-    """Body (0, 1 ...) of each unknown (n,): those of a node, and those that a row couples.
+def tied(numbering: Numbering, relations: sp.csr_array, *matrices: sp.csr_array) -> IntArray:
+    """Body (0, 1 ...) of each unknown (n,): those of a node, and those that are coupled.
 
-    `couplings` are a stiffness (n, n) or relation rows (m, n).
+    Parameters
+    ----------
+    relations : csr array (m, n)
+        Each row couples.
+    matrices : csr arrays (n, n)
+        Stiffness, mass.
     """
-    from scipy.sparse.csgraph import connected_components
-
-    n = numbering.size
-    _, node = np.unique(numbering.nodes, return_inverse=True)
-    same = sp.csr_array((np.ones(n), (node, np.arange(n))), shape=(node.max(initial=-1) + 1, n))
-    graph = abs(same).T @ abs(same)
-    for rows in couplings:
-        graph = graph + (abs(rows).T @ abs(rows) if rows.shape[0] != n else abs(rows))
-    labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
-    return labels
+    order = np.argsort(numbering.nodes, kind="stable")
+    same = numbering.nodes[order][1:] == numbering.nodes[order][:-1]
+    of_nodes = order[:-1][same], order[1:][same]
+    return parts_of(numbering.size, of_nodes, chains(relations), *map(entries, matrices))
 
 
 def singular(
@@ -62,14 +65,15 @@ def singular(
     Each body that moves is named by its place (if there are several), with the rigid motions
     that are free, and the unknowns that move most.
     """
+    count, motions = motions.shape[1], motions[:, :_LOOKED_AT]
     span = np.linalg.qr(motions)[0]
     free = _most_moved(numbering, span)
     return SingularMatrixError(
         code,
-        count=motions.shape[1],
+        count=count,
         motions=named_motions(numbering, motions, bodies),
         free=free,
-        more=motions.shape[1] - len(free),
+        more=count - len(free),
         apart=0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies),
     )
 
@@ -81,6 +85,39 @@ def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntAr
     first = int(np.argmax(share))
     own = np.unique(numbering.nodes[bodies == first])
     return len(lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))[0])
+
+
+@dataclass(frozen=True)
+class Unjoined:
+    """A body that moves freely beside another one.
+
+    Attributes
+    ----------
+    place : array (3,)
+        Its middle.
+    n_nodes, n_doubled : int
+        Its nodes, and those of them that lie on nodes of other bodies.
+    """
+
+    place: FloatArray
+    n_nodes: int
+    n_doubled: int
+
+
+def unjoined_bodies(numbering: Numbering, motions: FloatArray, bodies: IntArray) -> list[Unjoined]:
+    """Bodies that free motions (n, p) move, and that lie on other bodies with two nodes or more."""
+    span = np.linalg.qr(motions[:, :_LOOKED_AT])[0]
+    share = np.zeros(bodies.max(initial=0) + 1)
+    np.add.at(share, bodies, (span**2).sum(axis=1))
+    found = []
+    for body in np.flatnonzero(share > 1e-9):
+        own = np.unique(numbering.nodes[bodies == body])
+        doubled, _ = lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))
+        if len(doubled) > 1:
+            points = numbering.table.coordinates[own]
+            place = _place(points.mean(axis=0), float(np.abs(points).max()))
+            found.append(Unjoined(place, len(own), len(doubled)))
+    return found
 
 
 def named_motions(

@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
@@ -141,12 +141,23 @@ def ordering_of(problem: Problem, right: sp.csc_array) -> Ordering | None:
     """Places of the unknowns of a large symmetric problem, its interface last."""
     if problem.numbering.size <= SMALL or not problem.constraints.associated:
         return None
-    T = problem.constraints.T
-    own = np.asarray(abs(T).argmax(axis=0)).ravel()
+    own = _heaviest_rows(problem.constraints.T)
     nodes = problem.numbering.nodes[own]
     points = problem.numbering.table.coordinates[nodes]
     rigid = rigid_motions(problem.numbering)[own]  # for what has no memory for a factor
     return Ordering(points, np.unique(right.indices).astype(np.int64), rigid, nodes)
+
+
+def _heaviest_rows(T: sp.csr_array) -> IntArray:
+    """The row (r,) of the largest entry of each column of T (n, r), the first of equal ones."""
+    columns = sp.csc_array(T)
+    columns.sort_indices()
+    count = np.diff(columns.indptr)
+    column = np.repeat(np.arange(len(count)), count)
+    order = np.lexsort((-np.abs(columns.data), column))
+    own = np.zeros(len(count), dtype=np.int64)
+    own[count > 0] = columns.indices[order[columns.indptr[:-1][count > 0]]]
+    return own
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,13 @@ from ssilang.language.run.call import Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
-from ssilang.language.run.phrase_errors import no_result, tell_held_word, tell_line_begun
+from ssilang.language.run.phrase_errors import (
+    name_as_word,
+    no_result,
+    tell_held_word,
+    tell_line_begun,
+    tell_quoted_operator,
+)
 from ssilang.language.run.phrases import PhraseRunner
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -141,7 +147,8 @@ class Evaluator(PhraseRunner):
             return SsiError(code, span, found="nothing")
         words = [o for o in results if isinstance(o.value, Mot) and not o.name and not o.result]
         if words:
-            error = leftover_error(words, self.session.assignments)
+            error = name_as_word(code, words, self.session.frame.find(str(words[0].value)))
+            error = error or leftover_error(words, self.session.assignments)
             if error is not None:
                 return error
         return SsiError(code, results[0].span, found=type_of(results[0].value))
@@ -191,6 +198,8 @@ class Evaluator(PhraseRunner):
         except SsiError as error:
             word = self.word_of_entry(statement, error)
             if word is None:
+                if error.code in _NOTHING_TO_READ:
+                    tell_quoted_operator(error, statement.items)
                 raise
             left = [word]
         self._assign(statement, left)

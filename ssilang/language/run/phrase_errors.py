@@ -9,6 +9,7 @@ from ssilang.language.run.scopes import PREDEFINED
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
+from ssilang.language.values import Mot
 
 
 def tell_held_word(error: SsiError, operand: Operand) -> None:
@@ -18,6 +19,19 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
         return
     if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
         error.data.setdefault("held_word", (str(operand.value), written))
+
+
+def tell_quoted_operator(error: SsiError, items: Sequence[tree.Item]) -> None:
+    """Add that a quoted word ran as the operator of that name, if it is all that stands there."""
+    if len(items) == 1 and isinstance(items[0], tree.Quoted):
+        error.data.setdefault("quoted_operator", items[0].text)
+
+
+def name_as_word(code: str, words: Sequence[Operand], held: object) -> SsiError | None:
+    """The error `code` for a word that is also the name of an object, `SI 'VRAI'`; else None."""
+    if len(words) != 1 or held is None or isinstance(held, Mot):
+        return None
+    return SsiError(code, words[0].span, found="MOT", word=str(words[0].value))
 
 
 def tell_line_begun(error: SsiError, operand: Operand) -> None:

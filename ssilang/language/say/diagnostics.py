@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
-from ssilang.language.near import LIKE, VERY_LIKE, nearest
+from ssilang.language.near import LIKE, SHORT_LIKE, VERY_LIKE, nearest
 from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
@@ -18,7 +18,6 @@ from ssilang.messages import message
 from ssilang.messages.message import Sentence
 from ssilang.resources import resource
 
-_SHORT_LIKE = 0.6  # names of components have two letters: one slip is a third
 _LETTERS = 4  # that an operator goes by
 _LINE_SHOWN = 160  # characters of a source line
 _CALLS_SHOWN = 4  # at each end of the chain
@@ -93,7 +92,11 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
     hint = message.hint(error.code, data, language, script=True).strip()
-    before = (_held_hint(data, language), _line_hint(data, language))
+    before = (
+        _held_hint(data, language),
+        _quoted_hint(data, language),
+        _line_hint(data, language),
+    )
     return text, "\n".join(h for h in (*before, hint) if h)
 
 
@@ -114,6 +117,12 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
         return ""
     word, holder = data["held_word"]
     return message.sentence("held-word", {"word": word, "holder": holder}, language)
+
+
+def _quoted_hint(data: dict[str, Any], language: str) -> str:
+    """Says that a word in quotes is run where it names an operator, and how to write the word."""
+    word = data.get("quoted_operator")
+    return message.sentence("quoted-operator", {"word": word}, language) if word else ""
 
 
 def _line_hint(data: dict[str, Any], language: str) -> str:
@@ -262,7 +271,7 @@ def _keyword_hint(data: dict[str, object]) -> hints.Hint:
             continue
         if dual:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=dual)
-        near = nearest(word, keywords) or nearest(word, others, _SHORT_LIKE)
+        near = nearest(word, keywords) or nearest(word, others, SHORT_LIKE)
         if near:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=near)
     return ""
@@ -284,6 +293,8 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
     if "name" not in data:
         return ""
     word = str(data["name"])
+    if word in (names := frozenset(names)):  # of a word in quotes: the name alone is no error
+        return Sentence("word-and-name", word=word)
     foreign = hints.foreign_hint(word)
     if foreign:
         return foreign
@@ -314,7 +325,7 @@ def _syntax_hint(data: dict[str, object]) -> str:
     found = find_operator(str(data.get("operator", "")))
     if found is None or not found.help.syntax:
         return ""
-    lines = found.help.syntax.split("\n")
+    lines = str(data.get("form_syntax") or found.help.syntax).split("\n")
     given = data.get("quoted")
     quoted = [w for w in given if len(w) > 1] if isinstance(given, list) else []
     # of several forms, the one that a keyword of the phrase belongs to

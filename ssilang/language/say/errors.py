@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ssilang.messages.message import Said, Severity, find
+from ssilang.system_reasons import system_reason
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
@@ -60,7 +61,7 @@ def interruption(stop: KeyboardInterrupt, span: Span | None) -> SsiError:
 
 def unprinted(problem: OSError) -> SsiError:
     """The error of a stream that takes nothing more: a full disk, a stream that is closed."""
-    return SsiError("cannot-print", None, reason=problem.strerror or problem)
+    return SsiError("cannot-print", None, reason=system_reason(problem))
 
 
 class ReaderLeft(BrokenPipeError):

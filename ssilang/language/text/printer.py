@@ -6,7 +6,6 @@ indented by two blanks.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import fields
@@ -97,10 +96,7 @@ def _item(item: tree.Item) -> str:
 
 
 def _number(item: tree.Number) -> str:
-    value = item.value
-    if isinstance(value, float) and math.isinf(value):
-        return "1E999" if value > 0 else "-1E999"
-    return repr(value)
+    return repr(item.value)
 
 
 def _quoted(text: str) -> str:

@@ -8,6 +8,7 @@ same tree for every deck.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
@@ -47,8 +48,11 @@ def integer_of(text: str, span: Span) -> tree.Number:
 
 
 def real_of(text: str, span: Span) -> tree.Number:
-    """A real number, with E or D before its exponent."""
-    return tree.Number(float(text.upper().replace("D", "E")), span)
+    """A real number, with E or D before its exponent; 'long-real' beyond what 64 bits hold."""
+    value = float(text.upper().replace("D", "E"))
+    if math.isinf(value):
+        raise SsiError("long-real", span, text=text[:40])
+    return tree.Number(value, span)
 
 
 def symbol_of(text: str, span: Span) -> tree.Symbol:
@@ -200,7 +204,7 @@ class Reader:
         Unsound
             If the text does not follow the grammar.
         SsiError
-            'long-integer'.
+            'long-integer', 'long-real'.
         """
         assembly = _Assembly(source)
         steps = [assembly.steps[kind] for kind in self._kinds]

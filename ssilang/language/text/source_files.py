@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
+from ssilang.system_reasons import system_reason
 
 
 def read_source(path: Path) -> Source:
@@ -19,5 +20,5 @@ def read_source(path: Path) -> Source:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise SsiError("missing-file", None, path=str(path), reason=error.strerror) from None
+        raise SsiError("missing-file", None, path=str(path), reason=system_reason(error)) from None
     return Source.decode(str(path), data, path)

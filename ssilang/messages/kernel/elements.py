@@ -25,6 +25,12 @@ MESSAGES: dict[str, Message] = {
         "it has: {present:?{present}|nothing there}",
         "il a : {present:?{present}|rien à cet endroit}",
     ),
+    "principal-of-no-number": Message(
+        "the stresses of element {element} are not finite numbers",
+        "les contraintes de l'élément {element} ne sont pas des nombres finis",
+        "look for a thickness of zero and for cells without length",
+        "cherchez une épaisseur nulle et des éléments sans longueur",
+    ),
     "element-no-geometric-stiffness": Message(
         "element {element} has no geometric stiffness",
         "l'élément {element} n'a pas de raideur géométrique",

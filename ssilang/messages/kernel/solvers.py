@@ -19,6 +19,12 @@ MESSAGES: dict[str, Message] = {
         "the matrix stays singular when its free motions are held",
         "la matrice reste singulière quand ses mouvements libres sont tenus",
     ),
+    "unknowns-without-stiffness": Message(
+        "{idle} of {count} unknowns meet no stiffness",
+        "{idle} inconnues sur {count} ne rencontrent aucune raideur",
+        "leave bodies without stiffness out of the model",
+        "laissez hors du modèle les corps sans raideur",
+    ),
     "uzawa-sweeps-did-not": Message(
         "Uzawa's sweeps did not converge in {most_sweeps} (last change {change:.1e})",
         "les balayages d'Uzawa n'ont pas convergé en {most_sweeps} (dernière variation "

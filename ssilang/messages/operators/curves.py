@@ -83,6 +83,12 @@ MESSAGES: dict[str, Message] = {
         "the table has no FLOTTANT index",
         "la table n'a pas d'indice FLOTTANT",
     ),
+    "fields-of-one-kind": Message(
+        "between {first:g} and {last:g} the table has not two fields of one kind",
+        "entre {first:g} et {last:g}, la table n'a pas deux champs d'un même type",
+        "IPOL takes two CHPOINT or two MCHAML",
+        "IPOL prend deux CHPOINT ou deux MCHAML",
+    ),
     "outside-table": Message(
         "{time:g} is outside of the table, {first:g} to {last:g}",
         "{time:g} est hors de la table, de {first:g} à {last:g}",

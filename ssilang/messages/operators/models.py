@@ -245,6 +245,14 @@ MESSAGES: dict[str, Message] = {
         "{text}: {described}",
         "{text}: {described}",
     ),
+    "no-stiffness": Message(
+        "YOUN = 0: these cells resist nothing, and nodes that have no others are held by nothing",
+        "YOUN = 0 : ces éléments ne résistent à rien, et les noeuds qui n'en ont pas d'autres ne "
+        "sont tenus par rien",
+        "leave such bodies out of the model, or give them a small modulus",
+        "laissez de tels corps hors du modèle, ou donnez-leur un petit module",
+        severity="warning",
+    ),
     "unusual-value": Message(
         "{name} = {value:g}{unit:? {unit}} is unusually {small:?small|large}: in {system} it is "
         "usually {low:g} to {high:g}{unit:? {unit}} ({meaning})",

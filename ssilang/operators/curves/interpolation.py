@@ -211,6 +211,8 @@ def in_table(call: Call, table: Table, time: float) -> Any:
     k = min(int(np.searchsorted(times, time, side="right")), len(times) - 1)
     (t0, a), (t1, b) = pairs[k - 1] if k else pairs[0], pairs[k]
     share = 0.0 if t1 == t0 else (time - t0) / (t1 - t0)
+    if type(a) is not type(b) or not isinstance(a, NodeField | CellField):
+        raise call.error("operators.curves.fields-of-one-kind", table, first=t0, last=t1)
     algebra: Any = node_algebra if isinstance(a, NodeField) else cell_algebra
     first = algebra.applied(a, lambda v: v * (1.0 - share))
     return algebra.added(first, b, share)

@@ -207,6 +207,7 @@ def _parameters(
         check(model, given)
     for zone, values in zip(model.zones, given, strict=True):
         _refuse_outside(call, zone, values, said)
+        _warn_of_nothing(call, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
@@ -228,6 +229,18 @@ def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]
                 text=found.range.text(name),
                 described=words.described(found, call.session.language),
             )
+
+
+def _warn_of_nothing(call: Call, values: Values, said: dict[str, Any]) -> None:
+    """Warn of a modulus of nought, which leaves a system singular where nothing else holds it."""
+    session = call.session
+    if "YOUN" not in said or "YOUN" not in values or "VISQ" in values:
+        return
+    if session.frame.procedure not in session.library.standard_names:
+        array = values["YOUN"][0]
+        if array.dtype == float and (array == 0.0).any():
+            place = call.error("operators.models.no-stiffness", said["YOUN"]).span
+            session.warn("operators.models.no-stiffness", place)
 
 
 def _set_value(

@@ -160,3 +160,37 @@ def test_axes_of_two_points_are_those_of_the_line_between_them(mode):
     assert np.linalg.det(frame) == pytest.approx(1.0 if d == 3 else -1.0)
     if d == 2:
         np.testing.assert_allclose(frame[0], [-0.8, 0.6], rtol=1e-14)
+
+
+@pytest.mark.parametrize(("angle", "refused"), [(0.0, False), (115.0, False), (125.0, True)])
+def test_a_direction_that_turns_its_back_on_the_second_point_is_refused(angle, refused):
+    """A JOI1 that opens from its first point to its second; more than 120 degrees off is inside
+    out."""
+    bench = Bench()
+    block = CellBlock.make(
+        bench.table, "SEG2", np.array([[bench.node(0.0, 0.0), bench.node(3.0, 0.0)]])
+    )
+    zone = Zone(block, "MECANIQUE", ("ELASTIQUE", "JOINT_SDM"), "JOI1", bench.mode)
+    turned = {"V1X": np.cos(np.radians(angle)), "V1Y": np.sin(np.radians(angle))}
+    field = CellField((CellFieldBlock(block, {k: np.full((1, 1), v) for k, v in turned.items()}),))
+    if refused:
+        with pytest.raises(MeshError) as error:
+            joint_cells(zone, zone_field(zone, field))
+        assert error.value.code == "kernel.interface.joint-joi1-normal-goes"
+    else:
+        (frame,) = joint_cells(zone, zone_field(zone, field)).frames[0]
+        np.testing.assert_allclose(frame[-1], list(turned.values()), atol=1e-15)
+
+
+@pytest.mark.parametrize("side", [1e-3, 1.0, 1e4])
+def test_thickness_counts_against_the_length_of_a_cell(side):
+    """A gap of a millionth of the side shows which way a joint opens, in any unit of length."""
+    bench = Bench(Mode.THREE_DIMENSIONAL)
+    square = np.array([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])
+    ends = [[bench.node(*p, z) for p in square] for z in (0.0, -1e-6 * side)]
+    zone = bench.joint("LIA4", [*ends[1], *ends[0]], "JOI4", KN=1.0, KS=1.0)
+    with pytest.raises(MeshError) as error:
+        joint_cells(zone, None)
+    assert error.value.code == "kernel.interface.joint-normal-goes-first"
+    right = bench.joint("LIA4", [*ends[0], *ends[1]], "JOI4", KN=1.0, KS=1.0)
+    assert joint_cells(right, None).weights.sum() == pytest.approx(side**2)

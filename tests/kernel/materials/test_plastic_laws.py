@@ -238,3 +238,43 @@ def test_flow_along_its_own_cone_ends_at_the_tip_only_where_the_deviator_is_used
         assert found.variables[0, 0] == pytest.approx(x * np.sqrt(delta**2 + 2 * gamma**2))
     else:
         assert stress == pytest.approx([*[strength / alpha / 3] * 3, 0, 0, 0], abs=1e-12)
+
+
+def test_concrete_unloads_and_loads_again_along_its_first_slope() -> None:
+    """Parabola FC x (2 - x), x = -e / 0.002; what it left behind stays while it is unloaded."""
+    law, E = PLASTIC_LAWS["BETON_BAEL"], 2000.0
+    values = {"YOUN": E, "NU": 0.3, "FC": 2.0}
+    p = PointParameters({n: np.full(1, v) for n, v in values.items()}, {})
+    stress, variables, last, found = np.zeros((1, 6)), np.zeros((1, len(law.variables))), 0.0, []
+    path = [-1e-3, -0.9e-3, -0.95e-3, 1e-4, -0.5e-3, -3e-3, -2.5e-3, -2.1e-3]
+    for strain in path:
+        step = np.zeros((1, 6))
+        step[0, 0] = strain - last
+        after = law.respond(p, stress, step, variables)
+        stress, variables, last = after.stress, after.variables, strain
+        found.append(float(stress[0, 0]))
+    left = -1e-3 + 1.5 / E  # the peak of the first loading is FC 0.5 1.5 = 1.5
+    wanted = [-1.5, -1.5 + E * 1e-4, -1.5 + E * 0.5e-4, 0.0, E * (-0.5e-3 - left), -2.0]
+    wanted += [-2.0 + E * 0.5e-3, -2.0 + E * 0.9e-3]
+    assert found == pytest.approx(wanted, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["RH_COULOMB", "PARFAIT"])
+def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
+    """EPSE grows by sqrt(2/3 ep : ep), all six components counted as a tensor's."""
+    law, p = PLASTIC_LAWS[name], parameters(name)
+    first, _ = steps(7)
+    blank = np.zeros((M, len(law.variables)))
+    after = law.respond(p, np.zeros((M, 6)), 3 * first, blank)
+    E, nu = 1000.0, 0.3
+    s = after.stress
+    elastic = (1 + nu) / E * s
+    elastic[:, :3] -= nu / E * s[:, :3].sum(axis=1, keepdims=True)
+    elastic[:, 3:] *= 2.0  # engineering shears
+    plastic = 3 * first - elastic
+    tensor = np.zeros((M, 3, 3))
+    for k, (i, j) in enumerate([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]):
+        tensor[:, i, j] = tensor[:, j, i] = plastic[:, k] * (1.0 if i == j else 0.5)
+    wanted = np.sqrt(2 / 3 * np.einsum("mij,mij->m", tensor, tensor))
+    assert (wanted > 1e-4).mean() > 0.5
+    np.testing.assert_allclose(after.variables[:, 0], wanted, rtol=1e-6, atol=1e-12)

@@ -184,6 +184,34 @@ def test_motions_without_stiffness_and_mass_are_left_out():
     np.testing.assert_allclose(found, exact, rtol=1e-9)
 
 
+def test_idle_motions_are_told_from_massless_ones_whatever_the_units():
+    """A mass that weighs along (0.6, 0.8) alone, held both ways, beside an idle unknown.
+
+    Masses of 1e9 on springs of 1: what tells motions that meet nothing must weigh K and M alike.
+    """
+    table = NodeTable()
+    table.add(np.zeros((2, 3)))
+    along = np.array([[0.36, 0.48], [0.48, 0.64]])
+    across = np.array([[0.64, -0.48], [-0.48, 0.36]])
+    held_both, idle = 2.0 * along + across, np.zeros((2, 2))
+    nodes, zero, twice = np.array([[0], [1]]), np.zeros(2, np.int64), ("UY", "UZ")
+    K, M = (
+        Matrix(
+            table,
+            (
+                ElementMatrices(
+                    table, nodes, zero, twice, ("FY", "FZ"), np.array([there, idle]), kind
+                ),
+            ),
+            (),
+            kind,
+        )
+        for there, kind in ((held_both, "RIGIDITE"), (1e9 * along, "MASSE"))
+    )
+    (mode,) = modes_near(K, M, [(0.0, 5)])
+    assert eigenvalue(mode.frequency) == pytest.approx(2e-9, rel=1e-9)
+
+
 @pytest.mark.parametrize("shift", [0.0, 0.05, 0.12])  # below all modes, and among them
 def test_a_grid_of_springs_finds_its_modes_near_any_frequency(shift):
     n, k, m = 40, 3.0, 0.5  # 1600 masses moving across a net, clamped all around

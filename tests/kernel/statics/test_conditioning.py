@@ -5,6 +5,7 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.statics import conditioning
 from ssilang.kernel.statics.conditioning import (
     condition_number,
     joint_conditioning,
@@ -82,6 +83,20 @@ def test_mass_makes_short_steps_well_conditioned():
     long, short = (joint_conditioning(stack(1e-8, (0.0, dt), 100.0)).number for dt in (1e9, 1e-3))
     assert long > 1e12
     assert short < 1e3
+
+
+@pytest.mark.parametrize("kn", [1e3, 1e9])
+def test_a_mass_on_each_unknown_bounds_the_number_without_a_factor(kn, monkeypatch):
+    problem = stack(kn, (0.0, 1e-3), 100.0)
+    J, T = problem.interface.J.toarray(), problem.constraints.T.toarray()
+    A = (problem.K + 4 / 1e-3**2 * problem.M).toarray()
+    A = T.T @ (A + J.T @ problem.interface.closed_stiffness() @ J) @ T
+    scale = np.diag(A) ** -0.5
+    exact = np.linalg.cond(scale[:, None] * A * scale, 1)
+    monkeypatch.setattr(conditioning, "condition_number", lambda A: pytest.fail("factorised"))
+    found = joint_conditioning(problem)
+    assert exact <= found.number < 1e3 * exact
+    assert not found.joints_are_to_blame
 
 
 def test_the_stiffest_and_the_softest_part_are_named():

@@ -16,7 +16,13 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.statics.linear import SolveOptions, product, reactions, solve
+from ssilang.kernel.statics.linear import (
+    SolveOptions,
+    linear_system,
+    product,
+    reactions,
+    solve,
+)
 
 SADDLE = SolveOptions(eliminate=False)
 
@@ -259,3 +265,24 @@ def test_reused_values_of_conditions_come_from_the_field():
     d = imposed_values(load(matrix, [0, 0, 0], [0.5]), constraint_matrix(matrix).multipliers)
     np.testing.assert_allclose(d, [0.5])
     assert assemble(matrix).shape == (3, 3)
+
+
+def test_rows_whose_force_is_their_own_are_eliminated_beside_others():
+    """u1 = 0 is an ordinary row; u2 = d is kept by a force at node 3."""
+    K = np.diag([4.0, 4.0, 4.0]) - np.diag([1.0, 1.0], 1) - np.diag([1.0, 1.0], -1)
+    C, D = np.eye(3)[:2], np.eye(3)[[0, 2]]
+    matrix = whole(K, C, D=D)
+    assert list(linear_system(matrix, SolveOptions()).saddle) == [1]
+    (found,) = solve(matrix, [load(matrix, [0.0, 0.0, 0.0], [0.0, 0.5])])
+    u, _ = vectors(matrix, found)
+    np.testing.assert_allclose(u, [0.0, 0.5, 2.0], rtol=1e-12, atol=1e-15)  # row 2: 4 u2 = u3
+
+
+def test_of_loads_that_are_not_finite_one_is_named():
+    matrix = whole(np.eye(3))
+    with pytest.raises(KernelError) as refused:
+        solve(matrix, [load(matrix, [1.0, np.inf, np.nan])])
+    assert refused.value.code == "kernel.statics.load-not-finite"
+    (at,) = refused.value.data["at"]
+    assert "UX" in str(at)
+    assert "(1." in str(at)

@@ -64,7 +64,7 @@ def test_names_are_assigned_where_they_first_get_a_value():
 
 def test_a_printed_script_has_its_blocks_indented():
     text = (
-        "a = 1 ; '*' 2 3 ; REPE B1 2 ; SI (a < 2) ; b = -1E999 ; SINON ; b = 1E999 ; FINSI ;"
+        "a = 1 ; '*' 2 3 ; REPE B1 2 ; SI (a < 2) ; b = -1E99 ; SINON ; b = 1E99 ; FINSI ;"
         " FIN B1 ; DEBP P1 X*ENTIER ; Y = X ; FINP Y ;"
     )
     assert print_script(parse(Source("x", text))) == (
@@ -72,9 +72,9 @@ def test_a_printed_script_has_its_blocks_indented():
         "'*' 2 3 ;\n"
         "REPE B1 2 ;\n"
         "  SI (A < 2) ;\n"
-        "    B = -1E999 ;\n"
+        "    B = -1e+99 ;\n"
         "  SINON ;\n"
-        "    B = 1E999 ;\n"
+        "    B = 1e+99 ;\n"
         "  FINSI ;\n"
         "FIN B1 ;\n"
         "DEBP P1 X*ENTIER ;\n"

@@ -148,14 +148,18 @@ def folder_of(module: str) -> Path | None:
     try:
         folder.mkdir(mode=0o700, exist_ok=True)
         os.utime(folder)
-        _remove_old(module, folder)
+        _remove_old(base)
     except OSError:  # another process removes the same folders, or the disk is full
         pass
     return folder if opened_to_others(folder) is None else None
 
 
-def _remove_old(module: str, kept: Path) -> None:
+@cache
+def _remove_old(base: Path) -> None:
+    """Remove code of older states of modules that nobody has used for long, once a process."""
     limit = time.time() - KEPT_SECONDS
-    for folder in kept.parent.glob(f"{module}-*"):
-        if folder != kept and folder.stat().st_mtime < limit:
-            shutil.rmtree(folder, ignore_errors=True)
+    with os.scandir(base) as found:
+        old = [f.name for f in found if f.is_dir() and f.stat().st_mtime < limit]
+    for name in old:
+        if name != f"{(module := name.rpartition('-')[0])}-{state_of(module)}":
+            shutil.rmtree(base / name, ignore_errors=True)

@@ -67,7 +67,14 @@ def principal(zone: Zone, T: FloatArray, ordered: bool) -> FloatArray:
     """Principal values then directions, (n, 12, p) in the order of `PRINCIPAL`.
 
     In space and with `ordered` values decrease; else the third is the one out of the plane.
+
+    Raises
+    ------
+    FieldError
+        For tensors with values that are not finite: a shell without thickness or without length.
     """
+    if not np.isfinite(T).all():
+        raise FieldError("kernel.elements.principal-of-no-number", element=zone.element)
     values, vectors = np.linalg.eigh(T)
     values, vectors = values[..., ::-1], vectors[..., ::-1]
     space = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)

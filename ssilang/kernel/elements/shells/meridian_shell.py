@@ -144,7 +144,11 @@ class MeridianShell(ShellFamily):
 
     @staticmethod
     def _around(B: FloatArray, m: _Meridian, k: int) -> None:
-        """Rows of the circumference, for harmonic k."""
+        """Rows of the circumference, for harmonic k.
+
+        The twist counts the turning about the normal (Sanders, NASA TR R-24, 1959; Koiter, 1960),
+        without which a body's own turning would twist a shell.
+        """
         if (m.r <= 0).any():
             raise MeshError("kernel.elements.shell-cell-reaches-across")
         r, tr, nr = m.r[..., None], m.t[:, 0, None, None], m.n[:, 0, None, None]
@@ -152,7 +156,8 @@ class MeridianShell(ShellFamily):
         B[:, 1] = (tr * m.u + nr * m.w + k * m.v) / r
         B[:, 2] = m.dv - (k * m.u + tr * m.v) / r
         B[:, 4] = (k * turn - tr * m.dw) / r
-        B[:, 5] = (2 * k * m.dw + nr * m.dv) / r - 2 * tr * turn / r
+        about_normal = 0.5 * (m.dv + (tr * m.v + k * m.u) / r)
+        B[:, 5] = (2 * k * m.dw + nr * m.dv - 2 * tr * turn + nr * about_normal) / r
 
     @staticmethod
     def _measure(zone: Zone, m: _Meridian, parameters: ZoneField, cells: slice) -> FloatArray:

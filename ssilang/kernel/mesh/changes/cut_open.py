@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
@@ -103,9 +104,6 @@ def _side(
     seeds: set[tuple[int, int]],
 ) -> set[tuple[int, int]]:
     """Cells joined to the seeds by edges that the line does not cut."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     number = {c: i for i, c in enumerate(cells)}
     links = [
         (number[a], number[b])
@@ -115,7 +113,6 @@ def _side(
         if a in number and b in number
     ]
     table = np.array(links, dtype=np.int64).reshape(-1, 2)
-    graph = coo_array((np.ones(len(table)), (table[:, 0], table[:, 1])), shape=(len(cells),) * 2)
-    _, label = connected_components(graph, directed=False)
+    label = parts_of(len(cells), table.T)
     wanted: IntArray = np.unique([label[number[c]] for c in seeds if c in number])
     return {c for c in cells if label[number[c]] in wanted}

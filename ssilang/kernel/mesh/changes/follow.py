@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import entries, parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.mesh.boundary import contour, edges, envelope
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -57,15 +58,14 @@ def followed(
 
 def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArray:
     """Values (n, 3) with A values = 0 at the rows that are not fixed."""
-    from scipy.sparse.csgraph import connected_components
     from scipy.sparse.linalg import splu
 
     free = np.flatnonzero(~fixed)
     if not len(free):
         return values
     known = np.flatnonzero(fixed)
-    count, part = connected_components(A, directed=False)
-    if len(np.unique(part[known])) < count:
+    part = parts_of(len(values), entries(A))
+    if len(np.unique(part[known])) <= part.max():
         raise MeshError("kernel.mesh.part-mesh-no-master")
     found = splu(sp.csc_array(A[free][:, free])).solve(-(A[free][:, known] @ values[known]))
     result = values.copy()

@@ -242,8 +242,8 @@ def divided_to_sizes(mesh: Mesh, sizes: FloatArray) -> Mesh:
     still = [c for c in cells if c.cell_type == "POI1"]
     active = [c for c in cells if c.cell_type != "POI1"]
     top = max((CELL_TYPES[c.cell_type].dimension for c in active), default=0)
-    _check_number(state, active)
     while True:
+        _check_number(state, active)  # again and again: smaller sizes may come in between
         marks = [(_excess(state, c) > 1.0) | _torn(state, c, top) for c in active]
         if not any(m.any() for m in marks):
             break

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.combine import take, union
@@ -75,13 +76,9 @@ def _check(tolerance: float) -> None:
 
 
 def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     if not len(pairs):
         return 0
-    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ids), len(ids)))
-    _, label = connected_components(links, directed=False)
+    label = parts_of(len(ids), pairs.T)
     oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
     np.minimum.at(oldest, label, ids)
     kept = oldest[label]

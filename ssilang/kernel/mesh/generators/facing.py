@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.mesh import CellBlock
 
 _POINTS = 8  # looked at on a segment; 16 on a triangle
 _ALIGNED = 0.7  # cosine between the normals of cells that face each other
+_FLAT = 1e-20  # squared sine of the angle between edges of a simplex without surface
 
 
 @dataclass(frozen=True)
@@ -95,12 +96,17 @@ def _unit(vectors: FloatArray) -> FloatArray:
 
 
 def _faces(points: FloatArray, corners: FloatArray, tolerance: float) -> BoolArray:
-    """Whether the foot of each point (n, 3) lies in its simplex (n, k, 3), near enough."""
+    """Whether the foot of each point (n, 3) lies in its simplex (n, k, 3), near enough.
+
+    A flat simplex faces nothing.
+    """
     edges = corners[:, 1:] - corners[:, :1]
     gram = np.einsum("nix,njx->nij", edges, edges)
-    gram += np.eye(edges.shape[1]) * 1e-300
+    lengths = np.einsum("nii->ni", gram)
+    flat = np.linalg.det(gram) <= _FLAT * lengths.prod(axis=1)
+    gram[flat] = np.eye(edges.shape[1])
     away = points - corners[:, 0]
     foot = np.linalg.solve(gram, np.einsum("nix,nx->ni", edges, away)[..., None])[..., 0]
     inside = (foot >= 0.0).all(axis=1) & (foot.sum(axis=1) <= 1.0)
     distance = np.linalg.norm(away - np.einsum("ni,nix->nx", foot, edges), axis=1)
-    return np.asarray(inside & (distance <= tolerance))
+    return np.asarray(inside & (distance <= tolerance) & ~flat)

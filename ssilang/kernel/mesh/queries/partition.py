@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 _WIDTH = 4  # corners of the largest side of a cell
@@ -107,13 +108,8 @@ def _starts(mesh: Mesh) -> IntArray:
 
 def _zones(mesh: Mesh, links: IntArray) -> list[Mesh]:
     """Meshes of the cells linked with each other; `links` (m, 2) may pass by other numbers."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     size = int(max(links.max(initial=-1) + 1, mesh.n_cells))
-    graph = coo_matrix((np.ones(len(links), dtype=bool), links.T), shape=(size, size))
-    label = connected_components(graph, directed=False)[1][: mesh.n_cells]
-    return _by_label(mesh, label.astype(np.int64))
+    return _by_label(mesh, parts_of(size, links.T)[: mesh.n_cells])
 
 
 def _by_label(mesh: Mesh, label: IntArray) -> list[Mesh]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.surfaces.triangulate import delaunay_triangles, recover_segments
 
@@ -63,7 +63,7 @@ def _flat(at: FloatArray, dimension: int) -> FloatArray:
 
 def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.bool_]:
     """Triangles in parts that an odd number of lines, the fewest, divides from the outside."""
-    from scipy.sparse.csgraph import connected_components, shortest_path
+    from scipy.sparse.csgraph import shortest_path
 
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2) @ [n, 1]
     walls = np.sort(segments, axis=1) @ [n, 1]
@@ -73,11 +73,8 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     pair = np.flatnonzero(keys[:-1] == keys[1:])
     first, second, key = owner[pair], owner[pair + 1], keys[pair]
     open_side = ~np.isin(key, walls)
-    size = len(triangles)
-    links = sp.coo_matrix(
-        (np.ones(open_side.sum()), (first[open_side], second[open_side])), shape=(size, size)
-    )
-    n_parts, part = connected_components(links, directed=False)
+    part = parts_of(len(triangles), (first[open_side], second[open_side]))
+    n_parts = int(part.max()) + 1
     alone = np.ones(len(keys), dtype=bool)
     alone[pair] = alone[pair + 1] = False
     rim = part[owner[alone]]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.select import segment_distance
 from ssilang.kernel.mesh.surfaces.triangle_crossing import crossing_segments
@@ -51,18 +52,15 @@ def _triangles(surface: Mesh) -> IntArray:
 
 def _joined(ends: FloatArray, near: float) -> tuple[FloatArray, IntArray]:
     """Points (p, 3), each once, and the segments (k, 2) between them."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     flat = ends.reshape(-1, 3)
     if not len(flat):
         return flat, np.empty((0, 2), dtype=np.int64)
     pairs = cKDTree(flat).query_pairs(near, output_type="ndarray")
-    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=2 * (len(flat),))
-    _, group = connected_components(links, directed=False)
+    group = parts_of(len(flat), pairs.T)
     _, firsts = np.unique(group, return_index=True)
-    return flat[firsts], group.reshape(-1, 2).astype(np.int64)
+    return flat[firsts], group.reshape(-1, 2)
 
 
 def _imprint(

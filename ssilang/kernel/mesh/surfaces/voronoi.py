@@ -15,6 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
 
 OUTSIDE = -1
@@ -184,17 +185,10 @@ def _no_edges() -> tuple[FloatArray, IntArray]:
 
 def _joined(corners: FloatArray, ends: FloatArray, close: float) -> tuple[FloatArray, IntArray]:
     """Points without doubles, corners first, and the edges (m, 2) between them."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     x = np.concatenate([corners, ends.reshape(-1, 2)])
     pairs = cKDTree(x).query_pairs(2 * close, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(x), len(x)))
-    labels = connected_components(graph, directed=False)[1]
-    _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    edges = rank[inverse[len(corners) :]].reshape(-1, 2)
-    return x[first[order]], edges
+    labels = parts_of(len(x), pairs.T)
+    _, first = np.unique(labels, return_index=True)
+    return x[first], labels[len(corners) :].reshape(-1, 2)

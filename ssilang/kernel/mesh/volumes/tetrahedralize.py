@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.volumes.regular_weights import lift_faces, small_spheres
 
 _ROUNDS = 10
@@ -210,9 +211,6 @@ def _inside_cells(
     points: FloatArray, cells: IntArray, surface: FloatArray, triangles: IntArray
 ) -> IntArray:
     """Cells inside the surface, turned to positive volume."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     size = int(cells.max()) + 1
     codes = _codes(_faces(cells), size)
     walls = np.isin(codes, _codes(np.sort(triangles, axis=1), size))
@@ -220,14 +218,13 @@ def _inside_cells(
     order = np.argsort(codes, kind="stable")
     pair = np.flatnonzero((codes[order][1:] == codes[order][:-1]) & ~walls[order][1:])
     one, two = owner[order][pair], owner[order][pair + 1]
-    graph = coo_array((np.ones(len(one)), (one, two)), shape=(len(cells), len(cells)))
-    count, label = connected_components(graph, directed=False)
+    label = parts_of(len(cells), (one, two))
     outer = np.unique(label[(cells >= len(points)).any(axis=1)])
     x = points[np.where(cells < len(points), cells, 0)]
     arms = x[:, 1:] - x[:, :1]
     volume = np.einsum("ni,ni->n", np.cross(arms[:, 0], arms[:, 1]), arms[:, 2])
-    keep = np.zeros(count, dtype=bool)
-    for part in np.setdiff1d(np.arange(count), outer):
+    keep = np.zeros(int(label.max()) + 1, dtype=bool)
+    for part in np.setdiff1d(label, outer):
         rows = np.flatnonzero(label == part)
         largest = rows[np.abs(volume[rows]).argmax()]
         if np.abs(volume[largest]) > 1e-12:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.graph import chains, parts_of
 from ssilang.kernel.base.sparse import sp
 
 BoolArray = NDArray[np.bool_]
@@ -195,11 +196,9 @@ def _group_stage(
     rows = np.flatnonzero(todo & (_open_terms(C, taken) ** 2 <= LARGEST_FILL))
     if len(rows) == 0:
         return []
-    from scipy.sparse.csgraph import connected_components  # brings all of scipy.linalg
-
     part = C[rows][:, ~taken]
     columns = np.flatnonzero(~taken)
-    _, label = connected_components(abs(part) @ abs(part).T, directed=False)
+    label = parts_of(len(rows), chains(sp.csr_array(part.T)))
     order = np.argsort(label, kind="stable")
     groups = np.split(order, np.cumsum(np.bincount(label))[:-1])
     pieces = [_one_group(part, rows, columns, g) for g in groups if len(g) <= LARGEST_GROUP]

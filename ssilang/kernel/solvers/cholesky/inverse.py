@@ -25,6 +25,7 @@ SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions a
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
 SHIFT = 1e-12
 ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
+MOST = 100_000_000  # numbers of which free motions may consist: 0.8 GB
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,10 +97,8 @@ def invert(
     Raises
     ------
     KernelError
-        If A holds values that are not finite.
+        If A holds values that are not finite, or many of its unknowns meet nothing.
     """
-    import scipy.linalg as la
-
     if not np.isfinite(A.data).all():
         raise KernelError("kernel.solvers.matrix-holds-values-not")
     n = A.shape[0]
@@ -107,6 +106,51 @@ def invert(
     if n == 0:
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     scaled, scale = unit_diagonal(A)
+    if symmetric and not scaled.diagonal().all():
+        used = np.flatnonzero(np.asarray(abs(scaled).max(axis=1).toarray()))
+        if len(used) < n:
+            return _without_idle(scaled, scale, used, solver, ordering)
+    return _invert(scaled, scale, symmetric, solver, ordering)
+
+
+def _without_idle(
+    scaled: sp.csr_array,
+    scale: FloatArray,
+    used: IntArray,
+    solver: Solver | str | None,
+    ordering: Ordering | None,
+) -> Inverse:
+    """Inverse of a symmetric matrix, some of whose rows are zero: each is a free motion.
+
+    Iterations would find these motions too, at the price of some dense matrices of their number.
+    """
+    n = scaled.shape[0]
+    idle = np.setdiff1d(np.arange(n), used)
+    if len(idle) * n > MOST:
+        raise KernelError("kernel.solvers.unknowns-without-stiffness", idle=len(idle), count=n)
+    part = None if ordering is None else ordering.of(used)
+    held = _invert(sp.csr_array(scaled[used][:, used]), scale[used], True, solver, part)
+    motions = np.zeros((n, held.kernel.shape[1] + len(idle)))
+    motions[used, : held.kernel.shape[1]] = held.kernel
+    motions[idle, held.kernel.shape[1] + np.arange(len(idle))] = 1.0
+    pinned = np.sort(np.concatenate([used[held.pinned], idle]))
+    return Inverse(held.factor, scale, motions, pinned, used[held.kept])
+
+
+def _invert(
+    scaled: sp.csr_array,
+    scale: FloatArray,
+    symmetric: bool,
+    solver: Solver | str | None,
+    ordering: Ordering | None,
+) -> Inverse:
+    """Inverse of a matrix that is scaled to a diagonal near one by `scale`."""
+    import scipy.linalg as la
+
+    n = scaled.shape[0]
+    nothing = np.empty(0, dtype=np.int64)
+    if n == 0:
+        return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     ordering = None if ordering is None else ordering.scaled(scale)
     factor = _try_factors(scaled, symmetric, solver, ordering)
     if factor is not None and factor.name == MULTIGRID:
@@ -137,7 +181,7 @@ class _Empty:
 
 
 def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
-    """`S A S` with a diagonal near one, and the diagonal of S; columns are shared with A."""
+    """`S A S` with a diagonal near one, and the diagonal of S."""
     size, rows = np.abs(A.diagonal()), A.shape[0]
     data = np.empty_like(A.data)
     largest = np.zeros(rows)
@@ -156,7 +200,7 @@ def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
         part = slice(A.indptr[low], A.indptr[high])
         data[part] = A.data[part] * scale[A.indices[part]]
         data[part] *= np.repeat(scale[low:high], np.diff(A.indptr[low : high + 1]))
-    return sp.csr_array((data, A.indices, A.indptr), shape=A.shape), scale
+    return sp.csr_array((data, A.indices.copy(), A.indptr.copy()), shape=A.shape), scale
 
 
 def _try_factors(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.statics.linear_motion import tied
 from ssilang.kernel.stepping.problem.problem import Problem
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
@@ -41,14 +42,7 @@ def bodies_of(problem: Problem) -> IntArray:
 
     The unknowns of one node belong together.
     """
-    from scipy.sparse.csgraph import connected_components  # brings all of scipy.linalg
-
-    n, C = problem.numbering.size, abs(problem.constraints.C)
-    nodes = problem.numbering.nodes
-    _, place = np.unique(nodes, return_inverse=True)
-    together = sp.csr_array((np.ones(n), (place, np.arange(n))), shape=(place.max() + 1, n))
-    graph = abs(problem.K) + abs(problem.M) + C.T @ C + together.T @ together
-    return connected_components(sp.csr_array(graph), directed=False)[1].astype(np.int64)
+    return tied(problem.numbering, problem.constraints.C, problem.K, problem.M)
 
 
 def translation(problem: Problem, normals: FloatArray) -> FloatArray:

@@ -175,8 +175,6 @@ def _with_friction(
 
 def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     """Accelerations (n,) or (n, k) that forces give to the motions that have mass."""
-    import scipy.sparse.linalg as spla
-
     T, V = problem.constraints.T, problem.constraints.V
     mass = sp.csr_array(V.T @ problem.M @ T)
     if not problem.constraints.associated:
@@ -184,18 +182,7 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     heavy = np.flatnonzero(np.abs(mass.diagonal()) > 0.0)
     q = np.zeros((T.shape[1], *force.shape[1:]))
     if len(heavy):
-        block = sp.csc_array(mass[heavy][:, heavy])
-        pushed = (T.T @ force)[heavy]
-        try:
-            if goes_to_petsc(problem.solver, len(heavy)):
-                factor = factorise(sp.csr_array(block), True, problem.solver)
-                q[heavy] = factor.solve(pushed)
-            elif len(heavy) >= MANY:
-                q[heavy] = _of_heavy(block, pushed)
-            else:
-                q[heavy] = spla.splu(block).solve(pushed)
-        except (RuntimeError, SingularFactorError):
-            q[heavy] = np.linalg.lstsq(block.toarray(), pushed, rcond=1e-12)[0]
+        q[heavy] = _solved(problem, sp.csc_array(mass[heavy][:, heavy]), (T.T @ force)[heavy])
     if not np.isfinite(q).all():
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
     a: FloatArray = T @ q
@@ -221,6 +208,23 @@ def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
     if not all(x.converged for x in found):
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
     return np.column_stack([x.x for x in found]).reshape(force.shape)
+
+
+def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArray:
+    """q of `mass q = force`, the least one where a mass is singular."""
+    own = mass.diagonal()
+    if np.count_nonzero(mass.data) == len(own):
+        return np.asarray((force.T / own).T)
+    import scipy.sparse.linalg as spla
+
+    try:
+        if goes_to_petsc(problem.solver, len(own)):
+            return factorise(sp.csr_array(mass), True, problem.solver).solve(force)
+        if len(own) >= MANY:
+            return _of_heavy(mass, force)
+        return np.asarray(spla.splu(mass).solve(force))
+    except (RuntimeError, SingularFactorError):
+        return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0])
 
 
 def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:

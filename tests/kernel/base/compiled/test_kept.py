@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+from ssilang.kernel.base.compiled import cache
+
 PROGRAM = """
 from __future__ import annotations
 
@@ -54,3 +56,16 @@ def test_kept_code_loads_without_the_compiler_and_serves_new_code(tmp_path):
     # y.y = 25: x times 25, in all 75
     assert shown == [["[25. 50.]", "True 0"], ["[25. 50.]", "False 1"],
                      ["[25. 50.]", "False 1", "75.0"]]  # fmt: skip
+
+
+def test_code_of_older_states_goes_when_nobody_has_used_it_for_long(tmp_path):
+    module = "ssilang.kernel.base.arrays"
+    names = [f"{module}-{cache.state_of(module)}", f"{module}-0123456789abcdef", "gone-0123"]
+    for name in [*names, f"{module}-fedcba9876543210"]:
+        (tmp_path / name).mkdir()
+    for name in names:
+        os.utime(tmp_path / name, (0.0, 0.0))
+    cache._remove_old.__wrapped__(tmp_path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == sorted(
+        [names[0], f"{module}-fedcba9876543210"]
+    )

@@ -206,3 +206,16 @@ def test_a_beam_without_its_inertia_is_refused():
     zone = line_zone("POUT", [(0, 0), (1, 0)], Mode.PLANE_STRESS)
     with pytest.raises(MaterialError, match="INRZ"):
         families.stiffness(zone, material(zone, YOUN=E, NU=NU, SECT=A))
+
+
+def test_strains_of_a_sheared_section_are_its_forces_over_its_rigidities():
+    """A cantilever under an end force: shear T / (G SECY) all along, curvature M / (E I)."""
+    zone = line_zone("POUT", [(0, 0), (L, 0)], Mode.PLANE_STRESS)
+    mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ, SECY=A / 1.2)
+    load = _force(zone, 1, FX=2e3, FY=1e3)
+    strain = families.strain(zone, _clamped(zone, mat, load), mat).components
+    G = E / (2 * (1 + NU))
+    np.testing.assert_allclose(strain["EPS"], 2e3 / (E * A), rtol=1e-9)
+    np.testing.assert_allclose(np.abs(strain["GXY"]), 1e3 / (G * A / 1.2), rtol=1e-9)
+    curvature = np.abs(strain["CZ"][0])
+    np.testing.assert_allclose(curvature, [1e3 * L / (E * IZ), 0.0], atol=1e-9 * curvature[0])

@@ -472,3 +472,37 @@ def test_simply_supported_plate_of_cut_rectangles_deflects_as_timoshenko_says(n,
     load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
     u = solved(zone, material(zone, **PLATE), fixed, load)
     assert u.values_at("UZ", np.array([centre]))[0] == pytest.approx(0.01160 / D, rel=rtol)
+
+
+@pytest.mark.parametrize(("harmonic", "rigid"), [(0, 2), (1, 2), (2, 0), (3, 0)])
+def test_a_cone_moves_freely_in_as_many_ways_as_a_body_does(harmonic, rigid):
+    """Along its axis and about it; sideways and tilting in the first harmonic; else not at all."""
+    zone = line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.FOURIER)
+    zone.options["harmonic"] = harmonic
+    block = families.stiffness(zone, material(zone, **PLATE))
+    K = block.values[0]
+    scale = 1.0 / np.sqrt(np.diag(K))
+    values = np.linalg.eigvalsh(scale[:, None] * K * scale)
+    assert (np.abs(values) < 1e-12).sum() == rigid
+    assert (values > 1e-6).sum() == len(K) - rigid
+
+
+@pytest.mark.parametrize("element", ["DKT", "COQ4"])
+def test_turning_about_any_axis_mass_off_the_mesh_has_the_energy_of_its_place(element):
+    a, b, e = 1.0, 0.7, 0.2
+    w, v, zone = np.array([0.3, -0.7, 0.4]), np.array([0.2, 0.1, -0.5]), None
+    zone, _, _ = flat_zone(element, 2, a, b)
+    block = families.mass(zone, material(zone, **PLATE, EXCE=e))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    moved = {
+        n: (lambda x, i=i: (v + np.cross(w, x))[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))
+    }
+    turned = {n: (lambda x, i=i: w[i] + 0 * x[:, 0]) for i, n in enumerate(("RX", "RY", "RZ"))}
+    q = layout.gather(field(zone, **moved, **turned))
+    twice = np.einsum("ci,cij,cj->", q, block.values, q)
+    # two points of Gauss each way are exact for squares of linear velocities
+    points = (1 + np.array([-1, 1]) / np.sqrt(3)) / 2
+    x, y = np.meshgrid(a * points, b * points)
+    velocity = v + np.cross(w, np.column_stack([x.ravel(), y.ravel(), np.full(4, e)]))
+    spinning = H**2 / 12 * (w[0] ** 2 + w[1] ** 2)
+    assert twice == pytest.approx(RHO * H * a * b * ((velocity**2).sum() / 4 + spinning), rel=1e-9)

@@ -11,6 +11,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
+from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
@@ -184,3 +185,18 @@ def test_footing_without_a_size_is_refused():
         pushed(
             Mode.THREE_DIMENSIONAL, "MACRO_SEMELLE", "RY", 1.0, [0.0, 1.0], KN=1.0, KS=1.0, LARG=1.0
         )
+
+
+def test_rocking_in_full_contact_is_that_of_the_bed_below():
+    """Turned a little while pressed, a footing answers as the integral of its springs does."""
+    p = parameters(LARG=4.0, LONG=3.0, RAYO=2.0)
+    for name, code in (("MACRO_SEMELLE", STRIP), ("MACRO_DISQUE", DISC)):
+        about_1, about_2 = (float(k[0]) for k in LAWS[name].rocking(p))
+        for axis, stiffness in ((0, about_1), (1, about_2)):
+            w = np.array([0.0, 0.0, -1e-2])
+            w[axis] = 1e-4
+            assert bed_forces(code, w, p)[axis] == pytest.approx(1e-4 * stiffness, rel=3e-3)
+    square = parameters(LARG=4.0)
+    assert LAWS["MACRO_SEMELLE"].rocking(square)[0] == pytest.approx(KN * 16.0 / 12)
+    # two springs of KN / 2 at LARG / 2 from the middle
+    assert LAWS["MACRO_RESSORTS"].rocking(square)[1] == pytest.approx(KN * 2.0**2)

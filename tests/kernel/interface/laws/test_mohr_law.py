@@ -154,3 +154,16 @@ def test_inadmissible_parameters_are_refused(wrong):
         MaterialError, check=lambda e: e.code == "kernel.interface.joint-parameter-must"
     ):
         check_mohr_parameters(parameters(**wrong))
+
+
+def test_compression_that_yielded_yields_on_along_the_same_line():
+    """Steps do not matter: t = -(FNE + QT (w - FNE / KN)), back on KN from any point of it."""
+    p = parameters(FNE=5.0, QT=10.0)
+    w = np.array([-0.04, -0.08, -0.12, -0.15, -0.13, -0.17])
+    t, states = walk([[0, x] for x in w], p)
+    line = -(5.0 + 10.0 * (-w - 0.05))
+    wanted = np.where(w > -0.05, 100.0 * w, line)
+    wanted[4] = line[3] + 100.0 * 0.02
+    np.testing.assert_allclose(t[:, 1], wanted, rtol=1e-12)
+    plastic = -w + t[:, 1] / 100.0
+    np.testing.assert_allclose(states[:, Variable.DAMAGE], plastic, rtol=1e-12, atol=1e-15)

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.columns import (
+    CLOSED_SHEAR,
+    N_PARAMETERS,
+    N_STATE,
+    OPEN_SHEAR,
+    Parameter,
+    Variable,
+)
 from ssilang.kernel.interface.laws.parameters import check_sdm_parameters
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.interface.laws.sdm_arrays import normal_arrays, shear_arrays
@@ -198,3 +205,40 @@ def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
 def test_inadmissible_parameters_are_refused(wrong):
     with pytest.raises(MaterialError):
         check_sdm_parameters(parameters(**wrong))
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-6, 1e-9])
+def test_softening_lies_on_its_curve_whatever_the_unit_of_length(size):
+    """Openings of `size` times 1e-4: t = fu exp(-fu xi / gf) = k (w - xi)."""
+    k, fu, gf = 1e9 / size, 1e5, 20.0 * size
+    t, xi, slope = normal_law(3e-4 * size, 0.0, k, fu, gf, 0.0)
+    assert t == pytest.approx(k * (3e-4 * size - xi), rel=1e-11)
+    assert t == pytest.approx(fu * np.exp(-fu * xi / gf), rel=1e-11)
+    h = 1e-8 * size
+    ends = [normal_law(3e-4 * size + s * h, 0.0, k, fu, gf, 0.0)[0] for s in (1, -1)]
+    assert slope == pytest.approx((ends[0] - ends[1]) / (2 * h), rel=1e-5)
+
+
+def test_slipped_points_store_the_work_of_their_traction_alone():
+    """Shear stops at 0.5e6: stored t^2 / (2 KS1), on the way back too; opening gives it up."""
+    path = np.array([[2e-3, -1e-3], [1.9e-3, -1e-3], [1.9e-3, 1e-4]])
+    t, states = walk(path, parameters(FROT=0.5))
+    np.testing.assert_allclose(t[:, 0], [5e5, 5e5 - 4e4, 0.0], rtol=1e-12)
+    stored = states[:, Variable.SHEAR_ENERGY]
+    np.testing.assert_allclose(stored, t[:, 0] ** 2 / 8e8, rtol=1e-12)
+    lost = np.diff(states[:, Variable.SHEAR_LOSS])
+    np.testing.assert_allclose(lost, [0.0, stored[1]], rtol=1e-12, atol=1e-9)
+
+
+@pytest.mark.parametrize(("held", "kept"), [(CLOSED_SHEAR, True), (OPEN_SHEAR, False)])
+@pytest.mark.parametrize("normal", [-1e-4, 1e-4])
+def test_shear_that_a_step_holds_is_kept_or_given_up_with_its_energy(held, kept, normal):
+    """HELD decides, whatever the normal traction does meanwhile."""
+    p = parameters()
+    _, states = walk(np.array([[1e-3, -1e-3]]), p)
+    state = states[-1:].copy()
+    state[:, Variable.HELD] = held
+    t, new, _ = answer(np.array([[1e-3, normal]]), state, p)
+    assert t[0, 0] == pytest.approx(4e5 if kept else 0.0)
+    assert new[0, Variable.SHEAR_ENERGY] == pytest.approx(200.0 if kept else 0.0)
+    assert new[0, Variable.SHEAR_LOSS] == pytest.approx(0.0 if kept else 200.0)

@@ -41,3 +41,13 @@ def test_another_damping_is_all_rest():
     assert split_damping(C, M, K)[:2] == (0.0, 0.0)
     assert split_damping(C, M, K)[2] is C
     assert split_damping(sp.csr_array((60, 60)), M, K)[2].nnz == 0
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e12])
+def test_dashpots_do_not_count_in_any_unit(size):
+    K, M = chain()
+    extra = np.zeros(60)
+    extra[:9] = 1e4
+    C = sp.csr_array(size * (0.7 * M + 3e-4 * K + sp.diags_array(extra)))
+    a, b, rest = split_damping(C, sp.csr_array(size * M), sp.csr_array(size * K))
+    assert (a, b, rest.nnz) == (pytest.approx(0.7, rel=1e-9), pytest.approx(3e-4, rel=1e-9), 9)

@@ -1,0 +1,199 @@
+"""Objects of the language, as Python sees them: tables as mappings, lists as arrays, words as str.
+
+`seen` turns an object of the language into what Python sees, `held` gives the object back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.api.curves import CurveView
+from ssilang.api.errors import MissingKey, refused
+from ssilang.api.fields import CellFieldView, FieldView, MeshView, PointView
+from ssilang.api.libraries import library
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.near import nearest
+from ssilang.language.values import (
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    Table,
+    type_of,
+)
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+_MOST_SHOWN = 20
+
+
+class TableView(Mapping[Any, Any]):
+    """A TABLE. What a calculation saved is made when it is asked for, not before.
+
+    Parameters
+    ----------
+    held : Table
+        The language's own object.
+
+    Examples
+    --------
+    >>> import ssilang
+    >>> r = ssilang.run("T = TABL ; T . 'B' = 2.5 ; T . 1 = PROG 1. 2. ;")
+    >>> r["T"]["B"], list(r["T"]), r["T"][1].sum()
+    (2.5, ['B', 1], np.float64(3.0))
+    """
+
+    def __init__(self, held: Table) -> None:
+        self.held = held
+
+    def __getitem__(self, index: Any) -> Any:
+        key = held(index)
+        if not self.held.has(key):
+            raise self._missing(index)
+        return seen(self.held.get(key))
+
+    def __contains__(self, index: object) -> bool:
+        return self.held.has(held(index))
+
+    def __iter__(self) -> Iterator[Any]:
+        return (seen(index) for index in self.held.indices())
+
+    def __len__(self) -> int:
+        return len(self.held)
+
+    def _missing(self, index: object) -> Exception:
+        known = [i for i in self.held.indices() if isinstance(i, str | int | float)]
+        near = nearest(str(index), [k for k in known if isinstance(k, str)])
+        shown = [repr(_plain(k)) for k in known[:_MOST_SHOWN]]
+        return refused(
+            "api.no-such-index", "en", MissingKey,
+            index=repr(index), near=repr(str(near)) if near else "", known=shown,
+        )  # fmt: skip
+
+    def frame(self) -> pandas.DataFrame:
+        """Its lists of numbers as columns of a DataFrame (RESULTATS_CSV, ENERGIES ...)."""
+        lists = {
+            str(i): v.values
+            for i, v in self.held.items()
+            if isinstance(v, ListReel | ListEnti | ListMots)
+        }
+        return library("pandas").DataFrame(lists)
+
+    def xarray(self, word: str) -> xarray.DataArray:
+        """All values in time of nodal fields of a table of results: (time, node, component).
+
+        Parameters
+        ----------
+        word : str
+            'DEPL', 'VITE', 'ACCE' of DYNAMIC; 'DEPLACEMENTS' ... of PASAPAS.
+        """
+        from ssilang.api.histories import over_time
+
+        return over_time(self.held, word, "en")
+
+    def __repr__(self) -> str:
+        subtype = f"{self.held.subtype}, " if self.held.subtype else ""
+        shown = [repr(_plain(i)) for i in self.held.indices()[:8]]
+        more = ", ..." if len(self) > len(shown) else ""
+        return f"<TABLE {subtype}{len(self)}: {', '.join(shown)}{more}>"
+
+
+@dataclass(frozen=True, eq=False)
+class OpaqueView:
+    """What has no form of its own in Python: RIGIDITE, MMODEL, CHARGEMENT, PROCEDUR ...
+
+    Attributes
+    ----------
+    held : object
+        The kernel's own object.
+    """
+
+    held: Any = field(repr=False)
+
+    def __repr__(self) -> str:
+        return f"<{type_of(self.held)}>"
+
+
+def _plain(value: object) -> object:
+    return str(value) if isinstance(value, str) else value
+
+
+_SEEN: dict[type, Callable[[Any], Any]] = {
+    Mot: str,
+    ListReel: lambda v: v.values.copy(),
+    ListEnti: lambda v: v.values.copy(),
+    ListMots: lambda v: [str(word) for word in v.values],
+    ListChpo: lambda v: [seen(part) for part in v.values],
+    ListObje: lambda v: [seen(part) for part in v.values],
+    Point: PointView,
+    Mesh: MeshView,
+    NodeField: FieldView,
+    CellField: CellFieldView,
+    Curve: CurveView,
+}
+"""What Python sees of an object, by its class."""
+_AS_THEY_ARE = (bool, int, float, str, np.ndarray)
+
+
+def seen(value: Any) -> Any:
+    """What Python sees of an object of the language."""
+    make = _SEEN.get(type(value))
+    if make is not None:
+        return make(value)
+    if isinstance(value, Table):
+        return TableView(value)
+    return value if isinstance(value, _AS_THEY_ARE) else OpaqueView(value)
+
+
+def held(value: Any) -> Any:
+    """The language's object of something in Python: a view, a number, a word, a list, a curve.
+
+    Raises
+    ------
+    Error
+        For what the language has no object for.
+    """
+    if isinstance(
+        value,
+        TableView | PointView | MeshView | FieldView | CellFieldView | CurveView | OpaqueView,
+    ):
+        return value.held
+    if isinstance(value, bool | int | float):
+        return value
+    if isinstance(value, str):
+        return Mot(value)
+    if isinstance(value, np.generic):
+        return held(value.item())
+    if hasattr(value, "__fspath__"):
+        return Mot(value.__fspath__())
+    if hasattr(value, "index") and hasattr(value, "to_numpy"):  # a Series
+        return _curve(value.index, value.to_numpy(), str(getattr(value, "name", "") or ""))
+    if isinstance(value, list | tuple | range | np.ndarray):
+        return _list(value)
+    raise refused("api.no-such-object", "en", kind=type(value).__name__)
+
+
+def _curve(x: Any, y: Any, name: str) -> Curve:
+    part = CurvePart(np.asarray(x, float), np.asarray(y, float), "", name[:12], name)
+    return Curve((part,))
+
+
+def _list(value: Any) -> Any:
+    """The list of numbers or words that a sequence is."""
+    if len(value) and all(isinstance(v, str) for v in value):
+        return ListMots([str(v) for v in value])
+    array = np.asarray(value)
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise refused("api.no-such-object", "en", kind=type(value).__name__)
+    return ListEnti(array) if array.dtype.kind in "iu" else ListReel(array)

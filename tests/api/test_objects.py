@@ -1,0 +1,156 @@
+"""Objects of scripts in Python, against what the deck says in closed form."""
+
+import doctest
+import importlib
+import pkgutil
+
+import numpy as np
+import pytest
+
+import ssilang
+import ssilang.api
+
+
+def exact(t):
+    """Of the oscillator: 10 rad/s, let go at 0.2 m."""
+    return 0.2 * np.cos(10.0 * t)
+
+
+@pytest.mark.parametrize("point", ["P1", "POIN 2 L", 2, (1.0, 0.0), np.array([1.0, 0.0, 0.0])])
+def test_a_history_at_a_point_by_name_number_and_place(swing, point):
+    u = swing.history("DEPL", "UX", point)
+    assert len(u.x) == 51
+    assert u.y == pytest.approx(exact(u.x), abs=4e-4)  # steps of a 314th of the period
+    assert u.units == ("s", "m")
+    assert u.series().loc[0.5] == pytest.approx(exact(0.5), abs=4e-4)
+
+
+def test_a_mesh_gives_a_curve_a_node(swing):
+    both = swing.history("VITE", "UX", swing["L"], table="T2")
+    assert len(both) == 2
+    frame = both.frame()
+    assert frame.shape == (51, 2)
+    assert abs(frame["UX 2"]).max() == pytest.approx(2.0, rel=2e-3)
+    assert abs(frame["UX 1"]).max() == 0.0
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (("DEPL", "UX", (1.0, 0.1)), "the nearest is 2 (1. 0.), at a distance of 0.1"),
+        (("DEPL", "UX", 9), "there is no node 9: they are counted from 1 to 6"),
+        (("DEPL", "UX", "P2"), "P2"),
+        (("DEPL", "UW", "P1"), "there are UX, UY"),
+        (("DEPO", "UX", "P1"), "DEPO"),
+        (("DEPL", "UX", {}), "a dict is no point"),
+        (("DEPL", "UX", "P1", "T1"), "no table of results"),
+    ],
+)
+def test_what_is_not_there_is_refused_with_what_is_near(swing, asked, said):
+    with pytest.raises(ssilang.Error) as caught:
+        swing.history(*asked)
+    assert said in str(caught.value)
+
+
+def test_two_nodes_at_one_place_are_told_apart():
+    deck = "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 0. 0. ; "
+    deck += "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; T = TABL ; T . 1 = TABL ; "
+    deck += "T . 1 . 'TEMP' = 0. ; T . 1 . 'DEPL' = U ;"
+    r = ssilang.run(deck)
+    with pytest.raises(ssilang.Error, match=r"several nodes stand there: 1 .* and 2 "):
+        r.history("DEPL", "UX", (0.0, 0.0))
+    assert r.history("DEPL", "UX", 2).y.tolist() == [1.0]
+
+
+def test_tables_of_results_are_made_as_far_as_they_are_asked_for(oscillator):
+    table = ssilang.run(oscillator, A0=0.2)["T2"]
+    assert len(table) == 51
+    assert list(table)[:2] == [1, 2]
+    assert table.held.rows.keys() == set(range(1, 52))
+    assert table[6]["TEMP"] == pytest.approx(0.1)
+    assert table[6]["DEPL"]["UX"][1] == pytest.approx(exact(0.1), abs=4e-4)
+    assert set(range(1, 52)) - table.held.rows.keys() == {6}
+    with pytest.raises(KeyError, match="no index 'DEPO'"):
+        table[6]["DEPO"]
+    assert 52 not in table
+
+
+@pytest.mark.parametrize("touched", [False, True])
+def test_all_values_in_time_as_xarray(oscillator, touched):
+
+    r = ssilang.run(oscillator)
+    if touched:
+        r["T2"][3]["DEPL"]
+    u = r["T2"].xarray("DEPL")
+    assert u.dims == ("time", "node", "component")
+    at = u.sel(node=2, component="UX")
+    assert at.values == pytest.approx(0.5 * exact(u.time.values), abs=2e-4)
+    assert u.x.values.tolist() == [0.0, 1.0]
+
+
+def test_fields_at_nodes_and_in_cells(swing):
+    u, s = swing["U0"], swing["SIG"]
+    assert u["UX"] == pytest.approx([0.0, 0.05])  # F L / (E A)
+    assert u.points[:, 0].tolist() == [0.0, 1.0]
+    assert u.frame().loc[2, "UX"] == pytest.approx(0.05)
+    assert float(u.xarray()["UX"].sel(node=2)) == pytest.approx(0.05)
+    assert s["EFFX"].ravel() == pytest.approx(5.0)
+    assert s.frame().loc[(1, 1, 1), "EFFX"] == pytest.approx(5.0)
+    assert s.points().mean() == pytest.approx(0.5 / 3.0)
+    with pytest.raises(KeyError, match="no component 'UZ'"):
+        u["UZ"]
+    with pytest.raises(KeyError, match="no zone 2"):
+        s.values("EFFX", 2)
+
+
+def test_meshes_and_their_fields_as_grids_of_pyvista(swing):
+    grid = swing["L"].pyvista(u=swing["U0"], s=swing["SIG"])
+    assert grid.n_cells == 1
+    assert grid.length == pytest.approx(1.0)
+    assert grid.point_data["u"][:, 0] == pytest.approx([0.0, 0.05])
+    assert len(grid.cell_data.keys()) >= 1
+    r = ssilang.run(
+        "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
+        "S = L TRAN 3 (0. 3. 0.) ; V = S VOLU 1 'TRAN' (0. 0. 4.) ;"
+    )
+    assert r["V"].pyvista().volume == pytest.approx(24.0)
+    assert r["V"].cells["CUB8"].shape == (6, 8)
+
+
+def test_curves_of_several_parts_say_which(swing):
+    r = ssilang.run(
+        "E = EVOL 'MANU' 'LEGE' 'a' (PROG 0. 1.) (PROG 1. 2.) ; "
+        "F = EVOL 'MANU' 'LEGE' 'b' (PROG 0. 2.) (PROG 3. 4.) ; EF = E ET F ;"
+    )
+    both = r["EF"]
+    assert both.names == ("a", "b")
+    with pytest.raises(ssilang.Error, match="2 curves, not one"):
+        both.x  # noqa: B018
+    assert both[1].y.tolist() == [3.0, 4.0]
+    assert np.isnan(both.frame().loc[2.0, "a"])
+    assert both._repr_png_()[:4] == b"\x89PNG"
+
+
+def test_phrases_are_evaluated_with_objects_of_python_and_leave_no_names(swing):
+    assert swing.evaluate("MAXI ((EXCO 'UX' U) * K)", U=swing["U0"], K=2) == pytest.approx(0.1)
+    assert swing.evaluate("NEW = 3 ; NEW * 2") == 6
+    assert "NEW" not in swing
+    with pytest.raises(ssilang.Error, match="<python>:1:"):
+        swing.evaluate("MAXI ABSENT")
+
+
+def test_lists_of_a_table_as_a_frame():
+    r = ssilang.run("T = TABL ; T . 'A' = PROG 1. 2. ; T . 'B' = LECT 3 4 ; T . 'C' = 1 ;")
+    assert r["T"].frame().to_dict("list") == {"A": [1.0, 2.0], "B": [3, 4]}
+    assert repr(r["T"]) == "<TABLE 3: 'A', 'B', 'C'>"
+
+
+def modules():
+    names = [m.name for m in pkgutil.iter_modules(ssilang.api.__path__)]
+    return [importlib.import_module(f"ssilang.api.{name}") for name in names]
+
+
+@pytest.mark.parametrize("module", modules(), ids=lambda m: m.__name__)
+def test_examples_in_docstrings_run(module):
+    tried = doctest.testmod(module)
+    assert tried.failed == 0
