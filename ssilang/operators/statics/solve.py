@@ -12,7 +12,7 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
-from ssilang.kernel.statics.linear_motion import bodies_of, unjoined_bodies
+from ssilang.kernel.statics.linear_motion import tied, unjoined_bodies
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
 from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
@@ -141,7 +141,7 @@ def _warn_unjoined(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     motions = system.free_motions
     if motions.shape[1] == 0:
         return
-    bodies = bodies_of(system.numbering, system.K, system.rows.C)
+    bodies = tied(system.numbering, system.rows.C, system.K)
     for found in unjoined_bodies(system.numbering, motions, bodies)[:_NAMED]:
         call.warn(
             "operators.statics.body-not-joined",
