@@ -14,7 +14,7 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -208,9 +208,15 @@ def _counts(rows: dict[str, tuple[str, str]]) -> list[str]:
 # ---- writing ---------------------------------------------------------------------------------
 
 
-def build(target: Path) -> list[str]:
-    """Write everything below `target`; returns the examples that failed."""
-    pages = all_pages()
+def build(target: Path, only: Collection[str] = ()) -> list[str]:
+    """Write everything below `target`; returns the examples that failed.
+
+    Parameters
+    ----------
+    only : collection of str, optional
+        Operators and procedures that get a page, all if none is named.
+    """
+    pages = [p for p in all_pages() if not only or p.name in only]
     pictures = target / "pictures"
     shutil.rmtree(target, ignore_errors=True)
     pictures.mkdir(parents=True)
