@@ -20,6 +20,7 @@ from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
+from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.scopes import PREDEFINED, Frame
@@ -264,6 +265,8 @@ class Result(Mapping[str, Any]):
         index = histories.full_word(results, word, self.language)
         text = f"EVOL 'TEMP' RESULTS '{index}' '{component}' PLACE ;"
         place = self._place(point, results, index, component)
+        if isinstance(place, Point):  # as a mesh: the curve gets the name that the script gave it
+            place = poi1(place.nodes, np.array([place.node]))
         found = self._evaluated(text, {"RESULTS": results, "PLACE": place})
         return CurveView(found[0])
 

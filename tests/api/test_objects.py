@@ -22,6 +22,7 @@ def test_a_history_at_a_point_by_name_number_and_place(swing, point):
     assert len(u.x) == 51
     assert u.y == pytest.approx(exact(u.x), abs=4e-4)  # steps of a 314th of the period
     assert u.units == ("s", "m")
+    assert u.names == ("UX P1",)
     assert u.series().loc[0.5] == pytest.approx(exact(0.5), abs=4e-4)
 
 
@@ -30,8 +31,8 @@ def test_a_mesh_gives_a_curve_a_node(swing):
     assert len(both) == 2
     frame = both.frame()
     assert frame.shape == (51, 2)
-    assert abs(frame["UX 2"]).max() == pytest.approx(2.0, rel=2e-3)
-    assert abs(frame["UX 1"]).max() == 0.0
+    assert abs(frame["UX P1"]).max() == pytest.approx(2.0, rel=2e-3)
+    assert abs(frame["UX P0"]).max() == 0.0
 
 
 @pytest.mark.parametrize(
