@@ -15,7 +15,7 @@ import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -240,9 +240,15 @@ def published_markdown(decks: Iterable[Path]) -> str:
 # ---- writing ---------------------------------------------------------------------------------
 
 
-def build(target: Path) -> list[str]:
-    """Write everything below `target`; returns the examples that failed."""
-    pages = all_pages()
+def build(target: Path, only: Collection[str] = ()) -> list[str]:
+    """Write everything below `target`; returns the examples that failed.
+
+    Parameters
+    ----------
+    only : collection of str, optional
+        Operators and procedures that get a page, all if none is named.
+    """
+    pages = [p for p in all_pages() if not only or p.name in only]
     pictures = target / "pictures"
     shutil.rmtree(target, ignore_errors=True)
     pictures.mkdir(parents=True)

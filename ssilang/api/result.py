@@ -15,6 +15,7 @@ import numpy as np
 from ssilang.api import histories
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
+from ssilang.api.html import rows_html
 from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
 from ssilang.cli.run import phrase_values
@@ -25,7 +26,7 @@ from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
-from ssilang.language.values import Table
+from ssilang.language.values import Table, type_of
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace
 
@@ -61,6 +62,19 @@ class Picture:
         if self.path.suffix == ".png":  # one form is enough, and a scene has many lines
             return None
         return self.path.read_text(encoding="utf-8") if self.path.suffix == ".svg" else None
+
+
+def _files(session: Session) -> list[Path]:
+    return [p for p in run_output(session).files if p.is_file()]
+
+
+def pictures_of(session: Session) -> list[Picture]:
+    """Pictures that a session has made so far, in order, each once in whatever formats."""
+    alike: dict[Path, list[Path]] = {}
+    for path in pictures_among(_files(session)):
+        alike.setdefault(path.with_suffix(""), []).append(path)
+    ordered = (sorted(paths, key=lambda p: p.suffix != ".png") for paths in alike.values())
+    return [Picture(first, tuple(others)) for first, *others in ordered]
 
 
 @dataclass(frozen=True)
@@ -336,16 +350,16 @@ class Result(Mapping[str, Any]):
     @property
     def files(self) -> list[Path]:
         """Files that the run wrote; without a folder asked for they go with the result."""
-        return [p for p in run_output(self.session).files if p.is_file()]
+        return _files(self.session)
 
     @property
     def figures(self) -> list[Picture]:
         """Pictures that the run made, in order."""
-        alike: dict[Path, list[Path]] = {}
-        for path in pictures_among(self.files):
-            alike.setdefault(path.with_suffix(""), []).append(path)
-        ordered = (sorted(paths, key=lambda p: p.suffix != ".png") for paths in alike.values())
-        return [Picture(first, tuple(others)) for first, *others in ordered]
+        return pictures_of(self.session)
+
+    def _repr_html_(self) -> str:
+        rows = [(name, type_of(value)) for name, value in self._names.items()]
+        return rows_html(("", f"{self.seconds:.2f} s"), rows)
 
     def __repr__(self) -> str:
         names = list(self._names)

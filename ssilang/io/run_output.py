@@ -230,7 +230,8 @@ class RunOutput:
             self.wrote(*writer.files)
 
     def release(self) -> None:
-        """Let other runs have the output folder."""
+        """Let other runs have the output folder, and give the window of pictures back."""
+        self.pictures.close()
         if self.lock is not None:
             self.lock.release()
             self.lock = None

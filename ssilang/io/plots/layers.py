@@ -58,8 +58,8 @@ class PictureOptions:
     ----------
     hidden : bool
         Hide what lies behind (CACH).
-    filled : bool
-        Fill the faces, shaded in space (FACE).
+    filled : '', 'FACE', 'FACB' or 'FSDB'
+        Fill the faces, shaded in space; with white edges (FACB), these and no shades (FSDB).
     levels, level_count
         Iso-values to show, or how many.
     iso : 'SURFACE', 'LIGNE' or 'SULI'
@@ -90,7 +90,7 @@ class PictureOptions:
 
     title: str = ""
     hidden: bool = False
-    filled: bool = False
+    filled: str = ""
     levels: FloatArray | None = None
     level_count: int | None = None
     iso: str = "SURFACE"

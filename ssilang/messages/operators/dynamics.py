@@ -171,6 +171,18 @@ MESSAGES: dict[str, Message] = {
         "IPOL it first",
         "interpolez-la d'abord par IPOL",
     ),
+    "no-relations": Message(
+        "'RELATIONS_SAUVEES' . '{name}' has no relations",
+        "'RELATIONS_SAUVEES' . '{name}' n'a aucune relation",
+        "a BLOQ, RELA or SYMT, as it stands in 'RIGI'",
+        "un BLOQ, RELA ou SYMT, tel qu'il est dans 'RIGI'",
+    ),
+    "relations-not-in-stiffness": Message(
+        "'RIGI' has not {n} {n:relation|relations} of 'RELATIONS_SAUVEES' . '{name}'",
+        "'RIGI' n'a pas {n} {n:relation|relations} de 'RELATIONS_SAUVEES' . '{name}'",
+        "give the very object that 'RIGI' was made with: each BLOQ or RELA is one of its own",
+        "donner l'objet même dont 'RIGI' est fait : chaque BLOQ ou RELA en est un à part",
+    ),
     "table-without-mesh": Message(
         "'MAILLAGE_VTK' is a TABLE without MAILLAGE",
         "'MAILLAGE_VTK' est une TABLE sans MAILLAGE",

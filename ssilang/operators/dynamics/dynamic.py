@@ -23,8 +23,13 @@ from ssilang.operators.dynamics.checkpoints import (
     kept_calculation,
     steps_of_reprise,
 )
-from ssilang.operators.dynamics.histories import TableObserver
-from ssilang.operators.dynamics.motion_files import csv_observer, nodes_asked, vtk_observer
+from ssilang.operators.dynamics.histories import TableObserver, forces_table
+from ssilang.operators.dynamics.motion_files import (
+    csv_observer,
+    force_track,
+    nodes_asked,
+    vtk_observer,
+)
 from ssilang.operators.dynamics.reports import (
     report,
     warn_motion_elsewhere,
@@ -83,11 +88,12 @@ def zdyn(call: Call, table: Table) -> Table:
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
+    forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     extremes = Extremes(problem=problem, asked=entries.flag("EXTREMES"))
     uplift = UpliftWatch.of(problem)
     lists = None if csv is None else csv.track
-    given = (results.observer, vtk, lists, extremes, uplift)
+    given = (results.observer, vtk, lists, forces, extremes, uplift)
     observers = [o for o in given if o is not None]
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
@@ -98,6 +104,8 @@ def zdyn(call: Call, table: Table) -> Table:
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)
+    if forces is not None:
+        entries.table.set(Mot("RESULTATS_RELATIONS"), forces_table(forces))
     if extremes.known:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
