@@ -1,4 +1,4 @@
-"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `warm`, `repl`, `version`."""
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `view`, `repl` ..."""
 
 from __future__ import annotations
 
@@ -305,6 +305,23 @@ def _completion(options: argparse.Namespace) -> int:
     return OK
 
 
+def _view(options: argparse.Namespace) -> int:
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.io.viewer import Wish, draw, show
+    from ssilang.language.say.errors import SsiError
+
+    wish = Wish(options.field, options.step, options.scale)
+    try:
+        if options.output is None:
+            show(options.file, wish)
+        else:
+            draw(options.file, options.output, wish)
+    except (InputError, OutputError) as problem:
+        _told(SsiError.of(problem, None), options.lang)
+        return USAGE
+    return OK
+
+
 def _lsp(options: argparse.Namespace) -> int:
     try:
         from ssilang.cli.editor.server import start
@@ -348,6 +365,7 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "sweep": _sweep,
     "warm": _warm,
     "repl": _repl,
+    "view": _view,
     "lsp": _lsp,
     "completion": _completion,
     "version": _version,
