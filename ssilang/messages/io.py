@@ -46,6 +46,56 @@ MESSAGES: dict[str, Message] = {
         "there is nothing to draw: the mesh is empty",
         "il n'y a rien à tracer : le maillage est vide",
     ),
+    "not-viewed": Message(
+        "'{path}' cannot be shown: {reason}", "'{path}' ne se montre pas : {reason}"
+    ),
+    "not-viewed-no-points": Message(
+        "'{path}' holds no points, or is damaged",
+        "'{path}' ne contient aucun point, ou est endommagé",
+    ),
+    "not-viewed-absent": Message(
+        "there is no file or folder '{path}'", "il n'y a ni fichier ni dossier '{path}'"
+    ),
+    "not-viewed-kind": Message(
+        "'{path}' is of no kind that can be shown",
+        "'{path}' n'est pas d'une sorte qui se montre",
+        "files end in {known:words}",
+        "les fichiers se terminent par {known:words}",
+    ),
+    "not-viewed-empty": Message(
+        "the folder '{path}' holds nothing to show",
+        "le dossier '{path}' ne contient rien à montrer",
+        "results end in {known:words}",
+        "les résultats se terminent par {known:words}",
+    ),
+    "not-drawn-kind": Message(
+        "'{path}' is no name of a picture",
+        "'{path}' n'est pas un nom d'image",
+        "pictures end in {known:words}; a gif holds all instants",
+        "les images se terminent par {known:words} ; un gif contient tous les instants",
+    ),
+    "no-screen": Message(
+        "there is no screen to open a window on",
+        "il n'y a pas d'écran où ouvrir une fenêtre",
+        "write a picture: ssilang view {path} -o picture.png",
+        "écrivez une image : ssilang view {path} -o image.png",
+    ),
+    "no-such-instant": Message(
+        "instant {step} is asked for, there {count:is|are} {count}",
+        "l'instant {step} est demandé, il y en a {count}",
+    ),
+    "no-such-array": Message(
+        "there is no field '{field}', the file has {names}",
+        "il n'y a pas de champ '{field}', le fichier a {names}",
+    ),
+    "no-drawing-in-space": Message(
+        "the picture is left out: nothing here draws in space without a screen ({reason})",
+        "l'image est omise : rien ici ne dessine en 3D sans écran ({reason})",
+        "install Mesa, on Debian: apt-get install libegl1 libgl1-mesa-dri; or look at the results "
+        "in ParaView (SORT 'VTK')",
+        "installez Mesa, sous Debian : apt-get install libegl1 libgl1-mesa-dri ; ou regardez les "
+        "résultats dans ParaView (SORT 'VTK')",
+    ),
     "marq-no-marker": Message(
         "MARQ has no marker",
         "MARQ n'a pas de marqueur",
@@ -252,6 +302,82 @@ MESSAGES: dict[str, Message] = {
     "no-readable-unv-file": Message(
         "{name} is no readable UNV file: {error}",
         "{name} n'est pas un fichier UNV lisible : {error}",
+    ),
+    "no-readable-mesh-file": Message(
+        "{name} cannot be read as {kind}: {error}",
+        "{name} ne se lit pas comme {kind} : {error}",
+        "the file is damaged, or of another format or version",
+        "le fichier est abîmé, ou d'un autre format ou d'une autre version",
+    ),
+    "mesh-file-empty": Message(
+        "{name} holds no nodes that are read as {kind}",
+        "{name} ne contient pas de noeuds lisibles comme {kind}",
+        "an AVS file ends in .inp too: OPTI LECT names it, LIRE 'AVS' reads it",
+        "un fichier AVS finit aussi par .inp : OPTI LECT le nomme, LIRE 'AVS' le lit",
+    ),
+    "mesh-file-cut": Message(
+        "{name} is cut: {kind} ends with {end}",
+        "{name} est tronqué : {kind} finit par {end}",
+    ),
+    "mesh-file-names-no-node": Message(
+        "{name} ({kind}) is damaged: it names a node that it does not hold",
+        "{name} ({kind}) est abîmé : il nomme un noeud qu'il ne contient pas",
+    ),
+    "mesh-file-names-no-cell": Message(
+        "{name} ({kind}) is damaged: it names a cell that it does not hold",
+        "{name} ({kind}) est abîmé : il nomme un élément qu'il ne contient pas",
+    ),
+    "mesh-library-missing": Message(
+        "files of {kind} are read and written by {library}, which is not installed",
+        "les fichiers {kind} se lisent et s'écrivent par {library}, qui n'est pas installé",
+        "pip install 'ssilang[med]'",
+        "pip install 'ssilang[med]'",
+    ),
+    "gmsh-missing": Message(
+        "a .geo file is meshed by Gmsh, which {error:?cannot start: {error}|is not installed}",
+        "un fichier .geo est maillé par Gmsh, qui {error:?ne peut démarrer : {error}|n'est pas "
+        "installé}",
+        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "pip install 'ssilang[gmsh]'}",
+        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "pip install 'ssilang[gmsh]'}",
+    ),
+    "geo-reaches-out": Message(
+        "{name} is not run: '{word}' runs programs, or reads and writes other files",
+        "{name} n'est pas exécuté : '{word}' lance des programmes, ou lit et écrit d'autres "
+        "fichiers",
+        "mesh it with gmsh and read the .msh",
+        "le mailler par gmsh et lire le .msh",
+    ),
+    "mesh-cells-not-written": Message(
+        "{kind} has no {others}",
+        "{kind} n'a pas de {others}",
+        "cells that are written: {known}",
+        "éléments qui s'écrivent : {known}",
+    ),
+    "mesh-part-name": Message(
+        "no group of {kind} can be called '{name}'",
+        "aucun groupe {kind} ne peut s'appeler '{name}'",
+        "a name of at most 80 letters without accents and signs",
+        "un nom d'au plus 80 lettres sans accents ni signes",
+    ),
+    "nastran-coordinate-system": Message(
+        "{name} gives nodes in coordinate systems of their own, which are not read",
+        "{name} donne des noeuds dans des repères propres, qui ne sont pas lus",
+        "write the nodes in the basic system: field 3 of GRID blank or 0",
+        "écrivez les noeuds dans le repère de base : champ 3 de GRID vide ou nul",
+    ),
+    "abaqus-keyword-not-read": Message(
+        "{name}: *{word} makes or moves nodes or elements, and is not read",
+        "{name} : *{word} fait ou déplace des noeuds ou des éléments, et n'est pas lu",
+        "write the mesh out in full: *NODE and *ELEMENT, one part without instances that move",
+        "écrivez le maillage en entier : *NODE et *ELEMENT, une pièce sans instance déplacée",
+    ),
+    "abaqus-several-parts": Message(
+        "{name} has several *PART, whose numbers mean different nodes",
+        "{name} a plusieurs *PART, dont les numéros désignent des noeuds différents",
+        "write it flat, without parts, or each part into a file of its own",
+        "écrivez-le à plat, sans pièces, ou chaque pièce dans son fichier",
     ),
     "record-not-finite": Message(
         "{name} has values that are too large for a number",

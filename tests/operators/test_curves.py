@@ -290,3 +290,17 @@ def test_one_name_stands_before_each_list(found, names, kept):
 @pytest.mark.parametrize("names", ["'TIME' 's'", "TIME s", "F (T)", "F(T) s", "'F'(T)"])
 def test_two_names_before_a_list_are_refused(refused, names):
     assert "one name may stand" in refused(f"E = EVOL 'MANU' {names} (PROG 0. 1.) (PROG 2. 3.) ;")
+
+
+@pytest.mark.parametrize(
+    ("place", "legends"),
+    [("P1", ["UX P1"]), ("(POIN 1 L)", ["UX"]), ("L", ["UX P1", "UX 3", "UX TOP"])],
+)
+def test_legends_name_the_points_of_the_script(found, place, legends):
+    e = found(
+        "OPTI DIME 2 ; P1 = 0. 0. ; TOP = 2. 0. ; L = (P1 ET (1. 0.)) ET TOP ; "
+        "C = MANU 'CHPO' L 1 'UX' 2. ; "
+        f"E = EVOL 'TEMP' (SUIT C C) (PROG 0. 1.) 'UX' {place} ; ",
+        "E",
+    )
+    assert [p.legend for p in e.parts] == legends

@@ -14,6 +14,7 @@ from ssilang.io.plots.composition import Subjects, compose, with_scales
 from ssilang.io.plots.figure import figure_bytes
 from ssilang.io.plots.layers import PictureOptions
 from ssilang.io.plots.scene import draw_scene, sheet_bounds
+from ssilang.io.plots.stage import Stage
 from ssilang.io.plots.values import component_names
 from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart
@@ -24,7 +25,7 @@ _BANDS = 14
 
 
 def animation_frames(
-    deformed: Deformed, subjects: Subjects, view: View, options: PictureOptions
+    deformed: Deformed, subjects: Subjects, view: View, options: PictureOptions, stage: Stage
 ) -> list[bytes]:
     """One PNG a deformed shape, all on the same sheet, amplification and iso-values.
 
@@ -42,7 +43,7 @@ def animation_frames(
     frames = []
     for part in parts:
         made = compose(replace(subjects, deformed=Deformed((part,))))
-        figure = draw_scene(made.layers, (view,), common, made.arrows, made.components)
+        figure = draw_scene(made.layers, (view,), common, made.arrows, made.components, stage)
         frames.append(figure_bytes(figure, "png"))
     return frames
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ssilang.io.plots.levels import Levels
+from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces
+from ssilang.io.plots.stage import Photograph
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import View
 from ssilang.kernel.base.arrays import FloatArray
@@ -16,7 +19,6 @@ from ssilang.kernel.fields.deformed import ArrowPart, Arrows, round_down
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from ssilang.io.plots.layers import Layer, PictureOptions
 
@@ -25,9 +27,9 @@ _MOST_LABELS = 2000
 
 
 def arrow_ends(
-    view: View, part: ArrowPart, size: float, positions: FloatArray | None
+    part: ArrowPart, size: float, positions: FloatArray | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Tails and steps on the sheet, (n, 2) each, of the arrows long enough to be seen.
+    """Tails and steps in space, (n, 3) each, of the arrows long enough to be seen.
 
     Those that stand at nodes follow `positions` (all nodes of the table).
     """
@@ -37,35 +39,20 @@ def arrow_ends(
     length = np.linalg.norm(part.vectors, axis=1)
     seen = length > 0.03 * length.max(initial=0.0)
     scale = _arrow_scale(part, size)
-    start = view.project(origins[seen])
-    step = view.project(part.vectors[seen]) * scale
+    start, step = origins[seen], part.vectors[seen] * scale
     if not part.heads:
         return start - step / 2, step
     # a negative amplification: the arrow comes from outside and its tip is at the point
     return (start + step, -step) if scale < 0 else (start, step)
 
 
-def draw_arrows(
-    axes: Axes, view: View, arrows: Arrows, size: float, positions: FloatArray | None
-) -> None:
-    """Draw arrows."""
+def add_arrows(painter: Painter, arrows: Arrows, size: float, positions: FloatArray | None) -> None:
+    """Add arrows to what a panel shows."""
+    from matplotlib.colors import to_rgba
+
     for part in arrows.parts:
-        start, step = arrow_ends(view, part, size, positions)
-        if not len(start):
-            continue
-        axes.quiver(
-            *start.T,
-            *step.T,
-            angles="xy",
-            scale_units="xy",
-            scale=1.0,
-            color=shade(part.colour),
-            width=0.0035,
-            headwidth=3.6 if part.heads else 0,
-            headlength=4.6 if part.heads else 0,
-            headaxislength=4.2 if part.heads else 0,
-            zorder=4,
-        )
+        ink = to_rgba(shade(part.colour))
+        painter.add_arrows(*arrow_ends(part, size, positions), ink, part.heads)
 
 
 def _arrow_scale(part: ArrowPart, size: float) -> float:
@@ -75,57 +62,73 @@ def _arrow_scale(part: ArrowPart, size: float) -> float:
     return round_down(0.12 * size / longest) if longest > 0 and size > 0 else 1.0
 
 
-def write_numbers(
-    axes: Axes, view: View, prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions
-) -> None:
-    """Write node numbers, cell numbers, values and names, as asked for."""
+@dataclass
+class Labels:
+    """Numbers, values and names for one panel; those that the eye sees are written."""
+
+    view: View
+    asked: list[tuple[FloatArray, list[str], str, int]] = field(default_factory=list)
+
+    def add(
+        self, places: FloatArray, texts: list[str], colour: str = "#1b1f24", size: int = 7
+    ) -> None:
+        """Add texts at places (n, 3)."""
+        self.asked.append((places, texts, colour, size))
+
+    def write(self, axes: Axes, photograph: Photograph | None, bounds: FloatArray) -> None:
+        """Write what is seen on a photograph of the sheet `bounds`; all without one."""
+        from matplotlib.patheffects import withStroke
+
+        halo = [withStroke(linewidth=_HALO_WIDTH, foreground="white")]
+        for places, texts, colour, size in self.asked:
+            flat, seen = self.view.project(places), np.ones(len(places), dtype=bool)
+            if photograph is not None:
+                seen = photograph.shows(flat, self.view.depth(places), bounds)
+            for row in np.flatnonzero(seen)[:_MOST_LABELS]:
+                x, y = flat[row]
+                axes.text(
+                    x,
+                    y,
+                    texts[row],
+                    fontsize=size,
+                    color=colour,
+                    ha="center",
+                    va="center",
+                    path_effects=halo,
+                    zorder=5,
+                    clip_on=True,
+                )
+
+
+def labels_of(
+    view: View, prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions
+) -> Labels:
+    """Node numbers, cell numbers, values and names, as asked for."""
+    made = Labels(view)
     for layer, faces in prepared:
         positions = layer.positions()
         if options.node_numbers:
             ids = np.unique(np.concatenate([f.nodes.ravel() for f in faces] or [np.empty(0, int)]))
-            _write(axes, view.project(positions[ids]), [str(i + 1) for i in ids], "#14316b")
+            made.add(positions[ids], [str(i + 1) for i in ids], "#14316b")
         if options.cell_numbers:
             for f in faces:
-                centres = view.project(positions[f.nodes].mean(axis=1))
-                _write(axes, centres, [str(i + 1) for i in f.cells], "#8b4a1b")
+                made.add(positions[f.nodes].mean(axis=1), [str(i + 1) for i in f.cells], "#8b4a1b")
         if options.point_values and layer.field is not None:
             for f in faces:
-                _write_values(axes, view, layer, f, positions)
+                _add_values(made, layer, f, positions)
     for name, mesh in options.labels:
         ids = mesh.sorted_node_ids
         if len(ids):
-            middle = view.project(mesh.nodes.coordinates[ids]).mean(axis=0)[None]
-            _write(axes, middle, [name], "#7a1fa2", 9)
+            made.add(mesh.nodes.coordinates[ids].mean(axis=0)[None], [name], "#7a1fa2", 9)
+    return made
 
 
-def _write_values(axes: Axes, view: View, layer: Layer, f: Faces, positions: FloatArray) -> None:
+def _add_values(made: Labels, layer: Layer, f: Faces, positions: FloatArray) -> None:
     assert layer.field is not None
     values = values_on(f, layer.field, layer.component).ravel()
     ids, first = np.unique(f.nodes.ravel(), return_index=True)
     known = np.isfinite(values[first])
-    texts = [f"{v:.4g}" for v in values[first][known]]
-    _write(axes, view.project(positions[ids[known]]), texts, "#1b1f24")
-
-
-def _write(
-    axes: Axes, places: FloatArray, texts: list[str], colour: str = "#1b1f24", size: int = 7
-) -> None:
-    from matplotlib.patheffects import withStroke
-
-    halo = [withStroke(linewidth=_HALO_WIDTH, foreground="white")]
-    for (x, y), text in list(zip(places, texts, strict=True))[:_MOST_LABELS]:
-        axes.text(
-            x,
-            y,
-            text,
-            fontsize=size,
-            color=colour,
-            ha="center",
-            va="center",
-            path_effects=halo,
-            zorder=5,
-            clip_on=True,
-        )
+    made.add(positions[ids[known]], [f"{v:.4g}" for v in values[first][known]])
 
 
 def frame(axes: Axes, view: View, bounds: FloatArray, names: tuple[str, str]) -> None:
@@ -163,21 +166,42 @@ def _triad(axes: Axes, view: View) -> None:
         corner.text(x, y, name, fontsize=8, color="#4a4f57", ha="center", va="center")
 
 
+Ends = dict[str, FloatArray]
+"""Places (n, 3) of the least ('min') and the largest ('max') value."""
+
+
+def mark_extremes(
+    axes: Axes, view: View, ends: Ends, photograph: Photograph | None, bounds: FloatArray
+) -> None:
+    """Mark where the extreme values are, if they are seen."""
+    for name, marker in (("min", "v"), ("max", "^")):
+        places = ends.get(name, np.empty((0, 3)))
+        flat = view.project(places)
+        if photograph is not None:
+            flat = flat[photograph.shows(flat, view.depth(places), bounds)]
+        if len(flat):
+            axes.plot(
+                *flat.T, linestyle="none", marker=marker, markersize=7, zorder=6,
+                markerfacecolor="white", markeredgecolor="#1b1f24", markeredgewidth=1.0,
+                clip_on=False, gid=name,
+            )  # fmt: skip
+
+
 def colour_bar(
-    figure: Figure,
     axes: Axes,
     levels: Levels,
     name: str,
     extremes: tuple[float, float] | None,
+    marked: bool,
 ) -> None:
-    """The colour bar with the name of what is shown and its extremes."""
+    """The colour bar with the name of what is shown and its extremes, with their marks if any."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.ticker import FuncFormatter
 
     wide = axes.get_xlim()[1] - axes.get_xlim()[0] > 2.2 * (axes.get_ylim()[1] - axes.get_ylim()[0])
     bounds = levels.bounds
     every = max(1, -(-len(bounds) // (8 if wide else 12)))
-    bar = figure.colorbar(
+    bar = axes.figure.colorbar(
         ScalarMappable(levels.norm, levels.colours),
         ax=axes,
         orientation="horizontal" if wide else "vertical",
@@ -193,5 +217,6 @@ def colour_bar(
     bar.formatter = FuncFormatter(lambda value, _: f"{value:.4g}")
     text = name
     if extremes is not None:
-        text += f"    min {extremes[0]:.4g}   max {extremes[1]:.4g}"
+        low, high = ("\u25bd ", "\u25b3 ") if marked else ("", "")
+        text += f"    {low}min {extremes[0] + 0.0:.4g}   {high}max {extremes[1] + 0.0:.4g}"
     bar.set_label(text, fontsize=9)

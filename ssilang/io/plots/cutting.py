@@ -7,12 +7,12 @@ import numpy as np
 from ssilang.io.plots.patches import Faces
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import Plane, View
+from ssilang.io.vtk.grid import bare_grid
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.mesh import Mesh
 
 
 def behind(mesh: Mesh, plane: Plane, view: View, positions: FloatArray) -> Mesh:
@@ -25,67 +25,44 @@ def behind(mesh: Mesh, plane: Plane, view: View, positions: FloatArray) -> Mesh:
 
 
 def section_of(
-    mesh: Mesh, plane: Plane, positions: FloatArray, values: FloatArray | None
+    mesh: Mesh, plane: Plane, positions: FloatArray, values: FloatArray | None, dimension: int = 3
 ) -> tuple[FloatArray, FloatArray | None, IntArray]:
-    """Triangles in which a plane cuts the volumes of a mesh.
+    """Triangles in which a plane cuts the volumes of a mesh, or segments of its surfaces.
 
     Parameters
     ----------
     values : array (n_table,), optional
         Values at the nodes.
+    dimension : 3 or 2
+        Of the cells that are cut.
 
     Returns
     -------
-    points : array (m, 3, 3)
-    values : array (m, 3) or None
+    points : array (m, dimension, 3)
+    values : array (m, dimension) or None
     colours : array (m,)
         Colour index of the cell that is cut.
     """
-    parts = []
-    for block in mesh.blocks:
-        if block.kind.dimension != 3 or block.kind.joint:
-            continue
-        for colour in np.unique(block.colours):
-            mine = block.colours == colour
-            cells = CellBlock.make(mesh.nodes, block.cell_type, block.connectivity[mine])
-            nodes = tetrahedra(cells)
-            ends, weights = _cut(nodes, plane.height(positions[nodes]))
-            parts.append((ends, weights, np.full(len(ends), int(colour))))
-    if not parts:
-        return np.empty((0, 3, 3)), None if values is None else np.empty((0, 3)), np.empty(0, int)
-    ends, weights, colours = (np.concatenate(p) for p in zip(*parts, strict=True))
-    points = _mixed(positions, ends, weights)
-    found = None if values is None else _mixed(values, ends, weights)
-    return points, found, colours
+    import pyvista
 
-
-def _mixed(data: FloatArray, ends: IntArray, weights: FloatArray) -> FloatArray:
-    """Data (n_table, ...) at points between the nodes `ends` (m, 3, 2)."""
-    w = weights if data.ndim == 1 else weights[..., None]
-    return np.asarray((1 - w) * data[ends[..., 0]] + w * data[ends[..., 1]])
-
-
-# ends of the cut edges, nodes in order of height: one node below, three below, two and two
-_ONE = ((0, 1), (0, 2), (0, 3))
-_THREE = ((0, 3), (1, 3), (2, 3))
-_TWO = (((0, 2), (0, 3), (1, 3)), ((0, 2), (1, 3), (1, 2)))
-
-
-def _cut(nodes: IntArray, heights: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Edges (m, 3, 2) of the tetrahedra that the triangles' corners lie on, and where (m, 3)."""
-    order = np.argsort(heights, axis=1)
-    nodes = np.take_along_axis(nodes, order, axis=1)
-    heights = np.take_along_axis(heights, order, axis=1)
-    below = (heights < 0).sum(axis=1)
-    ends, weights = [], []
-    for count, triangles in ((1, (_ONE,)), (3, (_THREE,)), (2, _TWO)):
-        rows = below == count
-        for triangle in triangles:
-            pairs = np.array(triangle)
-            a, b = heights[rows][:, pairs[:, 0]], heights[rows][:, pairs[:, 1]]
-            ends.append(nodes[rows][:, pairs])
-            weights.append(-a / np.where(b > a, b - a, 1.0))
-    return np.concatenate(ends), np.concatenate(weights)
+    blocks = [b for b in mesh.blocks if b.kind.dimension == dimension and not b.kind.joint]
+    nothing = None if values is None else np.empty((0, dimension))
+    if not blocks:
+        return np.empty((0, dimension, 3)), nothing, np.empty(0, int)
+    grid = bare_grid(Mesh(mesh.nodes, tuple(blocks)))
+    counts = np.diff(grid.offsets, prepend=0)
+    cells = np.insert(grid.connectivity, grid.offsets - counts, counts)
+    whole = pyvista.UnstructuredGrid(cells, grid.types, positions[grid.nodes])
+    whole.cell_data["colour"] = np.concatenate([b.colours for b in blocks])
+    if values is not None:
+        whole.point_data["value"] = values[grid.nodes]
+    cut = whole.slice(normal=plane.normal, origin=plane.origin, generate_triangles=True)
+    if not cut.n_cells:
+        return np.empty((0, dimension, 3)), nothing, np.empty(0, int)
+    flat = cut.faces if dimension == 3 else cut.lines
+    corners = flat.reshape(-1, dimension + 1)[:, 1:]
+    found = None if values is None else np.asarray(cut.point_data["value"])[corners]
+    return np.asarray(cut.points)[corners], found, np.asarray(cut.cell_data["colour"], dtype=int)
 
 
 def nodal_means(

@@ -8,6 +8,7 @@ import textwrap
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,8 @@ from ssilang.io.atomic import replacing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from ssilang.io.plots.stage import Stage
 
 DPI = 150
 _STYLE: dict[str, object] = {
@@ -82,6 +85,18 @@ class Pictures:
         self.directory = directory
         self.files: list[Path] = []
         self._count = 0
+
+    @cached_property
+    def stage(self) -> Stage:
+        """Draws what stands in space, for all pictures of the run."""
+        from ssilang.io.plots.stage import Stage
+
+        return Stage()
+
+    def close(self) -> None:
+        """Give the window back in which scenes were drawn."""
+        if "stage" in vars(self):
+            self.stage.close()
 
     def save(self, figure: Figure, name: str, formats: tuple[str, ...] = ("png",)) -> list[Path]:
         """Write `figure` under the next number in each format; the files appear whole.

@@ -7,24 +7,33 @@ coloured by its own colours or by a field.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
+from ssilang.io.plots.annotations import Ends
 from ssilang.io.plots.cutting import behind
-from ssilang.io.plots.faces import add_bands, add_faces, add_section, band_values
+from ssilang.io.plots.faces import (
+    add_bands,
+    add_faces,
+    add_points,
+    add_section,
+    band_values,
+)
 from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.labels import draw_annotation
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.painter import Painter
-from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, visible_faces
+from ssilang.io.plots.stage import Stage
+from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import Plane, View, plane_view
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows
@@ -40,8 +49,14 @@ def draw_scene(
     options: PictureOptions | None = None,
     arrows: Arrows | None = None,
     components: Sequence[str] = (),
+    stage: Stage | None = None,
 ) -> Figure:
     """A figure with one panel a view, or a component of the coloured layer.
+
+    Parameters
+    ----------
+    stage : Stage, optional
+        Draws what stands in space; one for several pictures spares its opening.
 
     Raises
     ------
@@ -55,16 +70,25 @@ def draw_scene(
         raise OutputError("io.nothing-draw-mesh-empty")
     box = [sheet_bounds(layers, arrows, view, options) for view, _ in panels]
     width, height, rows, columns = _sheet(box[0], len(panels))
+    stage = stage or Stage()
     with drawing(width, height) as figure:
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes in grid[len(panels) :]:
             axes.set_axis_off()
+        drawn = []
         for axes, (view, component), bounds in zip(grid, panels, box, strict=False):
             shown = [_with_component(layer, component) for layer in layers]
-            _draw_panel(figure, axes, shown, view, options, arrows, bounds)
+            drawn.append(_Panel(axes, view, bounds, _prepared(shown, view, options), options))
+            drawn[-1].begin()
             if component and len(panels) > 1:
                 axes.set_title(component, fontsize=10.5)
         _caption(figure, options)
+        if any(view.solid for view in views):
+            # photographs are taken pixel by pixel, so that places must be known
+            figure.draw_without_rendering()
+            figure.set_layout_engine(None)
+        for panel in drawn:
+            panel.finish(arrows, stage)
     return figure
 
 
@@ -111,8 +135,8 @@ def _arrow_clouds(
     clouds = []
     for each, positions in sets:
         for part in each.parts:
-            start, step = notes.arrow_ends(view, part, size, positions)
-            clouds += [start, start + step]
+            start, step = notes.arrow_ends(part, size, positions)
+            clouds += [view.project(start), view.project(start + step)]
     return clouds
 
 
@@ -126,42 +150,94 @@ def _sheet(bounds: FloatArray, panels: int) -> tuple[float, float, int, int]:
     return width, float(np.clip(one + 1.1, 2.4, 6.6 if rows == 1 else 4.6)) * rows, rows, columns
 
 
-def _draw_panel(
-    figure: Figure,
-    axes: Axes,
-    layers: list[Layer],
-    view: View,
-    options: PictureOptions,
-    arrows: Arrows | None,
-    bounds: FloatArray,
-) -> None:
-    painter = Painter(view)
+@dataclass(frozen=True, eq=False)
+class _Panel:
+    """One drawing of a picture: its axes, its eye, its sheet (2, 2), its layers with faces."""
+
+    axes: Axes
+    view: View
+    bounds: FloatArray
+    prepared: list[tuple[Layer, list[Faces]]]
+    options: PictureOptions
+
+    @cached_property
+    def levels(self) -> Levels | None:
+        """Levels of what colours the panel, None where nothing does."""
+        values = band_values(self.prepared)
+        if values is None:
+            return None
+        return choose_levels(values, self.options.level_count, self.options.levels)
+
+    def begin(self) -> None:
+        """All that takes place beside the drawing itself."""
+        notes.frame(self.axes, self.view, self.bounds, self.options.axes)
+        if self.levels is not None and self.options.legend:
+            name = to_mathtext(self._legend_name())
+            marked = bool(self._marks())
+            notes.colour_bar(self.axes, self.levels, name, _range(self.prepared), marked)
+
+    def _legend_name(self) -> str:
+        """What the colours show: the component, with its unit if that is certain."""
+        if self.options.legend_name:
+            return self.options.legend_name
+        name = next(x.component for x, _ in self.prepared if x.field is not None)
+        unit = self.options.unit_of(name) if self.options.unit_of else ""
+        return f"{name} ({unit})" if unit else name
+
+    def finish(self, arrows: Arrows | None, stage: Stage) -> None:
+        """The drawing, and the texts over it that are seen."""
+        size = float(np.linalg.norm(self.bounds[1] - self.bounds[0]))
+        painter = Painter(self.view)
+        _paint(painter, self.prepared, self.levels, self.options, size)
+        if arrows is not None:
+            notes.add_arrows(painter, arrows, size, None)
+        labels = notes.labels_of(self.view, self.prepared, self.options)
+        photograph = None
+        if self.view.solid:
+            hides = self.options.hidden or self.options.filled or self.levels is not None
+            deep = bool(hides and (labels.asked or self._marks()))
+            taken = painter.photograph(self.axes, stage, self.bounds, deep)
+            photograph = taken if deep else None
+        else:
+            painter.draw(self.axes)
+        labels.write(self.axes, photograph, self.bounds)
+        notes.mark_extremes(self.axes, self.view, self._marks(), photograph, self.bounds)
+        if self.options.annotation is not None:
+            draw_annotation(self.axes, self.view, self.options.annotation, size)
+
+    def _marks(self) -> Ends:
+        """Where the extremes are marked: not on a section, which shows other values."""
+        shown = self.levels is not None and self.options.legend
+        return _ends(self.prepared) if shown and self.options.section is None else {}
+
+
+def _prepared(
+    layers: list[Layer], view: View, options: PictureOptions
+) -> list[tuple[Layer, list[Faces]]]:
+    """What is shown of the layers, with the faces that are drawn."""
     if options.beyond is not None:
         layers = [_behind(layer, options.beyond, view) for layer in layers]
-    prepared = [(layer, _faces(layer, options)) for layer in layers]
-    levels = _levels(prepared, options)
-    size = float(np.linalg.norm(bounds[1] - bounds[0]))
+    return [(layer, _faces(layer, options)) for layer in layers]
+
+
+def _paint(
+    painter: Painter,
+    prepared: list[tuple[Layer, list[Faces]]],
+    levels: Levels | None,
+    options: PictureOptions,
+    size: float,
+) -> None:
+    """Give the painter all layers with their dots and arrows."""
     for layer, faces in prepared:
-        if options.section is not None and layer.mesh.dimension == 3 and not layer.outline:
+        if options.section is not None and layer.mesh.dimension > 1 and not layer.outline:
             add_section(painter, layer, options.section, levels, options)
         elif layer.field is not None and levels is not None:
             add_bands(painter, faces, layer, levels, options, size)
         else:
             add_faces(painter, faces, layer, options, size)
-    painter.draw(axes)
-    for layer, faces in prepared:
-        _draw_points(axes, view, layer, faces, levels, options)
+        add_points(painter, faces, layer, levels)
         if layer.arrows is not None:
-            notes.draw_arrows(axes, view, layer.arrows, size, layer.positions())
-    if arrows is not None:
-        notes.draw_arrows(axes, view, arrows, size, None)
-    notes.write_numbers(axes, view, prepared, options)
-    if options.annotation is not None:
-        draw_annotation(axes, view, options.annotation, size)
-    notes.frame(axes, view, bounds, options.axes)
-    if levels is not None and options.legend:
-        name = options.legend_name or next(x.component for x in layers if x.field is not None)
-        notes.colour_bar(figure, axes, levels, to_mathtext(name), _range(prepared))
+            notes.add_arrows(painter, layer.arrows, size, layer.positions())
 
 
 def _behind(layer: Layer, plane: Plane, view: View) -> Layer:
@@ -180,41 +256,34 @@ def _faces(layer: Layer, options: PictureOptions) -> list[Faces]:
     return kept
 
 
-def _levels(prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions) -> Levels | None:
-    values = band_values(prepared)
-    if values is None:
-        return None
-    return choose_levels(values, options.level_count, options.levels)
-
-
 def _range(prepared: list[tuple[Layer, list[Faces]]]) -> tuple[float, float] | None:
     values = band_values(prepared)
     known = values[np.isfinite(values)] if values is not None else np.empty(0)
     return (float(known.min()), float(known.max())) if len(known) else None
 
 
-def _draw_points(
-    axes: Axes,
-    view: View,
-    layer: Layer,
-    faces: list[Faces],
-    levels: Levels | None,
-    options: PictureOptions,
-) -> None:
-    """Cells of one node, as dots."""
-    from ssilang.io.plots.values import values_on
+_MOST_ENDS = 3  # nodes that share an extreme value
 
-    for f in faces:
-        if f.kind != "POI1":
-            continue
-        x, y = view.project(layer.positions()[f.nodes[:, 0]]).T
-        colours: Any
-        if layer.field is not None and levels is not None:
-            colours = levels.rgba(values_on(f, layer.field, layer.component)[:, 0])
-        else:
-            own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
-            colours = [shade(int(c)) for c in own]
-        axes.scatter(x, y, s=18, c=colours, zorder=3, linewidths=0)
+
+def _ends(prepared: list[tuple[Layer, list[Faces]]]) -> Ends:
+    """Places (n, 3) of the least and of the largest value; none if they are at many nodes."""
+    places, values = [np.empty((0, 3))], [np.empty(0)]
+    for layer, faces in prepared:
+        for f in faces if layer.field is not None else ():
+            assert layer.field is not None
+            found = values_on(f, layer.field, layer.component)
+            known = np.isfinite(found)
+            places.append(layer.positions()[f.nodes[known]])
+            values.append(found[known])
+    where, what = np.concatenate(places), np.concatenate(values)
+    if not len(what) or np.ptp(what) <= 1e-12 * np.abs(what).max():
+        return {}
+    slack = 1e-6 * float(np.ptp(what))
+    ends = {
+        "min": np.unique(where[what <= what.min() + slack], axis=0),
+        "max": np.unique(where[what >= what.max() - slack], axis=0),
+    }
+    return {name: points for name, points in ends.items() if len(points) <= _MOST_ENDS}
 
 
 def _caption(figure: Figure, options: PictureOptions) -> None:

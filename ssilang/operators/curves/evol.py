@@ -29,7 +29,7 @@ from ssilang.language.registry import (
     opt,
     select,
 )
-from ssilang.language.run.call import Call
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import (
     LazyRows,
     LazyTable,
@@ -363,15 +363,28 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     if not names:
         names = [_only(call, _made(fields[0]))] if fields else []
     nodes = nodes_named(support.value)
+    called = _point_names(call, support)
     parts: list[CurvePart] = []
     for name in names:
         for node in nodes:
             values = value_in_time(call, fields, name, node)
-            legend = f"{name} {node + 1}" if len(nodes) > 1 else name
+            legend = f"{name} {called[node]}" if node in called else name
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
             parts.append(made.measured("s", _unit_in_time(results, title, name)))
     return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _point_names(call: Call, support: Operand) -> dict[int, str]:
+    """What a legend calls nodes: the script's name of the point, else, of several, the number."""
+    if isinstance(support.value, Point):
+        return {support.value.node: support.name} if support.name else {}
+    nodes = nodes_named(support.value)
+    found = {node: str(node + 1) for node in nodes} if len(nodes) > 1 else {}
+    frame = call.session.frame
+    named = ((name, frame.find(name)) for name in sorted(frame.names(), reverse=True))
+    points = {p.node: name for name, p in named if isinstance(p, Point)}
+    return found | {node: points[node] for node in nodes if node in points}
 
 
 def _made(field: NodeField | InstantField) -> NodeField:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
@@ -31,7 +31,11 @@ from ssilang.operators.drawing.pictures import (
     refuse_rest,
     save_picture,
 )
+from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace
+
+if TYPE_CHECKING:
+    from ssilang.io.recording import Recording
 
 
 def _corner() -> Keyword:
@@ -67,6 +71,13 @@ _OPTIONS: tuple[Entry, ...] = (
     key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas", fr="pas en abscisse"),
     key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates", fr="pas en ordonnée"),
     flag("extremes", "MIMA", en="extreme values are written", fr="extrêmes écrits"),
+    key(
+        "difference",
+        "ECAR",
+        opt("on", "LOGIQUE", default=True),
+        en="a second frame with the curves less the first; FAUX: never",
+        fr="un second cadre avec les courbes moins la première ; FAUX : jamais",
+    ),
     flag("date", "DATE", en="the date is written", fr="date écrite"),
     flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
     flag("separate", "SEPA", en="a frame for each curve", fr="un cadre par courbe"),
@@ -117,21 +128,28 @@ _OPTIONS: tuple[Entry, ...] = (
         en="Draws curves to a numbered picture in the output folder, as PNG and SVG. Scales: LOGX "
         "LOGY, XBOR YBOR with two bounds, XGRA YGRA with a step, CARR for a square frame, AXES "
         "through the origin, GRIL (dash) (GRIS). Texts: TITR TITX TITY, POSX POSY EXCE or CENT, "
-        "XFMT YFMT with a Fortran format, LEGE with a corner NO NE SO SE, EXT or XY x y, MIMA, "
-        "DATE. SEPA draws each curve in its own frame, CHOI some of them. The table holds, by "
-        "number of curve, words NOLI TIRR TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (size) "
-        "(PLEIN) kind; tables TITRE, INITIAL, FINAL and LIGNE_VARIABLE by number give legends, "
-        "first and last point and a dash for each segment.",
+        "XFMT YFMT with a Fortran format, LEGE with a corner NO NE SO SE, EXT or XY x y, MIMA "
+        "writes and marks extremes, DATE. Curves that lie on each other to the eye get a second "
+        "frame with what they differ from the first: ECAR asks for it, ECAR FAUX forbids it. "
+        "Frequencies of spectra have their periods along the upper side. SEPA draws each curve in "
+        "its own frame, CHOI some of them. The table holds, by number of curve, words NOLI TIRR "
+        "TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (size) (PLEIN) kind; tables TITRE, INITIAL, "
+        "FINAL and LIGNE_VARIABLE by number give legends, first and last point and a dash for "
+        "each segment.",
         fr="Dessine des évolutions dans une image numérotée du dossier de sortie, en PNG et SVG. "
         "Échelles : LOGX LOGY, XBOR YBOR et deux bornes, XGRA YGRA et un pas, CARR pour un cadre "
         "carré, AXES par l'origine, GRIL (tirets) (GRIS). Textes : TITR TITX TITY, POSX POSY EXCE "
         "ou CENT, XFMT YFMT et un format Fortran, LEGE et un coin NO NE SO SE, EXT ou XY x y, "
-        "MIMA, DATE. SEPA sépare les courbes, CHOI en choisit. La table contient, par numéro de "
-        "courbe, les mots NOLI TIRR TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (taille) (PLEIN) "
-        "forme ; ses tables TITRE, INITIAL, FINAL et LIGNE_VARIABLE donnent par numéro la légende, "
-        "le premier et le dernier point, et les tirets de chaque segment.",
+        "MIMA pour écrire et marquer les extrêmes, DATE. Des courbes confondues à l'oeil ont un "
+        "second cadre avec leurs écarts à la première : ECAR le demande, ECAR FAUX l'interdit. "
+        "Les fréquences d'un spectre ont leurs périodes le long du bord supérieur. SEPA sépare "
+        "les courbes, CHOI en choisit. La table contient, par numéro de courbe, les mots NOLI "
+        "TIRR TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (taille) (PLEIN) forme ; ses tables "
+        "TITRE, INITIAL, FINAL et LIGNE_VARIABLE donnent par numéro la légende, le premier et le "
+        "dernier point, et les tirets de chaque segment.",
         syntax="DESS EVOL1 ('LOGX') ('LOGY') ('GRIL' (TYPE) ('GRIS')) ('CARR') ('XBOR' X1 X2) "
-        "('YBOR' Y1 Y2) ('XGRA' DX) ('YGRA' DY) ('MIMA') ('DATE') ('SEPA') ('CHOI' N1 ...) "
+        "('YBOR' Y1 Y2) ('XGRA' DX) ('YGRA' DY) ('MIMA') ('ECAR' (LOGI1)) ('DATE') ('SEPA') "
+        "('CHOI' N1 ...) "
         "('TITR' T) ('TITX' T) ('TITY' T) ('POSX' M) ('POSY' M) ('XFMT' F) ('YFMT' F) ('AXES') "
         "('LEGE' (PLACE)) (TAB1) ;",
         examples=(
@@ -159,10 +177,38 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     if "title" not in found and not curve.title.strip():
         found["title"] = workspace(call.session).title
     units = workspace(call.session).units
-    figure = draw_curves(curve, CurveOptions(**found, written=units.written if units else None))
+    options = CurveOptions(**found, written=units.written if units else None)
+    figure = draw_curves(curve, options)
     title = str(found.get("title") or curve.title)
     stem = picture_name(call.session, title, curves[0].name or "dess")
-    save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+    files = save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+    recording = run_output(call.session).recording
+    if recording is not None:
+        _take_down(recording, curve, options, title, [f.name for f in files])
+
+
+def _take_down(
+    recording: Recording, curve: Curve, options: CurveOptions, title: str, files: list[str]
+) -> None:
+    """The same curves for the run's report, where they are of numbers."""
+    numbers = options.chosen or range(1, len(curve.parts) + 1)
+    drawn = {n: curve.parts[n - 1] for n in numbers}
+    plain = {n: p for n, p in drawn.items() if not p.words and not p.abscissa_words}
+    if not plain:
+        return
+    first = next(iter(plain.values()))
+    told = {
+        "title": title,
+        "x": options.x_title or first.abscissa_name,
+        "y": options.y_title or first.ordinate_name,
+        "log": [options.log_x, options.log_y],
+        "files": files,
+    }
+    lines = [
+        {"name": options.names.get(n, p.legend), "x": p.abscissas, "y": p.ordinates}
+        for n, p in plain.items()
+    ]
+    recording.draw(told, lines)
 
 
 def _settings(
@@ -176,6 +222,8 @@ def _settings(
     """Options of the drawing from what DESS has read."""
     numbers = [[n] if isinstance(n, int) else n.values.tolist() for n in chosen]
     found = {k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE}
+    if plain["difference"] is False:
+        found["difference"] = False
     found["chosen"] = tuple(n for several in numbers for n in several)
     if grid is not None:
         found |= {"grid": grid["dash"], "grey_grid": grid["grey"]}

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
+from ssilang.io.errors import NoGraphicsError
 from ssilang.io.plots.animation import animation_frames, save_animation
-from ssilang.io.plots.composition import Subjects, compose
+from ssilang.io.plots.composition import Composition, Subjects, compose
 from ssilang.io.plots.labels import Annotation
 from ssilang.io.plots.layers import PictureOptions
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.scene import draw_scene
+from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
@@ -38,6 +40,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.session import Session
 from ssilang.language.values import type_of
+from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -99,7 +102,12 @@ _OPTIONS: tuple[Entry, ...] = (
         fr="image animée, aller et retour",
     ),
     flag("no_click", "NCLK", en="changes nothing", fr="sans effet"),
-    flag("edges", "ARET", en="changes nothing: edges are drawn", fr="sans effet : arêtes tracées"),
+    flag(
+        "edges",
+        "ARET",
+        en="the first mesh hides, without its cells' edges",
+        fr="le premier maillage cache, sans les arêtes de ses éléments",
+    ),
     flag("direct", "DIRE", en="changes nothing", fr="sans effet"),
     flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
 )
@@ -166,21 +174,26 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "matrix stands on), deformed shapes, arrows, a nodal field or a field in cells as "
         "iso-values (in OPTI ISOV's way), with a number or a list of levels; a further mesh is "
         "drawn as lines. A POINT is the eye of a view in space. Words: CACH hides what is behind, "
-        "FACE fills, ECLA shrinks cells, COUL draws one colour, NOEU ELEM QUAL CHAM write numbers, "
-        "names and values, COUP shows what is beyond a plane, SECT what is cut by it, BOIT frames "
-        "a mesh, TITR LEGE NOLE DATE for texts; ANIME writes an animated GIF of the successive "
-        "deformed shapes beside the picture, OSCIL one that also runs back. A field of several "
-        "components is drawn in several panels, a stress in cells as von Mises.",
+        "FACE fills with shades, FACB with white edges, FSDB without shades, ARET lets the first "
+        "mesh hide the edges given behind it, ECLA shrinks cells, COUL draws one colour, NOEU ELEM "
+        "QUAL CHAM write numbers, names and values that are seen, COUP shows what is beyond a "
+        "plane, SECT what is cut by it, BOIT frames a mesh, TITR LEGE NOLE DATE for texts; "
+        "ANIME writes an animated GIF of the successive deformed shapes beside the picture, OSCIL "
+        "one that also runs back. A field of several components is drawn in several panels, a "
+        "stress in cells as von Mises; triangles mark its least and largest value.",
         fr="Trace dans une image PNG numérotée du dossier de sortie : un maillage (ou celui sur "
         "lequel s'appuie une rigidité), des déformées, des vecteurs, un champ par points ou par "
         "éléments en isovaleurs (selon OPTI ISOV), avec un nombre ou une liste de niveaux ; un "
         "autre maillage est tracé en lignes. Un POINT est l'oeil d'une vue dans l'espace. Mots : "
-        "CACH cache l'arrière, FACE remplit, ECLA réduit les éléments, COUL ne trace qu'une "
-        "couleur, NOEU ELEM QUAL CHAM écrivent numéros, noms et valeurs, COUP montre ce qui est "
+        "CACH cache l'arrière, FACE remplit et ombre, FACB avec des arêtes blanches, FSDB sans "
+        "ombre, ARET fait cacher par le premier maillage les arêtes données ensuite, ECLA réduit "
+        "les éléments, COUL ne trace qu'une couleur, NOEU ELEM QUAL CHAM écrivent les numéros, "
+        "noms et valeurs visibles, COUP montre ce qui est "
         "au-delà d'un plan, SECT ce qu'il coupe, BOIT cadre sur un maillage, TITR LEGE NOLE DATE "
         "pour les textes ; ANIME écrit à côté de l'image un GIF animé des déformées successives, "
         "OSCIL un GIF aller et retour. Un champ à plusieurs composantes a plusieurs vignettes, "
-        "une contrainte par éléments est tracée en von Mises.",
+        "une contrainte par éléments est tracée en von Mises ; des triangles marquent la plus "
+        "petite et la plus grande valeur.",
         syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') ('FACE') "
         "('ECLA' (FLOT1)) ('COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) ('BOIT' MAIL2) ;\n"
         "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
@@ -221,13 +234,13 @@ def _said(
         said = one_colour["colour"]
         options["only_colour"] = index_of(said) if said else 0
     if filled:
-        options["filled"] = True
+        options["filled"] = filled
     if no_legend:
         options["legend"] = False
     return _Said(options=options, qualify=names, animation=animation or "")
 
 
-_IDLE = frozenset({"no_click", "edges", "direct", "logo"})  # of other programs' windows
+_IDLE = frozenset({"no_click", "direct", "logo"})  # of other programs' windows
 
 
 def _keep_name(said: _Said, operand: Operand) -> None:
@@ -245,20 +258,36 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
             raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML", "DEFORME", "VECTEUR"))
     made = compose(subjects)
     options = dict(said.options)
+    if options.pop("edges", False):
+        made.layers[:1] = [replace(layer, edges=False) for layer in made.layers[:1]]
+        options["hidden"] = True
     options.setdefault("title", ws.title)
     options["iso"] = _ISO.get(str(ws.options.get("ISOV", ""))[:4].upper(), "SURFACE")
     options["notes"] = made.notes
+    if made.legend.categories:
+        given = options.get("annotation", Annotation())
+        options["annotation"] = made.legend.joined(given)
+    options["unit_of"] = _unit_of(ws)
     options["axes"] = _axes(ws)
     if said.qualify:
         options["labels"] = _labels(session, [layer.mesh for layer in made.layers])
     view = _view(session, said, [layer.mesh for layer in made.layers])
-    figure = draw_scene(made.layers, (view,), PictureOptions(**options), made.arrows,
-                        made.components)  # fmt: skip
-    stem = picture_name(session, options["title"], "-".join(said.names[:3]) or "trac")
+    try:
+        _draw_files(session, said, made, view, PictureOptions(**options))
+    except NoGraphicsError as problem:  # what was calculated is not lost for a picture
+        call.warn(problem.code, **problem.data)
+
+
+def _draw_files(
+    session: Session, said: _Said, made: Composition, view: View, options: PictureOptions
+) -> None:
+    stage = run_output(session).pictures.stage
+    figure = draw_scene(made.layers, (view,), options, made.arrows, made.components, stage)
+    stem = picture_name(session, options.title, "-".join(said.names[:3]) or "trac")
     files = save_picture(session, figure, stem, picture_formats(session, ("png",)))
-    deformed = subjects.deformed
+    deformed = said.subjects.deformed
     if said.animation and deformed is not None and len(deformed.parts) > 1:
-        frames = animation_frames(deformed, subjects, view, PictureOptions(**options))
+        frames = animation_frames(deformed, said.subjects, view, options, stage)
         path = save_animation(frames, files[0].with_suffix(".gif"), said.animation == "OSCI")
         run_output(session).wrote(path)
 
@@ -271,6 +300,18 @@ def _axes(ws: Workspace) -> tuple[str, str]:
     first, second = "rz" if round_axis else "xy"
     unit = ws.units.written("m")
     return f"{first} ({unit})", f"{second} ({unit})"
+
+
+def _unit_of(ws: Workspace) -> Callable[[str], str] | None:
+    """Units of components that are certain, in the deck's system (UX may be a speed)."""
+    units = ws.units
+    if units is None:
+        return None
+
+    def unit_of(component: str) -> str:
+        return units.written("Pa" if component == VON_MISES else result_unit(component, ""))
+
+    return unit_of
 
 
 def _view(session: Session, said: _Said, meshes: list[Mesh]) -> View:

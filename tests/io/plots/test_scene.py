@@ -12,7 +12,7 @@ from PIL import Image
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.composition import Subjects, compose
-from ssilang.io.plots.cutting import section_of
+from ssilang.io.plots.cutting import behind, section_of
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
@@ -84,7 +84,7 @@ def area(polygon: np.ndarray) -> float:
 def test_a_filled_mesh_shows_its_colour() -> None:
     red = Layer(grid(), colour=index_of("ROUG"))
     ink = 0.25 + 0.75 * np.array(to_rgb(shade("ROUG")))
-    assert share(drawn(red, filled=True), ink) > 0.2
+    assert share(drawn(red, filled="FACE"), ink) > 0.2
     assert share(drawn(red), ink) < 0.05
 
 
@@ -166,6 +166,47 @@ def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
     assert share(drawn(Layer(mesh, field=nothing, component="UX")), (0.93, 0.94, 0.95)) > 0.1
 
 
+def ends(figure: Any) -> dict[str, list[float]]:
+    return {m.get_gid(): list(m.get_xydata()[0]) for m in figure.axes[0].lines if m.get_gid()}
+
+
+def test_extremes_are_marked_where_they_are() -> None:
+    mesh = grid(4)
+    hill = field(mesh, T=lambda x: x[:, 0] + 2 * x[:, 1])
+    made = draw_scene((Layer(mesh, field=hill, component="T"),))
+    assert ends(made) == {"min": [0.0, 0.0], "max": [1.0, 1.0]}
+    assert "max 3" in made.axes[-1].get_ylabel()
+    # one value at many nodes has no place
+    slope = field(mesh, T=lambda x: np.maximum(x[:, 0], 0.8) + 1e-3 * x[:, 1])
+    assert set(ends(draw_scene((Layer(mesh, field=slope, component="T"),)))) == {"max"}
+    options = PictureOptions(legend=False)
+    assert not ends(draw_scene((Layer(mesh, field=hill, component="T"),), (), options))
+
+
+def test_the_bar_says_component_and_unit() -> None:
+    mesh = grid(2)
+    layer = Layer(mesh, field=field(mesh, FX=lambda x: x[:, 0]), component="FX")
+
+    def label(**options: Any) -> str:
+        return draw_scene((layer,), (), PictureOptions(**options)).axes[-1].get_ylabel()
+
+    assert label(unit_of={"FX": "kN"}.get).startswith("FX (kN) ")
+    assert label(unit_of=lambda name: "").startswith("FX ")
+    assert label(legend_name="force", unit_of={"FX": "kN"}.get).startswith("force ")
+
+
+def test_colours_of_several_shapes_are_named() -> None:
+    mesh = grid(2)
+    u = field(mesh, UX=lambda x: 0.01 * x[:, 1])
+    parts = DeformedPart(mesh, u, 0.0, 1), DeformedPart(mesh, u, 50.0, 2)
+    made = compose(Subjects(deformed=Deformed(parts)))
+    named = [(c.colour, c.text) for c in made.legend.categories]
+    assert named == [(1, "amplification 0"), (2, "amplification 50")]
+    assert made.notes == ()
+    twice = DeformedPart(mesh, u, 10.0, 2)  # one colour for two amplifications says nothing
+    assert not compose(Subjects(deformed=Deformed((*parts, twice)))).legend.categories
+
+
 def test_multipliers_have_no_panel() -> None:
     mesh = grid(2)
     u = field(mesh, UX=lambda x: x[:, 1])
@@ -196,7 +237,7 @@ def test_hidden_faces_are_not_seen() -> None:
     square = np.array([(0.0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
     low, high = table.add(square), table.add(square + np.array([0, 0, 1.0]))
     mesh = Mesh.of(table, "QUA4", np.stack([high, low]), np.array([2, 1], dtype=np.int8))
-    options = PictureOptions(filled=True, hidden=True)
+    options = PictureOptions(filled="FACE", hidden=True)
 
     def redness(z: float) -> float:
         view = view_along(np.array([0.0, 1e-6, z]))
@@ -215,9 +256,14 @@ def test_behind_a_plane() -> None:
     mesh = cube(2)
     plane = Plane.through(*np.array([(0.0, 0.5, 0), (1, 0.5, 0), (0, 0.5, 1)]))
     view = view_along(np.array([0.0, -1.0, 0.2]))
-    figure = draw_scene((Layer(mesh),), (view,), PictureOptions(beyond=plane, hidden=True))
+    left = behind(mesh, plane, view, mesh.nodes.coordinates)
     # four cells are left: their outer faces
-    assert len(figure.axes[0].collections[0].get_paths()) == 16
+    assert sum(len(f.nodes) for f in visible_faces(left)) == 16
+    lower = [
+        pixels(draw_scene((Layer(mesh, colour=2),), (view,), PictureOptions(**options)))
+        for options in ({"filled": "FACE"}, {"filled": "FACE", "beyond": plane})
+    ]
+    assert 0 < (lower[1] < 0.9).any(axis=2).mean() < (lower[0] < 0.9).any(axis=2).mean()
 
 
 def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
@@ -229,6 +275,15 @@ def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
     assert 0.5 * np.linalg.norm(crossed, axis=1).sum() == pytest.approx(np.sqrt(2.0))
     assert np.allclose(found, points @ np.array([1.0, 2.0, 3.0]))
     assert set(colours) == {0}
+
+
+def test_section_of_a_surface_is_a_line() -> None:
+    mesh = grid(3)
+    plane = Plane.through(*np.array([(0.3, 0, 0), (0.3, 1, 0), (0.3, 0, 1)]))
+    values = mesh.nodes.coordinates @ np.array([1.0, 2.0, 0.0])
+    points, found, _ = section_of(mesh, plane, mesh.nodes.coordinates, values, 2)
+    assert np.linalg.norm(points[:, 1] - points[:, 0], axis=1).sum() == pytest.approx(1.0)
+    assert np.allclose(found, points @ np.array([1.0, 2.0, 0.0]))
 
 
 def test_a_plane_needs_three_points_off_a_line() -> None:

@@ -13,8 +13,10 @@ import numpy as np
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.graphs.bars import draw_bars
+from ssilang.io.plots.graphs.differences import differences
 from ssilang.io.plots.graphs.line import Line
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle
+from ssilang.io.plots.graphs.periods import add_periods
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -52,6 +54,9 @@ class CurveOptions:
         First and last point drawn, from 1.
     dash_codes : mapping of int to sequence of int
         Dash of each segment: 0 full, 1 to 5 as TIRR TIRC TIRL TIRM POIN.
+    difference : bool, optional
+        A second frame shows the curves less the first: True always, False never, None where some
+        lie on it to the eye.
     written : function, optional
         What stands for an SI unit in the units of the data; without it the names of the curves
         carry no units.
@@ -84,6 +89,7 @@ class CurveOptions:
     names: Mapping[int, str] = field(default_factory=dict)
     spans: Mapping[int, tuple[int | None, int | None]] = field(default_factory=dict)
     dash_codes: Mapping[int, Any] = field(default_factory=dict)
+    difference: bool | None = None
     written: Callable[[str], str] | None = None
 
 
@@ -98,11 +104,18 @@ def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
     options = options or CurveOptions()
     lines = _lines(curve, options)
     rows = len(lines) if options.separate else 1
+    gaps = [] if _one_frame(curve, options) else differences(lines, options.difference)
     shape = (5.6, 5.6) if options.square else (7.2, 4.4)
-    with drawing(shape[0], shape[1] * (1 if rows == 1 else 0.45 * rows + 0.2)) as figure:
-        panels = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-        for i, panel in enumerate(panels):
+    height = shape[1] * (1.35 if gaps else 1 if rows == 1 else 0.45 * rows + 0.2)
+    with drawing(shape[0], height) as figure:
+        ratios = [2.6, 1.0] if gaps else [1.0] * rows
+        panels = figure.subplots(len(ratios), 1, sharex=True, squeeze=False, height_ratios=ratios)[
+            :, 0
+        ]
+        for i, panel in enumerate(panels[:rows]):
             _draw_panel(panel, lines[i : i + 1] if options.separate else lines, curve, options)
+        if gaps:
+            _draw_gaps(panels[-1], gaps, panels[0], lines[0], options)
         for panel in panels[:-1]:
             panel.set_xlabel("")
         title = curve.title if options.title is None else options.title
@@ -111,6 +124,29 @@ def draw_curves(curve: Curve, options: CurveOptions | None = None) -> Figure:
             stamp = datetime.now().strftime("%Y-%m-%d %H:%M")
             figure.text(0.995, 0.005, stamp, ha="right", va="bottom", fontsize=7, color="#777777")
     return figure
+
+
+def _one_frame(curve: Curve, options: CurveOptions) -> bool:
+    """Whether the drawing has no place for differences."""
+    bars = "HIST" in (curve.kind, *(p.kind for p in curve.parts))
+    chosen = options.separate or options.square or options.log_y or options.y_limits is not None
+    return bars or (chosen and not options.difference) or options.separate
+
+
+def _draw_gaps(
+    panel: Axes, gaps: list[Line], over: Axes, first: Line, options: CurveOptions
+) -> None:
+    """The frame of differences, under the curves and in their inks."""
+    panel.axhline(0.0, color=first.colour, lw=0.9, zorder=1.5)
+    for line in gaps:
+        _draw_line(panel, line)
+    panel.grid(True)
+    panel.set_axisbelow(True)
+    panel.set_xlabel(over.get_xlabel(), loc="right" if options.x_title_at_end else "center")
+    panel.set_ylabel("\u2212 " + to_mathtext(first.name or str(first.number)))
+    panel.tick_params(axis="y", labelsize=8)
+    for side in ("top", "right"):
+        panel.spines[side].set_visible(False)
 
 
 def _lines(curve: Curve, options: CurveOptions) -> list[Line]:
@@ -164,7 +200,8 @@ def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOpti
     _titles(panel, [curve.parts[line.number - 1] for line in lines], options)
     if options.extremes:
         _extremes(panel, lines)
-    _legend(panel, lines, options)
+    periods = add_periods(panel, [curve.parts[line.number - 1] for line in lines], lines)
+    _legend(panel, lines, options, 1.16 if periods else 1.0)
 
 
 def _draw_line(panel: Axes, line: Line) -> None:
@@ -311,13 +348,23 @@ def _extremes(panel: Axes, lines: list[Line]) -> None:
     panel.set_title(
         f"min {y.min():.5g}    max {y.max():.5g}", loc="right", fontsize=9, fontweight="normal"
     )
+    for marker, place in (("v", np.nanargmin), ("^", np.nanargmax)):
+        tops = [line for line in lines if np.isfinite(line.y).any()]
+        ends = [line.y[place(line.y)] for line in tops]
+        line = tops[int(place(ends))]
+        row = int(place(line.y))
+        panel.scatter(
+            line.x[row], line.y[row], s=34, marker=marker, c=line.colour, edgecolors="white",
+            linewidths=0.8, zorder=4,
+        )  # fmt: skip
 
 
-def _legend(panel: Axes, lines: list[Line], options: CurveOptions) -> None:
+def _legend(panel: Axes, lines: list[Line], options: CurveOptions, top: float = 1.0) -> None:
     named = [line for line in lines if line.name and line.name.upper() != NO_LEGEND]
     usual = len(lines) > 1 and not all(line.kind == "HIST" for line in lines)
     if not named or (options.legend is None and not usual and not options.separate):
         return
+    named = list({_look(line): line for line in reversed(named)}.values())[::-1]
     handles = [_handle(line) for line in named]
     texts = [to_mathtext(line.name) for line in named]
     place = options.legend
@@ -326,7 +373,7 @@ def _legend(panel: Axes, lines: list[Line], options: CurveOptions) -> None:
     elif place is None and len(named) <= 9:
         # beside the curves: inside, it would hide a part of them
         rows: dict[str, Any] = {"loc": "lower center", "ncols": min(len(named), 3)}
-        panel.legend(handles, texts, bbox_to_anchor=(0.5, 1.0), frameon=False, **rows)
+        panel.legend(handles, texts, bbox_to_anchor=(0.5, top), frameon=False, **rows)
     elif place in _CORNERS:
         panel.legend(handles, texts, loc=_CORNERS[place])
     elif place == "XY" and options.legend_at is not None:
@@ -339,6 +386,12 @@ def _legend(panel: Axes, lines: list[Line], options: CurveOptions) -> None:
         )
     else:
         panel.legend(handles, texts, loc="upper left", bbox_to_anchor=(1.01, 1.0))
+
+
+def _look(line: Line) -> tuple[object, ...]:
+    """What its line of the legend says: the same for several curves is said once."""
+    style = line.style
+    return line.name, line.colour, style.marker, style.solid, str(style.dash) if style.line else ""
 
 
 def _handle(line: Line) -> Any:

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
 SHIFT = 1e-12
-ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
 MOST = 100_000_000  # numbers of which free motions may consist: 0.8 GB
+ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
 
 
 @dataclass(frozen=True, eq=False)

@@ -189,6 +189,23 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
     return a
 
 
+def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArray:
+    """q of `mass q = force`, the least one where a mass is singular."""
+    own = mass.diagonal()
+    if np.count_nonzero(mass.data) == len(own):
+        return np.asarray((force.T / own).T)
+    import scipy.sparse.linalg as spla
+
+    try:
+        if goes_to_petsc(problem.solver, len(own)):
+            return factorise(sp.csr_array(mass), True, problem.solver).solve(force)
+        if len(own) >= MANY:
+            return _of_heavy(mass, force)
+        return np.asarray(spla.splu(mass).solve(force))
+    except (RuntimeError, SingularFactorError):
+        return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0])
+
+
 def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
     """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor.
 
@@ -208,23 +225,6 @@ def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
     if not all(x.converged for x in found):
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
     return np.column_stack([x.x for x in found]).reshape(force.shape)
-
-
-def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArray:
-    """q of `mass q = force`, the least one where a mass is singular."""
-    own = mass.diagonal()
-    if np.count_nonzero(mass.data) == len(own):
-        return np.asarray((force.T / own).T)
-    import scipy.sparse.linalg as spla
-
-    try:
-        if goes_to_petsc(problem.solver, len(own)):
-            return factorise(sp.csr_array(mass), True, problem.solver).solve(force)
-        if len(own) >= MANY:
-            return _of_heavy(mass, force)
-        return np.asarray(spla.splu(mass).solve(force))
-    except (RuntimeError, SingularFactorError):
-        return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0])
 
 
 def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:

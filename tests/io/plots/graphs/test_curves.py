@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -115,6 +117,93 @@ def test_only_the_span_is_drawn() -> None:
 def test_extremes_are_written() -> None:
     (axes,) = draw_curves(curve(0, 0), CurveOptions(extremes=True)).axes
     assert axes.get_title(loc="right") == "min 0    max 4"
+
+
+def test_extremes_are_marked_where_they_are() -> None:
+    t = np.linspace(0.0, 1.0, 11)
+    parts = (CurvePart(t, t - 0.2, colour=1), CurvePart(t, -(t**2), colour=2))
+    (axes,) = draw_curves(Curve(parts), CurveOptions(extremes=True)).axes
+    marks = [(tuple(c.get_offsets()[0]), to_hex(c.get_facecolor()[0])) for c in axes.collections]
+    assert marks == [((1.0, -1.0), shade(2)), ((1.0, 0.8), shade(1))]
+
+
+def several(*functions: Any) -> Curve:
+    t = np.linspace(0.0, 2.0, 41)
+    names = ["exact", *(f"way {i}" for i in range(1, len(functions)))]
+    pairs = zip(functions, names, strict=True)
+    return Curve(tuple(CurvePart(t, f(t), "t", "u", n, i + 1) for i, (f, n) in enumerate(pairs)))
+
+
+def test_curves_that_lie_on_each_other_show_what_differs() -> None:
+    near = several(np.sin, lambda t: 1.004 * np.sin(t), np.cos)
+    upper, lower = draw_curves(near).axes
+    assert [line.get_label() for line in upper.lines] == ["exact", "way 1", "way 2"]
+    assert lower.get_ylabel() == "\u2212 exact"
+    assert (lower.get_xlabel(), upper.get_xlabel()) == ("t", "")
+    zero, gap = lower.lines  # the third curve is seen without help
+    assert to_hex(gap.get_color()) == shade(2)
+    assert np.allclose(gap.get_ydata(), 0.004 * np.sin(gap.get_xdata()))
+    assert set(zero.get_ydata()) == {0.0}
+
+
+def test_differences_are_taken_at_the_points_of_the_coarser_curve() -> None:
+    """A curve of few points is no chord: a parabola against its own points differs by nothing."""
+    fine, coarse = np.linspace(0.0, 2.0, 401), np.linspace(0.0, 2.0, 5)
+    parts = (CurvePart(coarse, coarse**2), CurvePart(fine, fine**2 + 0.01))
+    _, lower = draw_curves(Curve(parts)).axes
+    gap = lower.lines[1]
+    assert np.allclose(gap.get_xdata(), coarse)
+    assert np.allclose(gap.get_ydata(), 0.01, atol=2e-5)
+
+
+@pytest.mark.parametrize(
+    ("other", "asked", "frames"),
+    [
+        (np.cos, None, 1),
+        (np.cos, True, 2),
+        (lambda t: 1.004 * np.sin(t), False, 1),
+        (np.sin, None, 1),  # nothing differs
+        (lambda t: np.sin(t) + 1e-12, None, 1),  # rounding
+    ],
+)
+def test_when_differences_have_a_frame(other: Any, asked: bool | None, frames: int) -> None:
+    figure = draw_curves(several(np.sin, other), CurveOptions(difference=asked))
+    assert len(figure.axes) == frames
+
+
+def test_loops_have_no_differences() -> None:
+    t = np.linspace(0.0, 6.0, 50)
+    parts = tuple(CurvePart(np.cos(t), a * np.sin(t)) for a in (1.0, 1.001))
+    assert len(draw_curves(Curve(parts), CurveOptions(difference=True)).axes) == 1
+
+
+def test_a_legend_says_what_looks_alike_once() -> None:
+    t = np.linspace(0.0, 2.0, 5)
+    parts = [CurvePart(t, (i + 1) * t, legend=n) for i, n in enumerate(("one", "two", "x", "x"))]
+    cross = parse_style("NOLI MARQ CROI")
+    options = CurveOptions(styles={3: cross, 4: cross}, legend="NE")
+    inked = Curve(tuple(dataclasses.replace(p, colour=8) for p in parts))
+    legend = draw_curves(inked, options).axes[0].get_legend()
+    assert [x.get_text() for x in legend.get_texts()] == ["one", "two", "x"]
+
+
+@pytest.mark.parametrize("log", [True, False])
+def test_frequencies_of_a_spectrum_have_their_periods_above(log: bool) -> None:
+    f = np.geomspace(0.2, 40.0, 60)
+    made = CurvePart(f, 1 / f, "FREQ", "ACCE").measured("Hz")
+    figure = draw_curves(Curve((made,)), CurveOptions(log_x=log))
+    figure.draw_without_rendering()
+    (panel,) = figure.axes
+    (upper,) = panel.child_axes
+    assert upper.get_xlabel() == "T (s)"
+    periods = upper.get_xticks()
+    assert len(periods) > 3
+    for period in periods:
+        place = panel.transData.transform((1.0 / period, 0.0))[0]
+        assert upper.transData.transform((period, 0.0))[0] == pytest.approx(place)
+    # 1/f of a signal in time has no such axis
+    (plain,) = draw_curves(Curve((CurvePart(f, 1 / f, "FREQ"),))).axes
+    assert not plain.child_axes
 
 
 def test_pictures_are_numbered_and_svg_keeps_its_words(tmp_path: Path) -> None:

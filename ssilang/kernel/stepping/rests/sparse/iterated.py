@@ -200,7 +200,7 @@ class IteratedSolver:
                 assert joints is not None
                 local_jumps(joints.points, s.J @ x, w)
                 interface_forces(joints.points, np.einsum("pij,pj->pi", change, w), f)
-                return s.factor.multiply(x) + s.J.T @ f
+                return np.asarray(s.factor.multiply(x) + s.J.T @ f)
 
         cycle = s.factor.hierarchy.cycle
         if symmetric:

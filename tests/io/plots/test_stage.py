@@ -1,0 +1,214 @@
+"""Scenes in space: what hides what, light, arrows, labels, cuts, and systems that cannot draw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+from ssilang.cli.run import run_text
+from ssilang.io.plots import stage as stages
+from ssilang.io.plots.figure import drawing, figure_bytes
+from ssilang.io.plots.layers import Layer, PictureOptions
+from ssilang.io.plots.painter import Painter
+from ssilang.io.plots.palette import index_of, shade
+from ssilang.io.plots.scene import draw_scene
+from ssilang.io.plots.stage import Photograph, Stage
+from ssilang.io.plots.view import View, view_along
+from ssilang.kernel.fields.arrows import arrows_at_nodes
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.language.say.diagnostics import render
+
+_CORNER = view_along(np.array([1.0, -1.2, 0.8]))  # three faces of a cube
+_LINES = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], dtype=float)
+
+
+@pytest.fixture(scope="module")
+def stage() -> Iterator[Stage]:
+    made = Stage()
+    yield made
+    made.close()
+
+
+def cube() -> Mesh:
+    table = NodeTable()
+    ids = table.add(np.vstack([_LINES, _LINES + np.array([0, 0, 1.0])]))
+    return Mesh.of(table, "CUB8", ids[None, :])
+
+
+def photograph(stage: Stage, view: View, *polygons: Any) -> Photograph:
+    """The sheet from -1 to 2 both ways in 300 pixels; polygons are (points, face, edge, width)."""
+    painter = Painter(view)
+    for points, face, edge, width, light in polygons:
+        painter.add(np.asarray(points, dtype=float), face, edge, width, 1, light)
+    with drawing(2, 2) as figure:
+        axes = figure.add_axes((0, 0, 1, 1))
+        return painter.photograph(axes, stage, np.array([[-1.0, -1], [2, 2]]), True)
+
+
+def shown(figure: Any) -> np.ndarray:
+    (image,) = figure.axes[0].images
+    return np.asarray(image.get_array())
+
+
+def inks(image: np.ndarray, least: float = 0.01) -> list[tuple[int, ...]]:
+    """Colours that fill more than a share of an image, white left out."""
+    found, count = np.unique(image.reshape(-1, 3), axis=0, return_counts=True)
+    many = found[count > least * count.sum()]
+    return [tuple(map(int, c)) for c in many if c.min() < 255]
+
+
+def texts(figure: Any) -> set[str]:
+    return {t.get_text() for t in figure.axes[0].texts}
+
+
+def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage: Stage) -> None:
+    red, blue = (1.0, 0, 0, 1), (0.0, 0, 1, 1)
+    low, high = _LINES[None], 0.5 * _LINES[None] + (0.25, 0.25, 1)
+    above = photograph(stage, view_along(np.array([0.0, 0, 1])), (high, red, red, 0, ""),
+                       (low, blue, blue, 0, ""))  # fmt: skip
+    image = above.image
+    rows, columns, _ = image.shape
+    # the small square covers a quarter of the large one, and that a ninth of the sheet
+    parts = [(image == np.array(c)).all(axis=2).mean() for c in ((255, 0, 0), (0, 0, 255))]
+    assert parts == pytest.approx([1 / 36, 1 / 12], abs=2e-3)
+    painted = np.argwhere((image < 255).any(axis=2))
+    assert painted.min(axis=0) == pytest.approx([rows / 3, columns / 3], abs=1)
+    assert painted.max(axis=0) == pytest.approx([2 * rows / 3, 2 * columns / 3], abs=1)
+    below = photograph(stage, view_along(np.array([0.0, 0, -1])), (high, red, red, 0, ""))
+    assert inks(below.image) == [(255, 0, 0)]
+    bounds = np.array([[-1.0, -1], [2, 2]])
+    middle, near = np.array([[0.5, 0.5], [0.1, 0.1], [1.9, 1.9]]), np.array([0.0, 0, -5])
+    assert list(above.shows(middle, near, bounds)) == [False, True, True]
+
+
+def test_the_faces_of_a_cube_have_a_shade_each(stage: Stage) -> None:
+    layer = Layer(cube(), colour=index_of("ROUG"), edges=False)
+
+    def found(filled: str) -> list[tuple[int, ...]]:
+        options = PictureOptions(filled=filled)
+        return inks(shown(draw_scene((layer,), (_CORNER,), options, stage=stage)))
+
+    shaded = found("FACE")
+    assert len(shaded) == 3
+    assert found("FACB") == shaded
+    full = np.array([round(255 * (0.25 + 0.75 * c)) for c in to_rgb(shade("ROUG"))])
+    assert np.allclose(found("FSDB"), full, atol=1)
+    for ink in shaded:  # darker, of the same hue
+        ratio = np.array(ink) / full
+        assert np.ptp(ratio) < 0.03
+        assert 0.4 < ratio.mean() <= 1.0
+
+
+def test_edges_of_the_back_are_hidden_on_demand(stage: Stage) -> None:
+    """Of the twelve edges of a cube nine are seen, three behind it."""
+    layer = Layer(cube(), colour=index_of("NOIR"))
+
+    def darkness(**options: Any) -> float:
+        image = shown(draw_scene((layer,), (_CORNER,), PictureOptions(**options), stage=stage))
+        return float((255 - image.astype(float)).mean())
+
+    assert darkness(hidden=True) / darkness() == pytest.approx(9 / 12, abs=0.05)
+
+
+def test_numbers_of_hidden_nodes_are_not_written(stage: Stage) -> None:
+    mesh = cube()
+    options = {"node_numbers": True, "labels": (("P", mesh),)}
+    seen = draw_scene((Layer(mesh),), (_CORNER,), PictureOptions(hidden=True, **options),
+                      stage=stage)  # fmt: skip
+    # the corner behind (0, 1, 0) is number 4; the middle of the cube bears its name
+    assert texts(seen) == {"1", "2", "3", "5", "6", "7", "8"}
+    whole = draw_scene((Layer(mesh),), (_CORNER,), PictureOptions(**options), stage=stage)
+    assert texts(whole) == {*"12345678", "P"}
+
+
+def test_arrows_behind_a_face_are_hidden(stage: Stage) -> None:
+    mesh = cube()
+    ids = mesh.sorted_node_ids
+    force = NodeField.of(mesh.nodes, ids[:4], {"FZ": np.ones(4)})
+    arrows = arrows_at_nodes(force, ("", "", "FZ"), 0.5, 2)
+
+    def redness(**options: Any) -> float:
+        made = draw_scene((Layer(mesh, colour=8),), (_CORNER,), PictureOptions(**options),
+                          arrows, stage=stage)  # fmt: skip
+        image = shown(made).astype(float)
+        return float((image[..., 0] > image[..., 2] + 60).sum())
+
+    # of the four arrows up from the corners of the bottom, that of the corner behind is lost
+    assert 0 < redness(hidden=True) < 0.85 * redness()
+
+
+def test_coordinates_far_from_the_origin_are_drawn_alike(stage: Stage) -> None:
+    """As those of a map: a block of one metre at 10 000 km."""
+    image = {}
+    for away in (0.0, 1e7):
+        table = NodeTable()
+        ids = table.add(np.vstack([_LINES, _LINES + np.array([0, 0, 1.0])]) + away)
+        layer = Layer(Mesh.of(table, "CUB8", ids[None, :]), colour=2)
+        made = draw_scene((layer,), (_CORNER,), PictureOptions(filled="FACE"), stage=stage)
+        image[away] = shown(made).astype(float)
+    assert np.abs(image[0.0] - image[1e7]).mean() < 0.5
+
+
+def test_bands_in_space_have_the_colours_of_the_bar_toned_by_light(stage: Stage) -> None:
+    mesh = cube()
+    ids = mesh.sorted_node_ids
+    height = NodeField.of(mesh.nodes, ids, {"Z": mesh.nodes.coordinates[ids, 2]})
+    layer = Layer(mesh, field=height, component="Z", edges=False)
+    view = view_along(np.array([0.0, -1, 0]))
+    made = draw_scene((layer,), (view,), PictureOptions(level_count=4), stage=stage)
+    found = inks(shown(made))
+    assert len(found) == 4
+    assert made.axes[-1].get_ylabel().startswith("Z ")
+
+
+def test_pictures_of_vectors_hold_the_scene_as_an_image(stage: Stage) -> None:
+    made = draw_scene((Layer(cube()),), (_CORNER,), PictureOptions(title="A cube"), stage=stage)
+    text = figure_bytes(made, "svg").decode()
+    assert "data:image/png" in text
+    assert ">A cube</text>" in text
+
+
+SOLID = (
+    "OPTI DIME 3 ELEM SEG2 MODE TRID ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; OPTI ELEM QUA4 ; "
+    "S = TRAN L 1 (0. 1. 0.) ; OPTI ELEM CUB8 ; V = S VOLU 'TRAN' 2 (0. 0. 1.) ; "
+)
+
+
+@pytest.mark.parametrize("missing", ["window", "library"])
+def test_a_system_that_cannot_draw_keeps_the_run(
+    missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import sys
+
+    if missing == "window":
+        monkeypatch.setattr(stages, "_window_kinds", list)
+    else:  # as where a wheel finds no libXrender
+        monkeypatch.setitem(sys.modules, "pyvista", None)
+    monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
+    stages.choose_window.cache_clear()
+    said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path)
+    stages.choose_window.cache_clear()
+    assert said.exit_code == 0, said.message
+    assert said.session.root.find("A") == 1
+    (warning,) = said.session.warnings
+    assert "the picture is left out" in render(warning, "en")
+    assert "libegl1" in render(warning, "en")
+    assert not list(tmp_path.iterdir())
+
+
+def test_edges_of_another_mesh_over_what_hides_them(tmp_path: Path) -> None:
+    """ARET: the box hides, edges of its cells (red) are not drawn but those of the other mesh."""
+    from PIL import Image
+
+    run_text(SOLID + "A = (ARET V) COUL 'VERT' ; TRAC 'ARET' (V COUL 'ROUG') A ;", tmp_path)
+    (path,) = tmp_path.glob("*.png")
+    image = np.asarray(Image.open(path).convert("RGB"), dtype=float)
+    assert not (image[..., 0] > image[..., 1] + 60).any()
+    assert (image[..., 1] > image[..., 0] + 60).any()
