@@ -84,6 +84,9 @@ def test_an_error_has_code_place_and_the_message_of_the_command_line(tmp_path, m
 def test_messages_are_in_the_language_that_is_asked_for():
     with pytest.raises(ssilang.Error, match="erreur : le jeu de données n'a pas de ABC"):
         ssilang.run("X = 1 ;", language="fr")["ABC"]
+    table = ssilang.run("T = TABL ; T . 'ABC' = PROG 1. ;", language="fr")["T"]
+    with pytest.raises(ssilang.Error, match="vouliez-vous dire 'ABC'"):
+        table["ABD"]
     with pytest.raises(ssilang.Error, match="erreur : "):
         ssilang.run("LIST (ABC + 1) ;", language="fr")
 
