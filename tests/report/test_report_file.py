@@ -211,6 +211,22 @@ def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_p
     assert len(share["lines"][0]["x"]) == 200  # the last line is cut
 
 
+def test_axes_have_the_units_of_the_deck(rocking: Path, tmp_path: Path) -> None:
+    summary = json.loads((rocking / "summary.json").read_text())
+    summary["units"] = {"system": "KN-M", "length": "m", "force": "kN"}
+    (tmp_path / "summary.json").write_text(json.dumps(summary))
+    (tmp_path / "report").mkdir()
+    for name in ("contents.json", "calculation_1.csv"):
+        (tmp_path / "report" / name).write_bytes((rocking / "report" / name).read_bytes())
+    write_report(tmp_path, "en")
+    axes = {c["title"]: (c["x"], c["y"]) for c in data(page(tmp_path), "charts")}
+    assert axes["toe pressure (largest)"] == ("time (s)", "toe pressure (largest) (kPa)")
+    assert axes["moment against rotation"] == ("rotation (rad)", "moment (kN.m)")
+    assert axes["energies"] == ("time (s)", "energy (kJ)")
+    assert "units KN-M: m, kN" in Sections(page(tmp_path)).text["header"]
+    assert "scene_1.vtkhdf is gone" in Sections(page(tmp_path)).text["scene"]
+
+
 def test_a_damaged_record_is_named(rocking: Path, tmp_path: Path) -> None:
     (tmp_path / "report").mkdir()
     (tmp_path / "summary.json").write_bytes((rocking / "summary.json").read_bytes())
