@@ -1,4 +1,4 @@
-"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `warm`, `repl`, `version`."""
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `view`, `repl` ..."""
 
 from __future__ import annotations
 
@@ -158,12 +158,15 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
+    from ssilang.kernel.base.compiled import ALLOWED
+
+    ALLOWED.add("beside")
     run_options = _run_options(options)
     run_options.report = options.report
     run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
-        from ssilang.cli.repl import interact
+        from ssilang.cli.terminal.repl import interact
 
         return interact(result.session)
     return result.exit_code
@@ -302,6 +305,23 @@ def _completion(options: argparse.Namespace) -> int:
     return OK
 
 
+def _view(options: argparse.Namespace) -> int:
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.io.viewer import Wish, draw, show
+    from ssilang.language.say.errors import SsiError
+
+    wish = Wish(options.field, options.step, options.scale)
+    try:
+        if options.output is None:
+            show(options.file, wish)
+        else:
+            draw(options.file, options.output, wish)
+    except (InputError, OutputError) as problem:
+        _told(SsiError.of(problem, None), options.lang)
+        return USAGE
+    return OK
+
+
 def _lsp(options: argparse.Namespace) -> int:
     try:
         from ssilang.cli.editor.server import start
@@ -323,7 +343,7 @@ def _help(options: argparse.Namespace) -> int:
 
 
 def _repl(options: argparse.Namespace) -> int:
-    from ssilang.cli.repl import start
+    from ssilang.cli.terminal.repl import start
 
     return start(_run_options(options))
 
@@ -345,6 +365,7 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "sweep": _sweep,
     "warm": _warm,
     "repl": _repl,
+    "view": _view,
     "lsp": _lsp,
     "completion": _completion,
     "version": _version,

@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 from ssilang.messages.message import Teller, teller
 
 COMMANDS = (
-    "run", "report", "new", "check", "format", "help", "sweep", "warm", "repl", "lsp",
+    "run", "report", "new", "check", "format", "help", "sweep", "warm", "repl", "view", "lsp",
     "completion", "version",
 )  # fmt: skip
 LANGUAGES = ("en", "fr")
@@ -130,6 +130,7 @@ def parser(words: Sequence[str]) -> Parser:
     _sweep(command("sweep", help="cli.usage-sweep"))
     _warm(command("warm", help="cli.usage-warm", epilog="cli.usage-warm-example"))
     _session_arguments(command("repl", help="cli.usage-repl"))
+    _view(command("view", help="cli.usage-view"))
     _language_argument(command("lsp", help="cli.usage-lsp"))
     shell = command("completion", help="cli.usage-completion")
     shell.add_argument("shell", choices=SHELLS, help="cli.usage-shell")
@@ -176,6 +177,15 @@ def _warm(warm: argparse.ArgumentParser) -> None:
     warm.add_argument("files", nargs="*", type=Path, metavar="DECK", help="cli.usage-warm-files")
     _allowed(warm)
     _language_argument(warm)
+
+
+def _view(view: argparse.ArgumentParser) -> None:
+    view.add_argument("file", type=Path, help="cli.usage-view-file")
+    view.add_argument("-o", "--output", type=Path, metavar="FILE", help="cli.usage-view-output")
+    view.add_argument("--field", default="", metavar="NAME[:PART]", help="cli.usage-view-field")
+    view.add_argument("--step", type=int, metavar="N", help="cli.usage-view-step")
+    view.add_argument("--scale", type=float, metavar="X", help="cli.usage-view-scale")
+    _language_argument(view)
 
 
 def _session_arguments(to: argparse.ArgumentParser) -> None:

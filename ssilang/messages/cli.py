@@ -335,6 +335,27 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "the language server needs pygls: pip install 'ssilang[editor]'",
         "le serveur de langage demande pygls : pip install 'ssilang[editor]'",
     ),
+    "usage-view": Message(
+        "show results, a mesh or a picture in a window, or draw it to a file",
+        "montre des résultats, un maillage ou une image dans une fenêtre, ou les dessine",
+    ),
+    "usage-view-file": Message(
+        "file (vtkhdf, pvd, vtu, msh, med, png ...) or folder of results",
+        "fichier (vtkhdf, pvd, vtu, msh, med, png ...) ou dossier de résultats",
+    ),
+    "usage-view-output": Message(
+        "write a picture (png, jpg) or all instants (gif) instead of opening a window",
+        "écrit une image (png, jpg) ou tous les instants (gif) au lieu d'ouvrir une fenêtre",
+    ),
+    "usage-view-field": Message(
+        "field that colours, and its component (the displacement, or the first field)",
+        "champ qui colore, et sa composante (le déplacement, ou le premier champ)",
+    ),
+    "usage-view-step": Message("instant, from 1 (the last)", "instant, à partir de 1 (le dernier)"),
+    "usage-view-scale": Message(
+        "displacements so many times as large (a scale that shows them)",
+        "déplacements multipliés par ce nombre (une échelle qui les montre)",
+    ),
     "usage-lsp": Message(
         "language server for editors, over standard input and output",
         "serveur de langage pour les éditeurs, par l'entrée et la sortie standard",

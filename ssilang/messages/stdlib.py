@@ -23,6 +23,69 @@ MESSAGES: dict[str, Message] = {
         "{1} of {2} checks out of tolerance",
         "{1} vérifications sur {2} hors tolérance",
     ),
+    "bilanssi-no-instants": Message(
+        "@BILANSSI: no instant of RESULTATS has tractions of joints (CONTRAINTES)",
+        "@BILANSSI : aucun instant de RESULTATS n'a de contraintes de joints (CONTRAINTES)",
+        "the joints must be in MODELE of the run, and instants be saved, from DEBUT on",
+        "les joints doivent être dans MODELE du calcul, et des instants gardés, à partir de DEBUT",
+    ),
+    "bilanssi-macro": Message(
+        "@BILANSSI: a macro-element knows force and moment, not where the footing touches",
+        "@BILANSSI : un macro-élément connaît force et moment, pas où la semelle touche",
+        "use joints along the footing (JOI2, JOI3, JOI4 ...)",
+        "utiliser des joints le long de la semelle (JOI2, JOI3, JOI4 ...)",
+    ),
+    "bilanssi-no-weight": Message(
+        "@BILANSSI: nothing presses the footing at its first instant, t = {1} s: force {2} N",
+        "@BILANSSI : rien n'appuie la semelle à son premier instant, t = {1} s : force {2} N",
+        "gravity forgotten? DEBUT leaves instants before it out",
+        "pesanteur oubliée ? DEBUT écarte les instants d'avant",
+        severity="warning",
+    ),
+    "bilanssi-dead-load": Message(
+        "@BILANSSI: the pressure at the first instant, {1} Pa, exceeds the capacity, {2} Pa",
+        "@BILANSSI : la pression au premier instant, {1} Pa, dépasse la capacité, {2} Pa",
+        severity="warning",
+    ),
+    "bilanssi-above-zero": Message(
+        "@BILANSSI: {1} must be above zero, it is {2}",
+        "@BILANSSI : {1} doit être positif, il vaut {2}",
+    ),
+    "bilanssi-broadening": Message(
+        "@BILANSSI: ELARGISSEMENT is from 0 to below 1, not {1}",
+        "@BILANSSI : ELARGISSEMENT est entre 0 et moins de 1, pas {1}",
+    ),
+    "bilanssi-no-acceleration": Message(
+        "@BILANSSI: PLANCHERS needs accelerations, which RESULTATS does not have at all instants",
+        "@BILANSSI : PLANCHERS demande des accélérations, absentes de RESULTATS à un instant",
+    ),
+    "bilanssi-head": Message(
+        "footing, {1} instants from {2} to {3} s                      value          at (s)",
+        "semelle, {1} instants de {2} à {3} s                       valeur           à (s)",
+    ),
+    "bilanssi-floor": Message(
+        "  floor {1}, {2}, {3} %: largest acceleration {4} at {5} Hz",
+        "  plancher {1}, {2}, {3} % : plus grande accélération {4} à {5} Hz",
+    ),
+    "bilanssi-part": Message("least share in contact", "part en contact, la plus petite"),
+    "bilanssi-pression": Message(
+        "largest toe pressure (Pa)", "pression au bord, la plus grande (Pa)"
+    ),
+    "bilanssi-taux": Message(
+        "largest pressure over the capacity", "pression sur capacité, la plus grande"
+    ),
+    "bilanssi-ouverture": Message("largest uplift (m)", "soulèvement, le plus grand (m)"),
+    "bilanssi-moment": Message("largest moment (N m)", "moment, le plus grand (N m)"),
+    "bilanssi-rotation": Message("largest rotation (rad)", "rotation, la plus grande (rad)"),
+    "bilanssi-enfoncement": Message("largest settlement (m)", "enfoncement, le plus grand (m)"),
+    "bilanssi-renversement": Message(
+        "least factor of overturning", "coefficient de renversement, le plus petit"
+    ),
+    "bilanssi-glissement": Message(
+        "least factor of sliding", "coefficient de glissement, le plus petit"
+    ),
+    "bilanssi-left-rotation": Message("rotation left (rad)", "rotation résiduelle (rad)"),
+    "bilanssi-left-enfoncement": Message("settlement left (m)", "enfoncement résiduel (m)"),
     "cartoon-table-neither-resudepl-nor": Message(
         "@CARTOON: the table has neither RESUDEPL nor DEPLACEMENTS",
         "@CARTOON : la table n'a ni RESUDEPL ni DEPLACEMENTS",

@@ -33,8 +33,10 @@ from ssilang.operators.dynamics.motion_files import (
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
+    warn_at_rest,
     warn_motion_elsewhere,
     warn_of_connections,
+    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -71,6 +73,7 @@ MOST_STEPS = 1e9
 )
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
+    from ssilang.kernel.base.compiled.beside import tell_ahead
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_track import NodeTrack
@@ -82,6 +85,8 @@ def zdyn(call: Call, table: Table) -> Table:
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
     warn_motion_elsewhere(entries, problem, inputs)
+    warn_at_rest(entries, inputs)
+    warn_of_loads_that_end(entries, inputs.load, times)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
@@ -101,6 +106,8 @@ def zdyn(call: Call, table: Table) -> Table:
     observers += [] if record is None else record.observers
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
+        if not problem.small:
+            tell_ahead("_factorise", "run_interleaved")
     try:
         with recorded(record):
             history = _integrated(entries, problem, observers, line, bodies)

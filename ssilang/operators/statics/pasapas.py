@@ -31,6 +31,7 @@ from ssilang.operators.dynamics.reports import (
     report,
     warn_contrast,
     warn_of_connections,
+    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -75,6 +76,7 @@ def zpas(call: Call, table: Table) -> None:
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
+    warn_of_loads_that_end(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     work = entries
