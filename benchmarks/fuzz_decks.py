@@ -144,6 +144,18 @@ OPTI SAUV 'all.sauv' ; SAUV ;
 OPTI SORT 'all' ; SORT 'AVS ' S1 U1 ;
 OPTI SORT 'all.csv' ; SORT 'EXCE' T1 (T1 * T1) ;
 OPTI SORT 'mesh' ; SORT S1 ;
+OPTI SORT 'plate.msh' ; SORT 'MESH' S1 ; OPTI SORT 'plate.med' ; SORT 'MESH' S1 ;
+OPTI SORT 'sets.inp' ; SORT 'MESH' S1 ; OPTI SORT 'plate.bdf' ; SORT 'NAS ' S1 ;
+OPTI SORT 'plate.vtu' ; SORT 'VTK ' S1 ;
+OPTI SORT 'plate.mesh' ;
+SORT 'CHAI' 'MeshVersionFormatted 2' ; SORT 'CHAI' 'Dimension 2' ; SORT 'CHAI' 'Vertices' ;
+SORT 'CHAI' '4' ; SORT 'CHAI' '0. 0. 1' ; SORT 'CHAI' '1. 0. 1' ; SORT 'CHAI' '1. 1. 1' ;
+SORT 'CHAI' '0. 1. 1' ; SORT 'CHAI' 'Quadrilaterals' ; SORT 'CHAI' '1' ; SORT 'CHAI' '1 2 3 4 7' ;
+SORT 'CHAI' 'End' ;
+OPTI SORT 'plate.vtk' ; SORT 'CHAI' '# vtk DataFile Version 4.2' ; SORT 'CHAI' 'plate' ;
+SORT 'CHAI' 'ASCII' ; SORT 'CHAI' 'DATASET UNSTRUCTURED_GRID' ; SORT 'CHAI' 'POINTS 4 double' ;
+SORT 'CHAI' '0. 0. 0. 1. 0. 0. 1. 1. 0. 0. 1. 0.' ; SORT 'CHAI' 'CELLS 1 5' ;
+SORT 'CHAI' '4 0 1 2 3' ; SORT 'CHAI' 'CELL_TYPES 1' ; SORT 'CHAI' '9' ;
 OPTI SORT 'acq.txt' ; SORT 'CHAI' '3 4.5 7 8' ; SORT 'CHAI' ' 1.5E-3 ''WORD'' 2' ;
 OPTI SORT 'two.procedur' ; SORT 'CHAI' 'DEBP TWICE X*''FLOTTANT'' ; FINP (2. * X) ;' ;
 OPTI SORT 'q.at2' ; SORT 'CHAI' 'PEER' ; SORT 'CHAI' 'event' ; SORT 'CHAI' 'UNITS OF G' ;
@@ -179,6 +191,11 @@ _USE = {
     " LIST (MAXI (EXTR E 'ABSC')) ;",
     "line.unv": "OPTI DIME 3 ; T = LIRE 'UNV' '{f}' ; LIST T ; LIST (T . 'MAILLAGE') ;"
     " LIST (MESU (T . '@SEG2')) ; LIST (T . 'GRP') ; LIST (MESU (T . '@TRI3')) ;",
+    **dict.fromkeys(
+        ("plate.msh", "plate.med", "sets.inp", "plate.bdf", "plate.vtu", "plate.mesh", "plate.vtk"),
+        "OPTI DIME 2 ; T = LIRE '{f}' ; LIST T ; LIST (MESU (T . '@QUA4')) ; S = T . 'MAILLAGE' ;"
+        " LIST (MESU (CONT (T . '@QUA4'))) ; LIST (NBNO (T . 'NOEUDS')) ; ELIM S 0.01 ; LIST S ;",
+    ),
     "one.stl": "OPTI DIME 3 ; M = LIRE 'STL' '{f}' ; LIST M ; LIST (MESU M) ; ELIM M 1.E-3 ;"
     " LIST (NBEL (CONT M)) ;",
 }
@@ -371,7 +388,7 @@ def _ran(text: str, folder: Path, clock: _Clock, *, summary: bool) -> tuple[str,
     options = RunOptions(
         folder / "out",
         limits=Limits(50, _STATEMENTS),
-        given={"XNAN": float("nan"), "XINF": float("inf")},
+        given={n: float(n[1:]) for n in ("XNAN", "XINF") if n in text.upper()},
         summary=summary,
     )
     out, err = io.StringIO(), io.StringIO()

@@ -1,10 +1,10 @@
 """A block of bricks held at its foot: multigrid against the own sparse Cholesky solver.
 
-    pip install '.[amg]'
     OMP_NUM_THREADS=1 python benchmarks/multigrid.py [cells of a side]
 
 Prints stiffness and assembly, then for each solver its preparation (checks for free motions
 included), one solve and the memory that it holds, and how far their answers are from each other.
+Seconds are those of the processor, all threads together.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ def block_of_bricks(n: int) -> tuple[sp.csr_array, Ordering, tuple[float, float]
     one = np.ones((len(cells), 1))
     field = CellField((CellFieldBlock(cells, {"YOUN": 1e9 * one, "NU": 0.3 * one}, "STRESSES"),))
     zone = Zone(cells, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), "CUB8", Mode.THREE_DIMENSIONAL)
-    start = time.perf_counter()
+    start = time.process_time()
     bricks = elements.stiffness(zone, field)
-    made = time.perf_counter()
+    made = time.process_time()
     matrix = Matrix(table, (bricks,))
     numbering = numbering_of(matrix)
     K = assemble(matrix, numbering)
-    done = time.perf_counter()
+    done = time.process_time()
     at = table.coordinates[numbering.nodes]
     kept = np.flatnonzero(at[:, 2] > 0.0)
     order = Ordering(at[kept], np.zeros(0, np.int64), rigid_motions(numbering)[kept])
@@ -74,11 +74,11 @@ def main(n: int = 30) -> None:
     found: list[np.ndarray] = []
     for name in (MULTIGRID, DISSECTION):
         invert(small, True, name, few)  # compiles
-        before, start = resident(), time.perf_counter()
+        before, start = resident(), time.process_time()
         inverse = invert(K, True, name, order)
-        ready, held = time.perf_counter(), resident()
+        ready, held = time.process_time(), resident()
         found.append(inverse.solve(b))
-        end = time.perf_counter()
+        end = time.process_time()
         print(
             f"{name:18s} {K.shape[0]} unknowns, ready in {ready - start:.1f} s, "
             f"a solve {end - ready:.2f} s, {held - before:.0f} MB held"

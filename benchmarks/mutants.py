@@ -78,11 +78,7 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
          "kernel/matrices/assembly.py", "kernel/matrices/imposed.py"),
         ("kernel/matrices", "operators/test_lumping.py", "operators/test_matrix_making.py"),
     ),
-    "contact": (
-        ("kernel/contact",),
-        ("kernel/contact", "operators/test_relations_in_time.py",
-         "operators/test_conserving_relations.py"),
-    ),
+    "contact": (("kernel/contact",), ("kernel/contact",)),
     "statics": (("kernel/statics/linear.py",), ("kernel/statics",)),
     "modes": (("kernel/modal/eigen.py", "kernel/modal/oscillator.py", "kernel/modal/explicit.py"),
               ("kernel/modal",)),

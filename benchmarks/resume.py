@@ -1,14 +1,16 @@
 """Are runs that were killed and gone on with equal to the undisturbed ones?
 
 `python benchmarks/resume.py [COUNT] [SEED]`: decks with REPRISE run in processes of their own that
-SIGKILL (one in five: SIGTERM) ends at a random moment, a third of them twice; `--resume` takes each
-to its end. Compared are the series, the histories and all numbers of the saved tables, to the last
-bit. Printed are how many are equal, and how long the undisturbed runs take.
+SIGKILL (one in five: SIGTERM) ends, one in six at any moment from its start on, the others at a
+random moment of their march, some of these twice; `--resume` takes each to its end. Compared are
+the series, the histories and all numbers of the saved tables, to the last bit. Printed are how many
+are equal, and how long the undisturbed runs take.
 """
 
 from __future__ import annotations
 
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,24 +19,19 @@ import time
 import zipfile
 from pathlib import Path
 
-ROCKING = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ;
-PC = 0. 0. ; PG = 0. 3. ; PL = -1. 0. ; PR = 1. 0. ; PSL = -1. -1. ; PSR = 1. -1. ;
-JOI = (MANU 'SEG2' PSL PL) ET (MANU 'SEG2' PSR PR) ;
-MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
-BLO = (BLOQ 'UX' 'UY' (PSL ET PSR)) ET (BLOQ 'UX' (PL ET PR ET PC)) ;
-BLO = BLO ET (RELA 'UY' PL - 'UY' PC + 1. 'RZ' PC) ET (RELA 'UY' PR - 'UY' PC - 1. 'RZ' PC) ;
-BLO = BLO ET (RELA 'UY' PG - 'UY' PC) ET (RELA 'UX' PG + 3. 'RZ' PC) ;
-T . 'MASS' = (MASS 'DEPL' 1.E5 PG) ET (MASS 'ROTA' 1.E5 PC) ;
-T . 'RIGI' = BLO ; T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E8 'KS' 0. ;
-T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E6) PG)) ET
-  (CHAR 'MECA' (FORC (2.E5 0.) PG) (EVOL 'MANU' (PROG 0. .3 .6 99.) (PROG 0. 1. -1. 0.5))) ;
-T . 'TEMPS_CALCULES' = PROG 0. PAS 0.0005 8. ; T . 'PAS_SAUVES' = 800 ;
-T . 'PAS_SAUVES_VTK' = 500 ; T . 'MAILLAGE_VTK' = JOI ;
-T . 'PAS_SAUVES_CSV' = 20 ; T . 'MAILLAGE_CSV' = PG ET PC ;
-T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = 2000 ;
+HERE = Path(__file__).resolve()
+sys.path.insert(0, str(HERE.parents[1]))
+from tests.references import rocking_deck  # noqa: E402
+
+ROCKING = (
+    rocking_deck.ROCKING
+    + """
+T . 'TEMPS_CALCULES' = PROG 0. PAS 0.00005 8. ; T . 'PAS_SAUVES' = 8000 ;
+T . 'PAS_SAUVES_VTK' = 5000 ; T . 'PAS_SAUVES_CSV' = 200 ;
+T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = 10000 ;
 T2 = DYNAMIC T ; OPTI SAUV 'end.sauv' ; SAUV T2 ;
 """
+)
 SOIL = """
 OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; T = TABL ;
 L1 = DROI 24 (-6. -6.) (6. -6.) ; S1 = L1 TRAN 12 (0. 6.) ; HAUT = COTE 3 S1 ;
@@ -69,6 +66,7 @@ PASAPAS T ; OPTI SAUV 'end.sauv' ;
 A = T . 'DEPLACEMENTS' ; B = T . 'CONTRAINTES' ; C = T . 'VARIABLES_INTERNES' ; SAUV A B C ;
 """
 DECKS = {"rocking": ROCKING, "soil": SOIL, "plate": PLATE}
+TRIES = 5  # a run that ended before its moment is run again
 
 
 def start(deck: Path, out: Path, *words: str) -> subprocess.Popen[bytes]:
@@ -86,12 +84,44 @@ def to_end(deck: Path, out: Path, *words: str) -> str:
     return said.decode()
 
 
-def steps_begin(process: subprocess.Popen[bytes], out: Path) -> float:
-    """Wait for the first checkpoint, or the end; the time since the call (s)."""
-    begun = time.perf_counter()
-    while process.poll() is None and not (out / "checkpoints" / "1.state").is_file():
-        time.sleep(0.005)
-    return time.perf_counter() - begun
+def _written(state: Path) -> tuple[int, int] | None:
+    """What tells one checkpoint from the next."""
+    try:
+        found = state.stat()
+    except FileNotFoundError:
+        return None
+    return found.st_ino, found.st_mtime_ns
+
+
+def states_seen(process: subprocess.Popen[bytes], state: Path, wanted: int) -> list[float]:
+    """Wait until so many checkpoints were written, or the end; when each was seen (s)."""
+    last, seen = _written(state), list[float]()
+    while process.poll() is None and len(seen) < wanted:
+        if (now := _written(state)) not in (None, last):
+            last = now
+            seen.append(time.perf_counter())
+        time.sleep(0.001)
+    return seen
+
+
+def killed(deck: Path, out: Path, how: signal.Signals, moment: float, *words: str) -> bool:
+    """End a run behind so many checkpoints, and a part of the time to the next one."""
+    process, wanted = start(deck, out, *words), int(moment)
+    seen = states_seen(process, out / "checkpoints" / "1.state", wanted)
+    if len(seen) == wanted:
+        time.sleep((moment - wanted) * (seen[-1] - seen[0]) / max(wanted - 1, 1))
+    in_time = process.poll() is None
+    process.send_signal(how)
+    process.communicate()
+    return in_time
+
+
+def killed_once(deck: Path, out: Path, how: signal.Signals, whole: float) -> None:
+    """End a run at any moment of the time that it takes."""
+    process = start(deck, out)
+    time.sleep(whole)
+    process.send_signal(how)
+    process.communicate()
 
 
 def content(out: Path) -> dict[str, bytes]:
@@ -113,34 +143,34 @@ def main() -> None:
     draw = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     with tempfile.TemporaryDirectory() as made:
         folder, equal, resumed = Path(made), 0, 0
-        truths, lasts = {}, {}
+        truths, takes, states = {}, {}, {}
         for name, text in DECKS.items():
-            deck = folder / f"{name}.ssi"
+            deck, out = folder / f"{name}.ssi", folder / name
             deck.write_text(text)
             to_end(deck, folder / "first")  # compiles
-            begun, process = time.perf_counter(), start(deck, folder / name)
-            before = steps_begin(process, folder / name)
+            begun, process = time.perf_counter(), start(deck, out)
+            seen = states_seen(process, out / "checkpoints" / "1.state", sys.maxsize)
             process.communicate()
-            whole, truths[name] = time.perf_counter() - begun, content(folder / name)
-            lasts[name] = before, whole - before
+            takes[name], truths[name] = time.perf_counter() - begun, content(out)
+            states[name] = len(seen)
             print(
-                f"{name}: {whole:.1f} s, the first checkpoint after {before:.1f} s, "
-                f"{len(truths[name])} files and arrays",
+                f"{name}: {takes[name]:.1f} s, {len(seen)} checkpoints seen, the first after "
+                f"{seen[0] - begun:.1f} s, {len(truths[name])} files and arrays",
                 flush=True,
             )
         for i in range(count):
             name = list(DECKS)[i % len(DECKS)]
-            deck, out, kills = folder / f"{name}.ssi", folder / f"run{i}", 1 + (i % 3 == 2)
-            for k in range(kills):
-                process = start(deck, out, *["--resume"][:k])
-                before, after = lasts[name]
-                if i % 6 == 0:  # at any moment, else between the first checkpoint and the end
-                    time.sleep(draw.uniform(0.0, 1.0) * (before + after))
-                else:
-                    steps_begin(process, out)
-                    time.sleep(draw.uniform(0.0, 1.0) * after)
-                process.send_signal(signal.SIGTERM if i % 5 == 4 else signal.SIGKILL)
-                process.communicate()
+            deck, out = folder / f"{name}.ssi", folder / f"run{i}"
+            how = signal.SIGTERM if i % 5 == 4 else signal.SIGKILL
+            if i % 6 == 0:
+                killed_once(deck, out, how, draw.uniform(0.0, takes[name]))
+            else:  # in the time that it marches
+                for _ in range(TRIES):
+                    if killed(deck, out, how, draw.uniform(1, states[name])):
+                        break
+                    shutil.rmtree(out)
+                if i % 3 == 2:  # what goes on is ended too
+                    killed(deck, out, how, draw.uniform(1, 2), "--resume")
             kept = any((out / "checkpoints").glob("*.state"))
             said = to_end(deck, out, "--resume")
             same = content(out) == truths[name]

@@ -25,6 +25,7 @@ PICTURES = {
     "club_cast3m_2014/rocking_two_pairs": {1: "rocking_two_pairs"},
     "footing/strip_uplift": {1: "strip_uplift"},
     "footing/disc_uplift": {1: "disc_uplift"},
+    "footing/embedded_disc": {2: "disc_impedance"},
     "footing/onset_of_uplift": {1: "onset_of_uplift"},
     "footing/macro_element": {2: "macro_rocking"},
     "footing/winkler_beam": {1: "winkler_beam"},
@@ -42,6 +43,8 @@ PICTURES = {
     "basics/beam_frequencies": {1: "beam_frequencies"},
     "basics/bar_frequencies": {1: "bar_frequencies"},
     "impact/bar_bounce": {1: "bar_bounce"},
+    "published/friction_slider": {1: "friction_slider"},
+    "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/tower_quake": {
         1: "quake_surface",

@@ -5,7 +5,7 @@
 The pages are made, not kept: the repository has what they are made from. One page an operator and a
 procedure: syntax, arguments, help, each example with what it printed
 when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
-every word of Cast3M whether it is built.
+every word of Cast3M whether it is built, `published.md` what the decks of `cases/published` obtain.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterable
+import time
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ssilang.cli.run import RunOptions, run_text
+from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.cast3m import IN_SCOPE, Cast3mWord, cast3m_words
 from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.language.run.library import standard_procedures
@@ -205,12 +206,49 @@ def _counts(rows: dict[str, tuple[str, str]]) -> list[str]:
     return [f"{len(rows)} in all: " + ", ".join(f"{n} {s}" for s, n in count.items()) + "."]
 
 
+# ---- published cases -----------------------------------------------------------------------------
+
+
+def published_markdown(decks: Iterable[Path]) -> str:
+    """Decks whose references were computed elsewhere: each check with its error, and the time."""
+    lines = ["# Published cases", "",
+             "References that nobody here computed; each deck names its source, and what it should "
+             "reach. `python docs/build.py` runs them and writes this table; times are those of a "
+             "run in this process.", "",
+             "| deck | check | published | obtained | error | time |",
+             "| --- | --- | --- | --- | --- | --- |"]  # fmt: skip
+    for deck in decks:
+        begun = time.perf_counter()
+        with tempfile.TemporaryDirectory() as folder:
+            options = RunOptions(output_directory=Path(folder), language="en")
+            result = run_file(deck, options=options)
+        spent = f"{time.perf_counter() - begun:.1f} s"
+        if result.exit_code:
+            spent = "**fails**"
+        for number, check in enumerate(result.session.checks):
+            if check.expected is None:
+                continue
+            error = abs(check.value - check.expected) / (abs(check.expected) or 1.0)
+            row = f"{check.expected:.6g} | {check.value:.6g} | {error:.1e}"
+            lines.append(
+                f"| {'' if number else f'`{deck.stem}`'} | {check.name} | {row} | "
+                f"{'' if number else spent} |"
+            )
+    return "\n".join([*lines, ""])
+
+
 # ---- writing ---------------------------------------------------------------------------------
 
 
-def build(target: Path) -> list[str]:
-    """Write everything below `target`; returns the examples that failed."""
-    pages = all_pages()
+def build(target: Path, only: Collection[str] = ()) -> list[str]:
+    """Write everything below `target`; returns the examples that failed.
+
+    Parameters
+    ----------
+    only : collection of str, optional
+        Operators and procedures that get a page, all if none is named.
+    """
+    pages = [p for p in all_pages() if not only or p.name in only]
     pictures = target / "pictures"
     shutil.rmtree(target, ignore_errors=True)
     pictures.mkdir(parents=True)
@@ -246,6 +284,8 @@ def main() -> int:
     """Build the reference; exit code 1 if an example failed."""
     target = Path(sys.argv[1]) if len(sys.argv) > 1 else _HERE / "reference"
     failed = build(target)
+    decks = sorted((_HERE.parent / "cases" / "published").glob("*.ssi"))
+    (target / "published.md").write_text(published_markdown(decks), encoding="utf-8")
     for text in failed:
         print(text)
     print(f"{len(list(target.glob('*.md')))} pages in {target}, {len(failed)} examples failed")

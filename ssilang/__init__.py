@@ -13,6 +13,7 @@ from ssilang.threads import one_blas_thread
 __version__ = "0.1.0"
 
 _WHERE = {
+    "Builder": "building",
     "Error": "errors",
     "MissingKey": "errors",
     "Notice": "errors",

@@ -1,3 +1,4 @@
+from ssilang.api.building import Builder as Builder
 from ssilang.api.errors import Error as Error
 from ssilang.api.errors import MissingKey as MissingKey
 from ssilang.api.errors import Notice as Notice

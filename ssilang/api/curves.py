@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.api.errors import refused
+from ssilang.api.html import picture_of
 from ssilang.api.libraries import library
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -92,11 +93,7 @@ class CurveView:
         return pd.concat(curves, axis=1).sort_index() if curves else pd.DataFrame()
 
     def _repr_png_(self) -> bytes:
-        """The picture that DESS draws of it, for notebooks."""
-        from ssilang.io.plots.figure import figure_bytes
-        from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
-
-        return figure_bytes(draw_curves(self.held, CurveOptions()), "png")
+        return picture_of(self.held)
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{_name(p)} ({len(p.abscissas)})" for p in self.held.parts)

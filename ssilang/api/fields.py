@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.api.errors import MissingKey, refused
+from ssilang.api.html import AXES, components_shown, html_of, nodes_shown
 from ssilang.api.libraries import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import MULTIPLIER
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import SHORT_LIKE, nearest
 
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     import xarray
 
     from ssilang.io.vtk.grid import Grid
-
-AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,14 +160,12 @@ class FieldView:
     @property
     def components(self) -> tuple[str, ...]:
         """Their names."""
-        names = tuple(self.held.components)
-        return tuple(n for n in names if n != MULTIPLIER) or names
+        return components_shown(self.held)
 
     @cached_property
     def nodes(self) -> IntArray:
         """Numbers of the nodes that have a value, from 1, increasing (n,)."""
-        parts = [self.held.components[name].nodes for name in self.components]
-        return np.unique(np.concatenate([np.zeros(0, np.int64), *parts])) + 1
+        return nodes_shown(self.held) + 1
 
     @property
     def points(self) -> FloatArray:
@@ -203,6 +199,9 @@ class FieldView:
             {name: ("node", self[name]) for name in self.components},
             coords={"node": self.nodes, **node_axes(self.points)},
         )
+
+    def _repr_html_(self) -> str:
+        return html_of(self.held)
 
     def __repr__(self) -> str:
         return f"<CHPOINT {' '.join(self.components)}, {len(self)} nodes>"

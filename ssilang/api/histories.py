@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import node_axes
 from ssilang.api.libraries import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import MULTIPLIER
+from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering
+from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.values import LazyRows, Table
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import InstantField, RecordedFields
@@ -46,15 +48,25 @@ def words_of(table: Table) -> list[str]:
     ]
 
 
-def full_word(table: Table, word: str) -> str:
-    """The index of a table of results that a word means: DEPL of DEPLACEMENTS too."""
+def full_word(table: Table, word: str, language: str) -> str:
+    """The index of a table of results that a word means: DEPL of DEPLACEMENTS too.
+
+    Raises
+    ------
+    MissingKey
+        If the table has nothing of that name in time.
+    """
     known = words_of(table)
-    return next((k for k in (word, *known) if k in known and k.startswith(word)), word)
+    for index in (word, *known):
+        if index in known and index.startswith(word):
+            return index
+    near = nearest(word, known, SHORT_LIKE)
+    raise refused("api.no-such-result", language, MissingKey, word=word, near=near, known=known)
 
 
 def over_time(table: Table, word: str, language: str) -> xarray.DataArray:
     """All values of nodal fields in time, (time, node, component)."""
-    fields, times = results_in_time(table, full_word(table, word), unmade=True)
+    fields, times = results_in_time(table, full_word(table, word, language), unmade=True)
     nodes, names, values, points = _arrays(fields)
     return library("xarray", language).DataArray(
         values,
@@ -65,26 +77,51 @@ def over_time(table: Table, word: str, language: str) -> xarray.DataArray:
 
 
 def _arrays(fields: Sequence[Any]) -> tuple[IntArray, list[str], FloatArray, FloatArray]:
-    """Nodes (n,), components, values (n_times, n, n_components) NaN where absent, points (n, 3)."""
+    """Nodes (n,), components, values (n_times, n, n_components) NaN where absent, points (n, 3).
+
+    What was recorded, or is not made yet, is taken as it stands: no field is made of it.
+    """
     if isinstance(fields, RecordedFields):
-        return _of_track(fields)
-    made: list[NodeField] = [f.make() if isinstance(f, InstantField) else f for f in fields]
-    names = list(dict.fromkeys(n for f in made for n in f.components if n != MULTIPLIER))
-    parts = [f.components[n].nodes for f in made for n in names if n in f.components]
+        track, numbering = fields.track, fields.track.problem.numbering
+        return _placed(numbering, track.shown, track.values(fields.name, track.shown))
+    numberings = {id(f.numbering): f.numbering for f in fields if isinstance(f, InstantField)}
+    if len(numberings) == 1:
+        (numbering,) = numberings.values()
+        rows = np.array([_vector(f, numbering) for f in fields])
+        return _placed(numbering, np.arange(numbering.size), rows)
+    return _of_fields([f.make() if isinstance(f, InstantField) else f for f in fields])
+
+
+def _of_fields(
+    fields: Sequence[NodeField],
+) -> tuple[IntArray, list[str], FloatArray, FloatArray]:
+    """As `_arrays`, of fields that may have any nodes and components; multipliers left out."""
+    names = list(dict.fromkeys(n for f in fields for n in f.components if n != MULTIPLIER))
+    parts = [f.components[n].nodes for f in fields for n in names if n in f.components]
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *parts]))
-    values = np.array([[f.values_at(n, nodes, np.nan) for n in names] for f in made])
-    return nodes, names, values.transpose(0, 2, 1), made[0].table.coordinates[nodes]
+    values = np.array([[f.values_at(n, nodes, np.nan) for n in names] for f in fields])
+    return nodes, names, values.transpose(0, 2, 1), fields[0].table.coordinates[nodes]
 
 
-def _of_track(fields: RecordedFields) -> tuple[IntArray, list[str], FloatArray, FloatArray]:
-    """As `_arrays`, of what was recorded: no field is made."""
-    track, numbering = fields.track, fields.track.problem.numbering
-    at = track.shown
-    found = track.values(fields.name, at)
-    nodes, rows = np.unique(numbering.nodes[at], return_inverse=True)
+def _vector(found: InstantField | NodeField, numbering: Numbering) -> FloatArray:
+    """Values of the unknowns (size,) of an instant."""
+    if isinstance(found, InstantField):
+        return found.vector
+    vector = np.full(numbering.size, np.nan)
+    for code, name in enumerate(numbering.unknowns):
+        at = np.flatnonzero(numbering.codes == code)
+        vector[at] = found.values_at(name, numbering.nodes[at], np.nan)
+    return vector
+
+
+def _placed(
+    numbering: Numbering, at: IntArray, rows: FloatArray
+) -> tuple[IntArray, list[str], FloatArray, FloatArray]:
+    """As `_arrays`, of rows (n_times, p) of some unknowns."""
+    nodes, places = np.unique(numbering.nodes[at], return_inverse=True)
     codes, columns = np.unique(numbering.codes[at], return_inverse=True)
-    values = np.full((len(found), len(nodes), len(codes)), np.nan)
-    values[:, rows, columns] = found
+    values = np.full((len(rows), len(nodes), len(codes)), np.nan)
+    values[:, places, columns] = rows
     names = [numbering.unknowns[code] for code in codes.tolist()]
     return nodes, names, values, numbering.table.coordinates[nodes]
 

@@ -14,6 +14,7 @@ import numpy as np
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import CellFieldView, FieldView, MeshView, PointView
+from ssilang.api.html import html_of
 from ssilang.api.libraries import library
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
@@ -101,6 +102,9 @@ class TableView(Mapping[Any, Any]):
         from ssilang.api.histories import over_time
 
         return over_time(self.held, word, "en")
+
+    def _repr_html_(self) -> str:
+        return html_of(self.held)
 
     def __repr__(self) -> str:
         subtype = f"{self.held.subtype}, " if self.held.subtype else ""

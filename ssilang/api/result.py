@@ -15,17 +15,19 @@ import numpy as np
 from ssilang.api import histories
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
+from ssilang.api.html import rows_html
 from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
+from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
-from ssilang.language.values import Table
+from ssilang.language.values import Table, type_of
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace
 
@@ -61,6 +63,19 @@ class Picture:
         if self.path.suffix == ".png":  # one form is enough, and a scene has many lines
             return None
         return self.path.read_text(encoding="utf-8") if self.path.suffix == ".svg" else None
+
+
+def _files(session: Session) -> list[Path]:
+    return [p for p in run_output(session).files if p.is_file()]
+
+
+def pictures_of(session: Session) -> list[Picture]:
+    """Pictures that a session has made so far, in order, each once in whatever formats."""
+    alike: dict[Path, list[Path]] = {}
+    for path in pictures_among(_files(session)):
+        alike.setdefault(path.with_suffix(""), []).append(path)
+    ordered = (sorted(paths, key=lambda p: p.suffix != ".png") for paths in alike.values())
+    return [Picture(first, tuple(others)) for first, *others in ordered]
 
 
 @dataclass(frozen=True)
@@ -247,8 +262,11 @@ class Result(Mapping[str, Any]):
             For a word, a component or a point that is not there: what is near.
         """
         results = self._results(table)
-        text = f"EVOL 'TEMP' RESULTS '{histories.full_word(results, word)}' '{component}' PLACE ;"
-        place = self._place(point, results, word, component)
+        index = histories.full_word(results, word, self.language)
+        text = f"EVOL 'TEMP' RESULTS '{index}' '{component}' PLACE ;"
+        place = self._place(point, results, index, component)
+        if isinstance(place, Point):  # as a mesh: the curve gets the name that the script gave it
+            place = poi1(place.nodes, np.array([place.node]))
         found = self._evaluated(text, {"RESULTS": results, "PLACE": place})
         return CurveView(found[0])
 
@@ -292,7 +310,7 @@ class Result(Mapping[str, Any]):
     def _node_at(self, at: Any, table: Table, word: str, component: str) -> int:
         """The node at coordinates, of those where the component was saved."""
         nodes = workspace(self.session).nodes
-        among = histories.nodes_of(table, histories.full_word(table, word), component)
+        among = histories.nodes_of(table, word, component)
         if not len(among):
             among = np.unique(nodes.resolve(np.arange(len(nodes))))
         x = nodes.coordinates[among]
@@ -336,16 +354,16 @@ class Result(Mapping[str, Any]):
     @property
     def files(self) -> list[Path]:
         """Files that the run wrote; without a folder asked for they go with the result."""
-        return [p for p in run_output(self.session).files if p.is_file()]
+        return _files(self.session)
 
     @property
     def figures(self) -> list[Picture]:
         """Pictures that the run made, in order."""
-        alike: dict[Path, list[Path]] = {}
-        for path in pictures_among(self.files):
-            alike.setdefault(path.with_suffix(""), []).append(path)
-        ordered = (sorted(paths, key=lambda p: p.suffix != ".png") for paths in alike.values())
-        return [Picture(first, tuple(others)) for first, *others in ordered]
+        return pictures_of(self.session)
+
+    def _repr_html_(self) -> str:
+        rows = [(name, type_of(value)) for name, value in self._names.items()]
+        return rows_html(("", f"{self.seconds:.2f} s"), rows)
 
     def __repr__(self) -> str:
         names = list(self._names)

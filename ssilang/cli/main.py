@@ -158,7 +158,11 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
+    from ssilang.kernel.base.compiled import ALLOWED
+
+    ALLOWED.add("beside")
     run_options = _run_options(options)
+    run_options.report = options.report
     run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
@@ -212,6 +216,20 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given
+
+
+def _report(options: argparse.Namespace) -> int:
+    from ssilang.cli.run import write_report
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
+
+    try:
+        sys.stdout.write(write_report(options.folder, options.lang) + "\n")
+    except (InputError, OutputError) as problem:
+        sys.stderr.write(render(SsiError.of(problem, None), options.lang) + "\n")
+        return USAGE if isinstance(problem, InputError) else FAILED
+    return OK
 
 
 def _sweep(options: argparse.Namespace) -> int:
@@ -339,6 +357,7 @@ def _version(options: argparse.Namespace) -> int:
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
+    "report": _report,
     "new": _new,
     "check": _check,
     "format": _format,

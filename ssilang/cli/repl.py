@@ -10,6 +10,7 @@ from typing import TextIO
 from ssilang import __version__
 from ssilang.cli.colour import coloured
 from ssilang.cli.completion import completions
+from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.line_editor import Ask, line_editor
 from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.paging import show
@@ -18,18 +19,12 @@ from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.say.reference import find_page, page_text
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
-from ssilang.operators.dispatch import LISTINGS
 from ssilang.operators.texts.words import written
-
-_UNFINISHED = frozenset(
-    {"missing-semicolon", "unclosed-string", "unclosed-paren", "unclosed-block"}
-)
 
 
 class Repl:
@@ -103,7 +98,7 @@ class Repl:
         try:
             script = parse(source)
         except SeveralErrors as several:
-            if not last and {e.code for e in several.errors} <= _UNFINISHED:
+            if not last and {e.code for e in several.errors} <= UNFINISHED:
                 self._count -= 1
                 return True  # the statement goes on in the next line
             self.pending = ""
@@ -137,30 +132,10 @@ class Repl:
         return True
 
     def _run_nodes(self, nodes: tuple[tree.Node, ...]) -> None:
-        for node in nodes:
-            if isinstance(node, tree.Statement) and not node.assigns:
-                self._show_value(node)
-            else:
-                self.session.evaluator.run_top([node])
+        run_shown(self.session, nodes, self._show, lambda text: show(text, self.out))
 
-    def _show_value(self, node: tree.Statement) -> None:
-        """Run a statement without names on its left and show what it gives."""
-        if node.first_word[:4] == "INFO" and len(node.items) == 2:
-            word = node.items[1]
-            if isinstance(word, tree.Name | tree.Quoted) and self._page(word.text):
-                return
-        for value in self.session.evaluator.values_of(node):
-            kind = type_of(value)
-            entry = LISTINGS.get(kind)
-            text = entry(value, True, self.session.told) if entry else f"{kind} : {value}"
-            self.out.write(text.rstrip("\n") + "\n")
-
-    def _page(self, word: str) -> bool:
-        page = find_page(word, self.session.library.standard_files)
-        if page is None:
-            return False
-        show(page_text(page, self.session.language), self.out)
-        return True
+    def _show(self, value: object) -> None:
+        self.out.write(listed(self.session, value) + "\n")
 
     def _report(self, error: SsiError) -> None:
         names = self.session.frame.names() | self.session.library.standard_names

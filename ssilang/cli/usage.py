@@ -16,8 +16,8 @@ from typing import Any, NoReturn
 from ssilang.messages.message import Teller, teller
 
 COMMANDS = (
-    "run", "new", "check", "format", "help", "sweep", "warm", "repl", "view", "lsp", "completion",
-    "version",
+    "run", "report", "new", "check", "format", "help", "sweep", "warm", "repl", "view", "lsp",
+    "completion", "version",
 )  # fmt: skip
 LANGUAGES = ("en", "fr")
 SHELLS = ("bash", "zsh", "fish", "words")
@@ -107,6 +107,9 @@ def parser(words: Sequence[str]) -> Parser:
     commands = made.add_subparsers(dest="command", metavar=f"{{{','.join(COMMANDS)}}}")
     command = partial(commands.add_parser, told=told)
     _run(command("run", help="cli.usage-run"))
+    report = command("report", help="cli.usage-report", epilog="cli.usage-report-example")
+    report.add_argument("folder", type=Path, metavar="DIR", help="cli.usage-report-folder")
+    _language_argument(report)
     new = command("new", help="cli.usage-new")
     new.add_argument("name", nargs="?", default="", help="cli.usage-new-name")
     new.add_argument("file", nargs="?", type=Path, help="cli.usage-new-file")
@@ -152,6 +155,7 @@ def _run(run: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE", help="cli.usage-set-one"
     )
     run.add_argument("--resume", action="store_true", help="cli.usage-resume")
+    run.add_argument("--report", action="store_true", help="cli.usage-report-option")
     run.add_argument("-i", "--interactive", action="store_true", help="cli.usage-interactive")
 
 

@@ -5,6 +5,7 @@ Source: R. F. Boisvert, R. Pozo, K. A. Remington, "The Matrix Market Exchange Fo
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 from typing import Any
 
@@ -71,15 +72,20 @@ def system_of(matrix: Matrix) -> System:
     )
 
 
-def market_lines(system: System, title: str = "") -> list[str]:
-    """Lines of the Matrix Market file; rows and columns count from 1."""
-    kind = "symmetric" if system.symmetric else "general"
-    lines = [f"%%MatrixMarket matrix coordinate real {kind}"]
-    lines += [f"% {text}" for text in title.splitlines()]
-    lines.append(f"{system.size} {system.size} {len(system.values)}")
-    terms = zip(system.rows.tolist(), system.columns.tolist(), system.values.tolist(), strict=True)
-    lines += [f"{i + 1} {j + 1} {v!r}" for i, j, v in terms]
-    return lines
+def market_text(system: System, title: str = "") -> bytes:
+    """The Matrix Market file; rows and columns count from 1."""
+    import scipy.sparse as sp
+    from scipy.io import mmwrite
+
+    shape = (system.size, system.size)
+    made = io.BytesIO()
+    mmwrite(
+        made,
+        sp.coo_array((system.values, (system.rows, system.columns)), shape=shape),
+        comment=title,
+        symmetry="symmetric" if system.symmetric else "general",
+    )
+    return made.getvalue()
 
 
 def unknown_lines(system: System) -> list[str]:

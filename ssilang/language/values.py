@@ -161,6 +161,10 @@ class Table:
         """Indices, in order of creation; no value is made for them."""
         return [index for index, _ in self._items.values()]
 
+    def waiting(self, index: object) -> object:
+        """Value at an index, None if there is none; PENDING where it waits to be made."""
+        return self._items.get(key_of(index), (None, None))[1]
+
     def items(self) -> list[tuple[object, object]]:
         """Pairs (index, value), in order of creation."""
         return list(self._items.values())

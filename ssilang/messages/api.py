@@ -73,6 +73,12 @@ MESSAGES: dict[str, Message] = {
         "say which: table='NAME'",
         "dites laquelle : table='NOM'",
     ),
+    "no-such-result": Message(
+        "the table of results has no '{word}'",
+        "la table de résultats n'a pas de '{word}'",
+        "{near:?did you mean '{near}'?|it has {known:and}}",
+        "{near:?vouliez-vous dire '{near}' ?|elle a {known:and}}",
+    ),
     "no-point": Message(
         "a {kind} is no point",
         "un {kind} n'est pas un point",
@@ -93,6 +99,48 @@ MESSAGES: dict[str, Message] = {
         "plusieurs noeuds sont à cet endroit : {nodes:and}",
         "give the number of the one that is meant, or the name of its point",
         "donnez le numéro de celui que vous voulez, ou le nom de son point",
+    ),
+    "no-such-dimension": Message(
+        "there are 2 and 3 dimensions, not {dimension}",
+        "il y a 2 ou 3 dimensions, pas {dimension}",
+    ),
+    "no-block": Message(
+        "{corner} and {opposite} are no corners of a block with cells of size {size}",
+        "{corner} et {opposite} ne sont pas les coins d'un bloc à mailles de taille {size}",
+        "two opposite corners that differ along each axis, and a positive size",
+        "deux coins opposés, différents selon chaque axe, et une taille positive",
+    ),
+    "no-such-side": Message(
+        "a part has no side '{side}'",
+        "une partie n'a pas de côté '{side}'",
+        "{near:?did you mean '{near}'?|there are {known:and}}",
+        "{near:?vouliez-vous dire '{near}' ?|il y a {known:and}}",
+    ),
+    "no-such-material": Message(
+        "the law takes no '{name}'",
+        "la loi ne prend pas de '{name}'",
+        "{near:?did you mean '{near}'?|it takes {known:and}}",
+        "{near:?vouliez-vous dire '{near}' ?|elle prend {known:and}}",
+    ),
+    "material-missing": Message(
+        "the law needs {names:and}",
+        "la loi demande {names:and}",
+    ),
+    "no-such-unknown": Message(
+        "there is no unknown '{name}' here: there are {known:and}",
+        "il n'y a pas d'inconnue '{name}' ici : il y a {known:and}",
+    ),
+    "no-such-start": Message(
+        "a run starts at 'rest' under the weight or 'unloaded', not '{start}'",
+        "un calcul part au repos sous le poids ('rest') ou déchargé ('unloaded'), pas '{start}'",
+    ),
+    "no-such-word": Message(
+        "a motion has {known:and}, not '{word}'",
+        "un mouvement a {known:and}, pas '{word}'",
+    ),
+    "joint-of-another": Message(
+        "the joint is of another builder",
+        "le joint est d'un autre assemblage",
     ),
     "no-script": Message(
         "a {kind} is no script",

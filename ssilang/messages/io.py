@@ -303,6 +303,82 @@ MESSAGES: dict[str, Message] = {
         "{name} is no readable UNV file: {error}",
         "{name} n'est pas un fichier UNV lisible : {error}",
     ),
+    "no-readable-mesh-file": Message(
+        "{name} cannot be read as {kind}: {error}",
+        "{name} ne se lit pas comme {kind} : {error}",
+        "the file is damaged, or of another format or version",
+        "le fichier est abîmé, ou d'un autre format ou d'une autre version",
+    ),
+    "mesh-file-empty": Message(
+        "{name} holds no nodes that are read as {kind}",
+        "{name} ne contient pas de noeuds lisibles comme {kind}",
+        "an AVS file ends in .inp too: OPTI LECT names it, LIRE 'AVS' reads it",
+        "un fichier AVS finit aussi par .inp : OPTI LECT le nomme, LIRE 'AVS' le lit",
+    ),
+    "mesh-file-cut": Message(
+        "{name} is cut: {kind} ends with {end}",
+        "{name} est tronqué : {kind} finit par {end}",
+    ),
+    "mesh-file-names-no-node": Message(
+        "{name} ({kind}) is damaged: it names a node that it does not hold",
+        "{name} ({kind}) est abîmé : il nomme un noeud qu'il ne contient pas",
+    ),
+    "mesh-file-names-no-cell": Message(
+        "{name} ({kind}) is damaged: it names a cell that it does not hold",
+        "{name} ({kind}) est abîmé : il nomme un élément qu'il ne contient pas",
+    ),
+    "mesh-library-missing": Message(
+        "files of {kind} are read and written by {library}, which is not installed",
+        "les fichiers {kind} se lisent et s'écrivent par {library}, qui n'est pas installé",
+        "pip install 'ssilang[med]'",
+        "pip install 'ssilang[med]'",
+    ),
+    "gmsh-missing": Message(
+        "a .geo file is meshed by Gmsh, which {error:?cannot start: {error}|is not installed}",
+        "un fichier .geo est maillé par Gmsh, qui {error:?ne peut démarrer : {error}|n'est pas "
+        "installé}",
+        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "pip install 'ssilang[gmsh]'}",
+        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "pip install 'ssilang[gmsh]'}",
+    ),
+    "geo-reaches-out": Message(
+        "{name} is not run: '{word}' runs programs, or reads and writes other files",
+        "{name} n'est pas exécuté : '{word}' lance des programmes, ou lit et écrit d'autres "
+        "fichiers",
+        "mesh it with gmsh and read the .msh",
+        "le mailler par gmsh et lire le .msh",
+    ),
+    "mesh-cells-not-written": Message(
+        "{kind} has no {others}",
+        "{kind} n'a pas de {others}",
+        "cells that are written: {known}",
+        "éléments qui s'écrivent : {known}",
+    ),
+    "mesh-part-name": Message(
+        "no group of {kind} can be called '{name}'",
+        "aucun groupe {kind} ne peut s'appeler '{name}'",
+        "a name of at most 80 letters without accents and signs",
+        "un nom d'au plus 80 lettres sans accents ni signes",
+    ),
+    "nastran-coordinate-system": Message(
+        "{name} gives nodes in coordinate systems of their own, which are not read",
+        "{name} donne des noeuds dans des repères propres, qui ne sont pas lus",
+        "write the nodes in the basic system: field 3 of GRID blank or 0",
+        "écrivez les noeuds dans le repère de base : champ 3 de GRID vide ou nul",
+    ),
+    "abaqus-keyword-not-read": Message(
+        "{name}: *{word} makes or moves nodes or elements, and is not read",
+        "{name} : *{word} fait ou déplace des noeuds ou des éléments, et n'est pas lu",
+        "write the mesh out in full: *NODE and *ELEMENT, one part without instances that move",
+        "écrivez le maillage en entier : *NODE et *ELEMENT, une pièce sans instance déplacée",
+    ),
+    "abaqus-several-parts": Message(
+        "{name} has several *PART, whose numbers mean different nodes",
+        "{name} a plusieurs *PART, dont les numéros désignent des noeuds différents",
+        "write it flat, without parts, or each part into a file of its own",
+        "écrivez-le à plat, sans pièces, ou chaque pièce dans son fichier",
+    ),
     "record-not-finite": Message(
         "{name} has values that are too large for a number",
         "{name} a des valeurs trop grandes pour un nombre",

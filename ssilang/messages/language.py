@@ -194,6 +194,12 @@ MESSAGES: dict[str, Message] = {
         "statements run from top to bottom: move that line before this one",
         "les instructions s'exécutent de haut en bas : mettez cette ligne avant celle-ci",
     ),
+    "type-for-operator": Message(
+        "{word} is a type, and no operator",
+        "{word} est un type, et non un opérateur",
+        "{maker} makes such a list",
+        "{maker} fait une telle liste",
+    ),
     "unread-operator": Message(
         "the phrase ends before {name}, which is not run{before_text}",
         "la phrase finit avant {name}, qui n'est pas exécuté{before_text}",
@@ -376,6 +382,8 @@ MESSAGES: dict[str, Message] = {
     "entry-type": Message(
         "{procedure}: {where} must be {kinds}, found {found}",
         "{procedure} : {where} doit être {kinds}, trouvé {found}",
+        "{en:?{where}: {en}}{made:?\nmade by {made:or}}",
+        "{fr:?{where} : {fr}}{made:?\nse fait par {made:or}}",
     ),
     "entry-value": Message(
         "{procedure}: {where} is '{given}'",
@@ -540,6 +548,10 @@ MESSAGES: dict[str, Message] = {
         "TRAC dessine les maillages et les champs, DESS les courbes",
     ),
     "write-power": Message("a power is written A ** 3", "une puissance s'écrit A ** 3"),
+    "write-weight": Message(
+        "the weight of bodies is (MASS MODL1 MAT1) * (MANU 'CHPO' MAIL1 2 'UX' 0. 'UY' -9.81)",
+        "le poids de corps est (MASS MODL1 MAT1) * (MANU 'CHPO' MAIL1 2 'UX' 0. 'UY' -9.81)",
+    ),
     "write-root": Message(
         "a square root is written X ** 0.5", "une racine carrée s'écrit X ** 0.5"
     ),

@@ -297,6 +297,12 @@ HINTS: dict[str, tuple[str, str]] = {
         "sans ELIM 0, ni STAB, ni relations avec une duale ; un solveur direct prend les autres",
     ),
     "kernel.solvers.multigrid-did-not-converge": (
+        "hold every body (BLOQ); OPTI 'SOLVEUR' 'AUTO' factorises where memory holds the factor, "
+        "and says which motion is free; OPTI 'SOLVEUR' 'MULTIGRILLE' 1.E-8 asks for less",
+        "tenez chaque corps (BLOQ) ; OPTI 'SOLVEUR' 'AUTO' factorise si la mémoire suffit, et dit "
+        "quel mouvement est libre ; OPTI 'SOLVEUR' 'MULTIGRILLE' 1.E-8 demande moins",
+    ),
+    "kernel.solvers.petsc-did-not-converge": (
         "hold every body (BLOQ); with more memory a direct solver says which motion is free",
         "tenez chaque corps (BLOQ) ; avec plus de mémoire un solveur direct dit quel "
         "mouvement est libre",

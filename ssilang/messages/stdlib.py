@@ -23,6 +23,69 @@ MESSAGES: dict[str, Message] = {
         "{1} of {2} checks out of tolerance",
         "{1} vérifications sur {2} hors tolérance",
     ),
+    "bilanssi-no-instants": Message(
+        "@BILANSSI: no instant of RESULTATS has tractions of joints (CONTRAINTES)",
+        "@BILANSSI : aucun instant de RESULTATS n'a de contraintes de joints (CONTRAINTES)",
+        "the joints must be in MODELE of the run, and instants be saved, from DEBUT on",
+        "les joints doivent être dans MODELE du calcul, et des instants gardés, à partir de DEBUT",
+    ),
+    "bilanssi-macro": Message(
+        "@BILANSSI: a macro-element knows force and moment, not where the footing touches",
+        "@BILANSSI : un macro-élément connaît force et moment, pas où la semelle touche",
+        "use joints along the footing (JOI2, JOI3, JOI4 ...)",
+        "utiliser des joints le long de la semelle (JOI2, JOI3, JOI4 ...)",
+    ),
+    "bilanssi-no-weight": Message(
+        "@BILANSSI: nothing presses the footing at its first instant, t = {1} s: force {2} N",
+        "@BILANSSI : rien n'appuie la semelle à son premier instant, t = {1} s : force {2} N",
+        "gravity forgotten? DEBUT leaves instants before it out",
+        "pesanteur oubliée ? DEBUT écarte les instants d'avant",
+        severity="warning",
+    ),
+    "bilanssi-dead-load": Message(
+        "@BILANSSI: the pressure at the first instant, {1} Pa, exceeds the capacity, {2} Pa",
+        "@BILANSSI : la pression au premier instant, {1} Pa, dépasse la capacité, {2} Pa",
+        severity="warning",
+    ),
+    "bilanssi-above-zero": Message(
+        "@BILANSSI: {1} must be above zero, it is {2}",
+        "@BILANSSI : {1} doit être positif, il vaut {2}",
+    ),
+    "bilanssi-broadening": Message(
+        "@BILANSSI: ELARGISSEMENT is from 0 to below 1, not {1}",
+        "@BILANSSI : ELARGISSEMENT est entre 0 et moins de 1, pas {1}",
+    ),
+    "bilanssi-no-acceleration": Message(
+        "@BILANSSI: PLANCHERS needs accelerations, which RESULTATS does not have at all instants",
+        "@BILANSSI : PLANCHERS demande des accélérations, absentes de RESULTATS à un instant",
+    ),
+    "bilanssi-head": Message(
+        "footing, {1} instants from {2} to {3} s                      value          at (s)",
+        "semelle, {1} instants de {2} à {3} s                       valeur           à (s)",
+    ),
+    "bilanssi-floor": Message(
+        "  floor {1}, {2}, {3} %: largest acceleration {4} at {5} Hz",
+        "  plancher {1}, {2}, {3} % : plus grande accélération {4} à {5} Hz",
+    ),
+    "bilanssi-part": Message("least share in contact", "part en contact, la plus petite"),
+    "bilanssi-pression": Message(
+        "largest toe pressure (Pa)", "pression au bord, la plus grande (Pa)"
+    ),
+    "bilanssi-taux": Message(
+        "largest pressure over the capacity", "pression sur capacité, la plus grande"
+    ),
+    "bilanssi-ouverture": Message("largest uplift (m)", "soulèvement, le plus grand (m)"),
+    "bilanssi-moment": Message("largest moment (N m)", "moment, le plus grand (N m)"),
+    "bilanssi-rotation": Message("largest rotation (rad)", "rotation, la plus grande (rad)"),
+    "bilanssi-enfoncement": Message("largest settlement (m)", "enfoncement, le plus grand (m)"),
+    "bilanssi-renversement": Message(
+        "least factor of overturning", "coefficient de renversement, le plus petit"
+    ),
+    "bilanssi-glissement": Message(
+        "least factor of sliding", "coefficient de glissement, le plus petit"
+    ),
+    "bilanssi-left-rotation": Message("rotation left (rad)", "rotation résiduelle (rad)"),
+    "bilanssi-left-enfoncement": Message("settlement left (m)", "enfoncement résiduel (m)"),
     "cartoon-table-neither-resudepl-nor": Message(
         "@CARTOON: the table has neither RESUDEPL nor DEPLACEMENTS",
         "@CARTOON : la table n'a ni RESUDEPL ni DEPLACEMENTS",
@@ -66,6 +129,104 @@ MESSAGES: dict[str, Message] = {
     "helice-least-element-needed": Message(
         "@HELICE: at least one element is needed",
         "@HELICE : il faut au moins un élément",
+    ),
+    "impedsol-plane-space": Message(
+        "IMPEDSOL: in a plane or in space, not in dimension {1}",
+        "IMPEDSOL : dans un plan ou dans l'espace, pas en dimension {1}",
+    ),
+    "impedsol-poisson": Message(
+        "IMPEDSOL: Poisson's ratio {1} is not from 0 to below 0.5",
+        "IMPEDSOL : le coefficient de Poisson {1} n'est pas entre 0 et moins de 0.5",
+    ),
+    "impedsol-size-missing": Message(
+        "IMPEDSOL: {1} needs {2}",
+        "IMPEDSOL : {1} demande {2}",
+    ),
+    "impedsol-size": Message(
+        "IMPEDSOL: {1} must be above zero, it is {2}",
+        "IMPEDSOL : {1} doit être positif, il vaut {2}",
+    ),
+    "impedsol-not-negative": Message(
+        "IMPEDSOL: {1} must not be negative, it is {2}",
+        "IMPEDSOL : {1} ne doit pas être négatif, il vaut {2}",
+    ),
+    "impedsol-rests-on-rock": Message(
+        "IMPEDSOL: the base at depth {1} m lies on or below the rock at {2} m",
+        "IMPEDSOL : la base à {1} m de profondeur est sur le rocher, à {2} m, ou plus bas",
+    ),
+    "impedsol-formula-of-shape": Message(
+        "IMPEDSOL: no formula {1} for {2}",
+        "IMPEDSOL : pas de formule {1} pour {2}",
+        "DISQUE: VELETSOS CONES PAIS_KAUSEL KAUSEL; RECTANGLE: PAIS_KAUSEL GAZETAS CONES; "
+        "BANDE: JAKUB",
+        "DISQUE : VELETSOS CONES PAIS_KAUSEL KAUSEL ; RECTANGLE : PAIS_KAUSEL GAZETAS CONES ; "
+        "BANDE : JAKUB",
+    ),
+    "impedsol-no-layer": Message(
+        "IMPEDSOL: {1} for {2} is for a half-space; EPAISSEUR, a layer on rock, is not in it",
+        "IMPEDSOL : {1} pour {2} vaut pour un demi-espace ; EPAISSEUR, une couche sur rocher, "
+        "n'y est pas",
+        "layers on rock: DISQUE with KAUSEL, BANDE with JAKUB",
+        "couches sur rocher : DISQUE avec KAUSEL, BANDE avec JAKUB",
+    ),
+    "impedsol-no-embedment": Message(
+        "IMPEDSOL: {1} for {2} is for footings at the surface; ENFONCEMENT is not in it",
+        "IMPEDSOL : {1} pour {2} vaut pour des fondations en surface ; ENFONCEMENT n'y est pas",
+        "embedded: PAIS_KAUSEL for DISQUE and RECTANGLE, KAUSEL for DISQUE in a layer",
+        "enfoncées : PAIS_KAUSEL pour DISQUE et RECTANGLE, KAUSEL pour DISQUE dans une couche",
+    ),
+    "impedsol-static": Message(
+        "IMPEDSOL: {1} for {2} is static; FREQUENCES have no meaning for it",
+        "IMPEDSOL : {1} pour {2} est statique ; FREQUENCES n'a pas de sens pour elle",
+        "against frequency: VELETSOS or CONES for DISQUE, PAIS_KAUSEL or CONES for RECTANGLE",
+        "selon la fréquence : VELETSOS ou CONES pour DISQUE, PAIS_KAUSEL ou CONES pour RECTANGLE",
+    ),
+    "impedsol-damping-at-zero": Message(
+        "IMPEDSOL: the dashpot of AMORTISSEMENT, 2 xi K/w, has no value at frequency zero",
+        "IMPEDSOL : l'amortisseur d'AMORTISSEMENT, 2 xi K/w, n'a pas de valeur à la fréquence "
+        "nulle",
+        "give FREQUENCE, the frequency that counts, and FREQUENCES above zero",
+        "donner FREQUENCE, la fréquence qui compte, et FREQUENCES au-dessus de zéro",
+    ),
+    "impedsol-no-radiation": Message(
+        "IMPEDSOL: {1} for {2} is static: VISCOSITE has no radiation",
+        "IMPEDSOL : {1} pour {2} est statique : VISCOSITE est sans rayonnement",
+        severity="warning",
+    ),
+    "impedsol-range": Message(
+        "IMPEDSOL: {2} = {3} is outside the range of {1}, {4} to {5}",
+        "IMPEDSOL : {2} = {3} est hors du domaine de {1}, {4} à {5}",
+        severity="warning",
+    ),
+    "impedsol-walls": Message(
+        "IMPEDSOL: the dashpots of rotations count the waves from the base alone, not from the "
+        "walls",
+        "IMPEDSOL : les amortisseurs des rotations ne comptent que les ondes de la base, pas "
+        "des parois",
+        severity="warning",
+    ),
+    "impedsol-strip-vertical": Message(
+        "IMPEDSOL: no vertical stiffness for BANDE; known formulas miss it by up to a quarter",
+        "IMPEDSOL : pas de raideur verticale pour BANDE ; les formules connues s'en écartent "
+        "jusqu'au quart",
+        severity="warning",
+    ),
+    "impedsol-coupling": Message(
+        "IMPEDSOL: the model at POINT leaves out the coupling of sliding and rocking, {1} N",
+        "IMPEDSOL : le modèle au POINT ne contient pas le couplage glissement-balancement, {1} N",
+        "put POINT at the height COUPLAGE/RAIDEUR above the base: rocking then loses "
+        "COUPLAGE**2/RAIDEUR",
+        "placer POINT à la hauteur COUPLAGE/RAIDEUR sur la base : le balancement y perd "
+        "COUPLAGE**2/RAIDEUR",
+        severity="warning",
+    ),
+    "impedsol-chosen": Message(
+        "impedances: {1} for {2}",
+        "impédances : {1} pour {2}",
+    ),
+    "impedsol-head": Message(
+        "          K static      K             C             at {1} Hz, a0 = {2}",
+        "          K statique    K             C             à {1} Hz, a0 = {2}",
     ),
     "isosurf-field-takes-none-values": Message(
         "@ISOSURF: the field takes none of the values",

@@ -11,12 +11,17 @@ from ssilang.io.run_output import RunOutput
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.solvers.factor import Solver
+from ssilang.kernel.solvers.backends import MULTIGRID
+from ssilang.kernel.solvers.factor import RESIDUAL, Solver
 from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 
 if TYPE_CHECKING:
     from ssilang.kernel.solvers.petsc.client import PetscServer
+
+MULTIGRID_WORD = "MULTIGRILLE"
+TOLERANCE = "SOLV TOLERANCE"
+"""Where the number behind OPTI 'SOLVEUR' 'MULTIGRILLE' stands among the options."""
 
 
 @dataclass
@@ -84,8 +89,9 @@ def workspace(session: Session) -> Workspace:
 def solver_of(session: Session) -> Solver:
     """Which solver takes the systems of calculations, OPTI 'SOLVEUR'."""
     ws = workspace(session)
-    said = ws.options.get("SOLV", "AUTO")
-    return Solver(None if said == "AUTO" else str(said), ws.petsc)
+    said, tolerance = str(ws.options.get("SOLV", "AUTO")), ws.options.get(TOLERANCE)
+    name = {"AUTO": None, MULTIGRID_WORD: MULTIGRID}.get(said, said)
+    return Solver(name, ws.petsc, RESIDUAL if tolerance is None else float(tolerance))
 
 
 def units_in_si(session: Session) -> dict[str, float]:

@@ -12,26 +12,10 @@ from ssilang.io.archive import Encoder
 from ssilang.operators.dynamics.checkpoints import KeptCalculation
 from tests.operators.test_friction import BLOCK
 from tests.operators.test_pasapas_stages import LAYERS, PLASTIC
+from tests.references.rocking_deck import ROCKING
 
 EVERY = "T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = 7 ; "
 
-ROCKING = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ;
-PC = 0. 0. ; PG = 0. 3. ; PL = -1. 0. ; PR = 1. 0. ; PSL = -1. -1. ; PSR = 1. -1. ;
-JOI = (MANU 'SEG2' PSL PL) ET (MANU 'SEG2' PSR PR) ;
-MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
-BLO = (BLOQ 'UX' 'UY' (PSL ET PSR)) ET (BLOQ 'UX' (PL ET PR ET PC)) ;
-BLO = BLO ET (RELA 'UY' PL - 'UY' PC + 1. 'RZ' PC) ET (RELA 'UY' PR - 'UY' PC - 1. 'RZ' PC) ;
-BLO = BLO ET (RELA 'UY' PG - 'UY' PC) ET (RELA 'UX' PG + 3. 'RZ' PC) ;
-T . 'MASS' = (MASS 'DEPL' 1.E5 PG) ET (MASS 'ROTA' 1.E5 PC) ;
-T . 'RIGI' = BLO ; T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E8 'KS' 0. ;
-T . 'VITE' = MANU 'CHPO' PG 1 'UX' 0.3 ;
-T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E6) PG)) ET
-  (CHAR 'MECA' (FORC (2.E5 0.) PG) (EVOL 'MANU' (PROG 0. 0.3 0.6 9.) (PROG 0. 1. -1. 0.5))) ;
-T . 'TEMPS_CALCULES' = PROG 0. PAS 0.002 0.5 ; T . 'PAS_SAUVES' = 3 ; T . 'EXTREMES' = VRAI ;
-T . 'PAS_SAUVES_VTK' = 40 ; T . 'MAILLAGE_VTK' = JOI ; T . 'FICHIER_VTK' = 'rock' ;
-T . 'PAS_SAUVES_CSV' = 2 ; T . 'MAILLAGE_CSV' = PG ET PC ; T . 'FICHIER_CSV' = 'rock' ;
-"""
 PLATE = """
 OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; T = TABL ;
 L1 = DROI {n} (0. 0.) (1. 0.) ; S1 = L1 TRAN {n} (0. 1.) ; L2 = COTE 3 S1 ;
@@ -44,11 +28,13 @@ STEEL = PLATE.replace("{n}", "3") % ("'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'", "'SIGY
 ELASTIC = PLATE.replace("{n}", "3") % ("'ELASTIQUE'", "")
 LARGE = PLATE.replace("{n}", "12") % ("'ELASTIQUE'", "")
 DECKS = {
-    "bodies that rock": ROCKING + EVERY + "T2 = DYNAMIC T ;",
+    "bodies that rock": ROCKING + EVERY + "T . 'RELATIONS_SAUVEES' = TABL ; "
+    "T . 'RELATIONS_SAUVEES' . 'SOL' = BLO ; T2 = DYNAMIC T ;",
     "two calculations": ROCKING + EVERY + "T2 = DYNAMIC T ; T . 'VITE' = 2. * (T . 'VITE') ; "
     "T . 'FICHIER_VTK' = 'second' ; T . 'FICHIER_CSV' = 'second' ; T3 = DYNAMIC T ;",
     "a plastic plate in motion": STEEL + EVERY + "T . 'CHAR' = T . 'CHARGEMENT' ; "
     "T . 'RIGI' = (RIGI M A) ET B ; T . 'MASS' = MASS M A ; T . 'PAS_SAUVES' = 2 ; "
+    "T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'BASE' = B ; "
     "T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-4 0.008 ; T2 = DYNAMIC T ;",
     "a plastic plate": STEEL + EVERY + "PASAPAS T ;",
     "a plastic plate, moving": STEEL + EVERY + "T . 'DYNAMIQUE' = VRAI ; "

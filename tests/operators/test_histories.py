@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.kernel.statics.linear import product
 from ssilang.kernel.stepping.node_track import NodeTrack
 
 BLOCK = """
@@ -66,6 +67,74 @@ def test_fields_at_a_few_nodes_are_those_of_the_body(step):
                 assert x.components.keys() == y.components.keys()
                 for name, values in x.components.items():
                     assert np.array_equal(values, y.components[name]), name
+
+
+NAMED = """T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'BASE' = B1 ; """
+
+
+@pytest.mark.parametrize("loop", LOOPS)
+def test_forces_of_a_named_support_are_what_moves_the_whole_body(loop):
+    find = ran(BLOCK.format(step=LOOPS[loop] + NAMED))
+    mass, whole = find("T").get("MASS"), find("R1")
+    rows = [whole.get(i) for i in range(1, 36)]
+    pushed = [product(mass, row.get("ACCE")).components for row in rows]
+    times = np.array([row.get("TEMP") for row in rows])
+    curve = np.interp(times, [0.0, 0.01, 0.02], [1.0, -1.0, 1.0])
+    if loop == "conserving":  # accelerations and reactions are means over a step
+        before = np.interp(times - 2e-4, [0.0, 0.01, 0.02], [1.0, -1.0, 1.0])
+        curve = np.where(times > 0.0, 0.5 * (before + curve), curve)
+    loads = {
+        "FX": find("S").components["FX"].values.sum() * curve,
+        "FY": find("W").components["FY"].values.sum() * np.ones(35),
+    }
+    found = find("T").get("RESULTATS_RELATIONS").get("BASE")
+    assert [str(i).rstrip() for i, _ in found.items()] == ["TEMP", "FX", "FY"]
+    assert np.array_equal(found.get("TEMP").values, times)
+    near = 1e-2 if loop == "reduced" else 1e-9  # the tolerance of the basis
+    for name, load in loads.items():
+        exact = np.array([p[name].values.sum() for p in pushed]) - load
+        difference = np.abs(found.get(name).values - exact).max()
+        assert difference <= near * np.abs(exact).max(), name
+
+
+def test_stops_push_with_what_moves_the_mass_and_touch_alone():
+    """A mass that falls on a stop from 1 mm and bounces: no force on its ways."""
+    find = ran("""
+OPTI DIME 2 ELEM SEG2 MODE PLAN CONT ; P = 0. 0. ; T = TABL ;
+STOP = BLOQ 'MINI' 'UY' P ; SIDE = BLOQ 'UX' P ; K = APPUI 'UY' 1.E4 P ;
+T . 'RIGI' = K ET STOP ET SIDE ; T . 'MASS' = MASS 'DEPL' 10. P ; T . 'AMOR' = 0.1 * K ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (3. -100.) P)) ET
+  (CHAR 'DIMP' (DEPI STOP -1.E-3) (EVOL MANU (PROG 0. 9.) (PROG 1. 1.))) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.1 ; T . 'PAS_SAUVES' = 'TOUS' ;
+T . 'VITEUNIL' = FAUX ;
+T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'STOP' = STOP ;
+T . 'RELATIONS_SAUVEES' . 'BOTH' = STOP ET SIDE ; R = DYNAMIC T ;
+""")
+    found, steps, p = find("T").get("RESULTATS_RELATIONS"), find("R"), [find("P").node]
+    y, v, a = (
+        np.array([steps.get(i).get(w).components["UY"].at(p)[0] for i in range(1, 102)])
+        for w in ("DEPL", "VITE", "ACCE")
+    )
+    force = found.get("STOP").get("FY").values
+    exact = 10.0 * a + 1e4 * y + 1e3 * v + 100.0
+    assert np.abs(force - exact).max() < 1e-9 * np.abs(exact).max()
+    assert not force[y > -1e-3 + 1e-9].any()
+    assert np.count_nonzero(force) > 3
+    assert found.get("STOP").get("FX") is None
+    assert np.array_equal(found.get("BOTH").get("FY").values, force)
+    assert np.allclose(found.get("BOTH").get("FX").values, -3.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("relations", "code"),
+    [("BLOQ 'UX' P", "relations-not-in-stiffness"), ("RIGI M MA", "no-relations")],
+)
+def test_relations_that_the_stiffness_has_not_are_refused_by_name(relations, code):
+    more = f"T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'TOP' = {relations} ; "
+    result = run_text(BLOCK.format(step=more))
+    assert result.exit_code == 1
+    assert [e.code for e in result.errors] == [f"operators.dynamics.{code}"]
+    assert "TOP" in result.message
 
 
 CURVES = {

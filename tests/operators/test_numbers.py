@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from ssilang.cli.run import run_text
 
@@ -50,6 +51,15 @@ def test_function_has_the_value_of_the_c_library(phrase, expected):
     assert value(phrase) == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.parametrize("limit", [0.0, 0.3, 2.0, 30.0])
+def test_fresnels_integrals_are_those_of_their_definition(found, limit):
+    """t = u^2 takes the root of the denominator away."""
+    cosine, sine = found(f"C S = IFRE {limit} ; L = PROG C S ;", "L").values
+    for value, function in ((cosine, math.cos), (sine, math.sin)):
+        whole = quad(lambda u, f=function: f(u * u), 0.0, math.sqrt(limit), limit=200)[0]
+        assert value == pytest.approx(whole * math.sqrt(2 / math.pi), abs=1e-10)
+
+
 def test_integers_stay_integers_in_abs_and_sign_only():
     assert (value("ABS -3"), type(value("ABS -3"))) == (3, int)
     assert type(value("SIGN -3")) is int
@@ -78,7 +88,9 @@ def test_words_and_lists_of_words_become_integers():
     assert value("ENTI (MOTS '1.7' '-1.7')").values.tolist() == [1, -1]
 
 
-@pytest.mark.parametrize("phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0"])
+@pytest.mark.parametrize(
+    "phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0", "IFRE -1."]
+)
 def test_impossible_value_is_explained(phrase, refused):
     assert "error" in refused(f"X = {phrase} ;")
 

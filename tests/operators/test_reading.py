@@ -102,7 +102,9 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
     ("text", "said"),
     [
         ("A = LIRE 'CSV' 'none.csv' ;", "no such file"),
-        ("A = LIRE 'MED' 'x' ;", "not supported"),
+        ("A = LIRE 'MDE' 'v.txt' ;", "did you mean 'MED'?"),
+        ("A = LIRE 'v.txt' ;", "no mesh is known by the ending '.txt'"),
+        ("A = LIRE 'v.mhs' ;", "did you mean '.msh'?"),
         ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'word' is no number"),
         ("OPTI ACQU 'v.txt' ; ACQU I*MAILLAGE ;", "'MAILLAGE' cannot be read"),
         ("OPTI ACQU 'v.txt' ; ACQU L*LISTREEL ;", "number of values must follow"),
@@ -110,7 +112,7 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
-    result = run(text, tmp_path, v_txt="word 2\n")
+    result = run(text, tmp_path, v_txt="word 2\n", v_mhs="")
     assert result.exit_code == 1
     assert said in result.message
 

@@ -1,4 +1,8 @@
-"""What may be typed at the cursor: operators, keywords, entries, parameters, names, files."""
+"""What may be typed at the cursor: operators, keywords, entries, parameters, names, files.
+
+One source for editors, the interactive session and notebooks: these two hand over their session,
+whose names and tables are known beside those of the text.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +11,21 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
-from ssilang.cli.completion import CONTROL
 from ssilang.cli.editor.document import Document, Place
-from ssilang.cli.editor.tables import entries_at
+from ssilang.cli.editor.tables import entries_at, suiting
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.language import vocabulary
 from ssilang.language.registry import keywords_of, operators_by_family
 from ssilang.language.run.library import Library
+from ssilang.language.run.session import Session
 from ssilang.language.say.reference import first_sentence
+from ssilang.language.values import Table, type_of
+from ssilang.language.vocabulary.entries import Declaration, TableEntry
 from ssilang.language.vocabulary.terms import Word
 from ssilang.messages.message import teller
 from ssilang.operators.vocabulary import words
 
+CONTROL = ("SI", "SINON", "FINSI", "REPETER", "FIN", "QUITTER", "ITERER", "DEBPROC", "FINPROC")
 _FILES = frozenset({"LIRE", "ACQU", "REST", "SORT", "SAUV", "OPTI"})
 _MOST_FILES = 200
 
@@ -37,20 +44,29 @@ class Candidate:
     detail: str = ""
 
 
-def candidates(document: Document, offset: int, library: Library, language: str) -> list[Candidate]:
-    """All candidates at an offset."""
+def candidates(
+    document: Document,
+    offset: int,
+    library: Library,
+    language: str,
+    session: Session | None = None,
+) -> list[Candidate]:
+    """All candidates at an offset; `session` is the one that the text goes on with."""
     place = document.place(offset)
     quoted = place.token is not None and place.token.kind == "STRING"
     start = place.token.start if place.token is not None else offset
     end = place.token.end if place.token is not None else offset
     if place.path:
         found = list(_entries(place, document, library, language))
+        if session is not None:
+            found += _entries_held(place, session, library, language)
     elif quoted:
         found = [*_keywords(place, document, language), *_files(place, document)]
     else:
         found = [
             *_keywords(place, document, language),
             *_names(document, offset),
+            *(_names_held(session) if session is not None else ()),
             *_commands(library, language),
         ]
     unique = {(label, kind): (text, detail) for label, kind, text, detail in reversed(found)}
@@ -65,10 +81,34 @@ _Found = tuple[str, Kind, str, str]
 
 def _entries(place: Place, document: Document, library: Library, language: str) -> Iterator[_Found]:
     for declaration, entry in entries_at(place.path, document, library):
-        if len(entry.index) > 1 and entry.role not in ("unused", "refused"):
-            types = "|".join(entry.types)
-            said = f"{declaration.name} : {types} {entry.said(language)}"
-            yield entry.index, "entry", f"'{entry.index}'", said
+        yield from _entry(declaration, entry, language)
+
+
+def _entry(declaration: Declaration, entry: TableEntry, language: str) -> Iterator[_Found]:
+    if len(entry.index) > 1 and entry.role not in ("unused", "refused"):
+        types = "|".join(entry.types)
+        said = f"{declaration.name} : {types} {entry.said(language)}"
+        yield entry.index, "entry", f"'{entry.index}'", said
+
+
+def _entries_held(
+    place: Place, session: Session, library: Library, language: str
+) -> Iterator[_Found]:
+    """Indices of a table of the session, and entries of the procedures that it suits."""
+    value = session.frame.find(place.path[0].name)
+    for token in place.path[1:]:
+        if not isinstance(value, Table):
+            return
+        value = value.get(int(token.text) if token.kind == "INTEGER" else token.name)
+    if not isinstance(value, Table):
+        return
+    given = [index for index in value.indices() if isinstance(index, str | int | float)]
+    for index in given:
+        text = f"'{index.rstrip()}'" if isinstance(index, str) else str(index)
+        yield text.strip("'"), "entry", text, ""
+    for declaration, argument in suiting({str(i).rstrip() for i in given}, library):
+        for entry in declaration.inside((argument,)).values():
+            yield from _entry(declaration, entry, language)
 
 
 def _keywords(place: Place, document: Document, language: str) -> Iterator[_Found]:
@@ -153,6 +193,12 @@ def _names(document: Document, offset: int) -> Iterator[_Found]:
     for name, first in document.names.visible(document.scope_at(offset)).items():
         line = document.source.position(first.start)[0]
         yield name, "name", name, f"{first.kind} ({line})"
+
+
+def _names_held(session: Session) -> Iterator[_Found]:
+    for name in sorted(session.frame.names()):
+        if name[0] != "&":
+            yield name, "name", name, type_of(session.frame.find(name))
 
 
 def _commands(library: Library, language: str) -> Iterator[_Found]:

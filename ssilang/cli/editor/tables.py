@@ -60,7 +60,12 @@ def _given(document: Document) -> dict[str, set[str]]:
 
 
 def _fitting(table: str, document: Document, library: Library) -> Iterator[Holder]:
-    given = _given(document).get(table, set()) - {"SOUSTYPE"}
+    return suiting(_given(document).get(table, set()), library)
+
+
+def suiting(indices: set[str], library: Library) -> Iterator[Holder]:
+    """Procedures and operators whose tables have all of some indices, if there are any."""
+    given = indices - {"SOUSTYPE"}
     for name in library.declared_names if given else ():
         declaration = library.declared(name)
         for argument in declaration.arguments if declaration is not None else ():

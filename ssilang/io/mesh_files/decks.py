@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ssilang.io.errors import OutputError
+from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.vtk.cells import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.mesh import Mesh
@@ -54,10 +55,68 @@ def abaqus_lines(mesh: Mesh, plane: str = "") -> list[str]:
     for name, block, first, rows in _blocks(mesh, names, "ABAQ"):
         lines.append(f"*ELEMENT, TYPE={name}, ELSET=E{block}")
         for number, row in enumerate(rows.tolist(), start=first):
-            fields = [str(n) for n in (number, *row)]
-            lines += [", ".join(fields[i : i + 15]) + ", " for i in range(0, len(fields) - 15, 15)]
-            lines.append(", ".join(fields[(len(fields) - 1) // 15 * 15 :]))
+            lines += _over_lines([number, *row], 15)
     return lines
+
+
+# lines, and surfaces in space, of a deck of parts: beams and shells
+_STRUCTURES = {"SEG2": "B31", "SEG3": "B32", "TRI3": "S3", "TRI6": "STRI65", "QUA4": "S4",
+               "QUA8": "S8R"}  # fmt: skip
+_BEAMS = {"SEG2": "B21", "SEG3": "B22"}
+
+
+def abaqus_lines_of(mesh: FileMesh, plane: str = "") -> list[str]:
+    """Lines of an Abaqus deck of a mesh with its named parts as sets.
+
+    Parameters
+    ----------
+    plane : 'CPE', 'CPS' or 'CAX', optional
+        What surfaces are in two dimensions; in space they are shells, and lines are beams.
+
+    Raises
+    ------
+    OutputError
+        For cells that have no element, or names that a set cannot have.
+    """
+    flat = {kind: plane + n for kind, n in _PLANE.items()} | _BEAMS if plane else _STRUCTURES
+    names = _SOLIDS | flat
+    others = sorted(set(mesh.cells) - set(names) - {"POI1"})
+    if others:
+        raise OutputError("io.mesh-cells-not-written", kind="ABAQUS", others=others, known=names)
+    lines = ["*HEADING", "*NODE"]
+    lines += [f"{i}, {x!r}, {y!r}, {z!r}" for i, (x, y, z) in enumerate(mesh.points.tolist(), 1)]
+    firsts = {}
+    first = 1
+    for cell_type, table in mesh.cells.items():
+        if cell_type != "POI1":
+            firsts[cell_type] = first
+            # the middle node of a beam is its second
+            order = (0, 1, 2) if cell_type == "SEG3" else ORDERS[cell_type][1]
+            lines.append(f"*ELEMENT, TYPE={names[cell_type]}")
+            for number, row in enumerate((table[:, list(order)] + 1).tolist(), start=first):
+                lines += _over_lines([number, *row], 15)
+            first += len(table)
+    for name, part in mesh.parts.items():
+        if not name.isascii() or any(c in name for c in ',=*"') or len(name) > 80:
+            raise OutputError("io.mesh-part-name", name=name, kind="ABAQUS")
+        nodes = [part.nodes]
+        if "POI1" in part.cells:
+            nodes.append(mesh.cells["POI1"][part.cells["POI1"], 0])
+        cells = [firsts[kind] + rows for kind, rows in part.cells.items() if kind != "POI1"]
+        for word, members in (("NSET", [n + 1 for n in nodes]), ("ELSET", cells)):
+            numbers = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *members])).tolist()
+            if numbers:
+                lines.append(f'*{word}, {word}="{name}"')
+                lines += [
+                    ", ".join(map(str, numbers[i : i + 16])) for i in range(0, len(numbers), 16)
+                ]
+    return lines
+
+
+def _over_lines(numbers: list[int], width: int) -> list[str]:
+    """Numbers on as many lines as they need, a comma at the end of each that goes on."""
+    cut = [numbers[i : i + width] for i in range(0, len(numbers), width)]
+    return [", ".join(map(str, c)) + ("," if c is not cut[-1] else "") for c in cut]
 
 
 def nastran_lines(mesh: Mesh) -> list[str]:

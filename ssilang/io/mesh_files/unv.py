@@ -6,13 +6,12 @@ Source: SDRC universal file datasets. A dataset stands between two lines that ho
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.io.mesh_files.file_mesh import FileMesh, Part
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.system_reasons import system_reason
 
@@ -27,25 +26,7 @@ _CELLS: dict[int, str] = {
 _BEAMS = frozenset({11, 21, 22, 24})  # these have a line of orientation before their nodes
 
 
-@dataclass
-class UnvMesh:
-    """What a file holds.
-
-    Attributes
-    ----------
-    points : array (n, 3)
-    cells : dict of str to array (m, k)
-        Type to rows of `points`.
-    groups : dict of str to (list of (type, row), list of rows of `points`)
-        Cells and nodes of each group.
-    """
-
-    points: FloatArray
-    cells: dict[str, IntArray]
-    groups: dict[str, tuple[list[tuple[str, int]], list[int]]] = field(default_factory=dict)
-
-
-def read_unv(path: Path) -> UnvMesh:
+def read_unv(path: Path) -> FileMesh:
     """Read a file.
 
     Raises
@@ -61,17 +42,18 @@ def read_unv(path: Path) -> UnvMesh:
     points: list[list[float]] = []
     rows: list[tuple[int, str, list[int]]] = []
     groups: list[tuple[str, list[tuple[int, int]]]] = []
+    left_out: dict[str, int] = {}
     try:
         for number, body in _datasets(lines):
             if number in (2411, 781):
                 _read_nodes(body, labels, points)
             elif number in (2412, 780):
-                rows += _read_cells(body)
+                rows += _read_cells(body, left_out)
             elif number in (2467, 2470, 2477, 2435, 2452):
                 groups += _read_groups(body)
         if not points:
             raise InputError("io.holds-no-nodes-dataset", name=path.name)
-        return _gathered(labels, points, rows, groups)
+        return _gathered(labels, points, rows, groups, left_out)
     except (ValueError, LookupError, OverflowError) as error:
         raise InputError("io.no-readable-unv-file", name=path.name, error=error) from error
 
@@ -90,7 +72,7 @@ def _read_nodes(body: list[str], labels: list[int], points: list[list[float]]) -
         points.append([x, y, z])
 
 
-def _read_cells(body: list[str]) -> list[tuple[int, str, list[int]]]:
+def _read_cells(body: list[str], left_out: dict[str, int]) -> list[tuple[int, str, list[int]]]:
     found = []
     i = 0
     while i < len(body):
@@ -101,7 +83,9 @@ def _read_cells(body: list[str]) -> list[tuple[int, str, list[int]]]:
         while len(nodes) < count:
             nodes += [int(t) for t in body[i].split()]
             i += 1
-        if kind in _CELLS:
+        if kind not in _CELLS:
+            left_out[str(kind)] = left_out.get(str(kind), 0) + 1
+        else:
             if len(nodes) != CELL_TYPES[_CELLS[kind]].n_nodes:
                 raise ValueError(f"{label}: {_CELLS[kind]}, {len(nodes)}")
             found.append((label, _CELLS[kind], nodes))
@@ -128,7 +112,8 @@ def _gathered(
     points: list[list[float]],
     rows: list[tuple[int, str, list[int]]],
     groups: list[tuple[str, list[tuple[int, int]]]],
-) -> UnvMesh:
+    left_out: dict[str, int],
+) -> FileMesh:
     row_of = {label: i for i, label in enumerate(labels)}
     tables: dict[str, list[list[int]]] = {}
     place: dict[int, tuple[str, int]] = {}
@@ -136,11 +121,15 @@ def _gathered(
         table = tables.setdefault(kind, [])
         place[label] = kind, len(table)
         table.append([row_of[n] for n in nodes])
-    made = UnvMesh(
-        np.array(points), {kind: np.array(t, dtype=np.int64) for kind, t in tables.items()}
-    )
+    parts = {}
     for name, entities in groups:
-        cells = [place[tag] for kind, tag in entities if kind == 8 and tag in place]
-        nodes = [row_of[tag] for kind, tag in entities if kind == 7 and tag in row_of]
-        made.groups[name] = (cells, nodes)
-    return made
+        cells: dict[str, list[int]] = {}
+        for what, tag in entities:
+            if what == 8 and tag in place:
+                cell_type, row = place[tag]
+                cells.setdefault(cell_type, []).append(row)
+        nodes = [row_of[tag] for what, tag in entities if what == 7 and tag in row_of]
+        chosen = {cell_type: np.array(r, dtype=np.int64) for cell_type, r in cells.items()}
+        parts[name] = Part(chosen, np.array(nodes, dtype=np.int64))
+    made = {kind: np.array(t, dtype=np.int64) for kind, t in tables.items()}
+    return FileMesh(np.array(points), made, parts, left_out)

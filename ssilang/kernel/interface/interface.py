@@ -330,6 +330,30 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
     return CellField(tuple(blocks), _TITLES[kind])
 
 
+def point_values(interface: Interface, field: CellField, kind: str) -> FloatArray:
+    """Values (n_points, d) at the points of all joints from a field as `interface_field` gives it.
+
+    Raises
+    ------
+    FieldError
+        If the field lacks a component on a joint.
+    """
+    parts = []
+    for j in interface.joints:
+        given = zone_field(j.zone, field)
+        names = j.element.stresses if kind == "traction" else j.element.strains
+        if is_macro(j):
+            names = MACRO_NAMES[kind][interface.dimension]
+        missing = [n for n in names if n not in given]
+        if missing:
+            raise FieldError(
+                "kernel.interface.field-lacks-component", name=missing[0], element=j.zone.element
+            )
+        local = np.stack([given.at(n, "STRESSES") for n in names], axis=-1)
+        parts.append(local.reshape(-1, interface.dimension))
+    return np.concatenate(parts)
+
+
 def plastic_jumps(interface: Interface, w: FloatArray, t: FloatArray) -> FloatArray:
     """What of the jumps (n_points, d) the springs of the faces do not explain."""
     d = interface.dimension

@@ -71,7 +71,7 @@ def workspace_at(works: Workspace, j: int) -> Workspace:
 
 
 @compiled
-def _release_shear(state: FloatArray, new: FloatArray) -> None:
+def release_shear(state: FloatArray, new: FloatArray) -> None:
     """End of an iteration: no shear is held any more."""
     for i in range(state.shape[0]):
         state[i, Variable.HELD] = 0.0
@@ -79,7 +79,7 @@ def _release_shear(state: FloatArray, new: FloatArray) -> None:
 
 
 @compiled
-def _hold_shear(joints: Joints, t: FloatArray, state: FloatArray) -> bool:
+def hold_shear(joints: Joints, t: FloatArray, state: FloatArray) -> bool:
     """Hold the shear of points that lose it at once on opening; True if there are any.
 
     `t` are the tractions at the start of the step.
@@ -108,7 +108,7 @@ def _evaluate(joints: Joints, condensed: Condensed, now: InterfaceState, trial: 
 def _restart_held(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     """Start again with the shear held that a step's start has, where no other shear is possible."""
     interface_response(joints, now.state, now.delta, trial)
-    if _hold_shear(joints, trial.t, now.state):
+    if hold_shear(joints, trial.t, now.state):
         for i in range(len(trial.y)):
             trial.y[i] = trial.y0[i]
     return _evaluate(joints, condensed, now, trial)
@@ -166,5 +166,5 @@ def solve_interface(
         if length * largest(dy) <= MOVED * scale and size <= ACCEPTED * scale:
             turns = turn
             break
-    _release_shear(now.state, trial.state)
+    release_shear(now.state, trial.state)
     return turns, size / scale

@@ -30,7 +30,17 @@ _FLIPS: dict[str, tuple[int, ...]] = {
     "PR15": (*_polygon_flip(6), 6, 8, 7, 9, 14, 13, 12, 11, 10),
     "CUB8": (0, 3, 2, 1, 4, 7, 6, 5),
     "CU20": (*_polygon_flip(8), 8, 11, 10, 9, 12, 19, 18, 17, 16, 15, 14, 13),
+    "PY13": (*_polygon_flip(8), 8, 11, 10, 9, 12),
+    "TRI7": (*_polygon_flip(6), 6),
+    "QUA9": (*_polygon_flip(8), 8),
 }
+# faces: bottom, top, then those around, and the middle
+_FLIPS["CU27"] = (*_FLIPS["CU20"], 20, 21, 25, 24, 23, 22, 26)
+
+
+def flipped_order(cell_type: str) -> tuple[int, ...]:
+    """Places of the nodes of a cell turned inside out, () for one without an orientation."""
+    return _FLIPS.get(cell_type, ())
 
 
 def flip(block: CellBlock, which: BoolArray | None = None) -> CellBlock:
@@ -94,10 +104,12 @@ _LINEAR = {
     "TET4": "TET4",
     "TE10": "TET4",
     "PYR5": "PYR5",
+    "PY13": "PYR5",
     "PRI6": "PRI6",
     "PR15": "PRI6",
     "CUB8": "CUB8",
     "CU20": "CUB8",
+    "CU27": "CUB8",
 }
 
 

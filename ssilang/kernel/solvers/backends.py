@@ -13,7 +13,7 @@ import importlib.util
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,13 +21,18 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
-from ssilang.kernel.solvers.multigrid import MultigridFactor
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
 DISSECTION = "nested dissection"
 MULTIGRID = "multigrid"
 PETSC = "PETSC"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
+ONCE, OFTEN = 8e8, 4e9
+"""Bytes of a factor by dissection from which multigrid has solved before it is made (some 80 000
+unknowns of a solid), and from which a hundred steps have been made (some 300 000)."""
 DISTRIBUTED = 1_000_000  # unknowns from which several machines are used where a run has them
 
 
@@ -147,7 +152,6 @@ BACKENDS: dict[str, Backend] = {
         lambda n, positive: positive and n >= 2000,
     ),
     "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy", lambda n, positive: True),
-    MULTIGRID: Backend(MultigridFactor, "pyamg", "pip install 'ssilang[amg]'", lambda n, p: False),
 }
 
 
@@ -224,21 +228,23 @@ def factorise(
         return _by_petsc(A, positive, asked, ordering)
     dissected = ordering is not None and positive and asked.name in (None, DISSECTION)
     name = DISSECTION if dissected else asked.name or choose(A.shape[0], positive)
-    if not dissected and name not in BACKENDS:
-        raise KernelError("kernel.solvers.no-solver-called", name=name, backends=BACKENDS)
-    if not dissected and not BACKENDS[name].installed:
+    backend = BACKENDS.get(name)
+    if backend is None and not dissected and name != MULTIGRID:
+        known = (*BACKENDS, MULTIGRID)
+        raise KernelError("kernel.solvers.no-solver-called", name=name, backends=known)
+    if backend is not None and not backend.installed:
         raise KernelError(
             "kernel.solvers.not-installed",
             name=name,
-            package=BACKENDS[name].package,
-            remedy=BACKENDS[name].remedy,
+            package=backend.package,
+            remedy=backend.remedy,
         )
 
     def make() -> Factor:
         if dissected and ordering is not None:
             return _dissected(A, ordering, asked)
-        if name == MULTIGRID and positive and ordering is not None:
-            return MultigridFactor(A, True, ordering.rigid)
+        if name == MULTIGRID:
+            return _by_multigrid(A, positive, ordering, asked)
         return BACKENDS[name].make(A, positive)
 
     if not _keeping:
@@ -259,25 +265,43 @@ def _by_petsc(A: sp.csr_array, positive: bool, asked: Solver, ordering: Ordering
     return asked.petsc.factorise(A, positive, None if ordering is None else ordering.rigid)
 
 
+def _by_multigrid(
+    A: sp.csr_array, positive: bool, ordering: Ordering | None, asked: Solver
+) -> MultigridFactor:
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
+
+    if ordering is None:
+        return MultigridFactor(A, positive, tolerance=asked.tolerance)
+    return MultigridFactor(A, positive, ordering.rigid, ordering.nodes, asked.tolerance)
+
+
+def factor_is_large(A: sp.csr_array, ordering: Ordering) -> bool:
+    """Whether multigrid makes a hundred steps while a positive A (n, n) is factorised."""
+    if not dissection_pays(A.shape[0]):
+        return False
+    from ssilang.kernel.base.memory import fits
+    from ssilang.kernel.solvers.cholesky.dissection import dissection
+    from ssilang.kernel.solvers.cholesky.multifrontal import factor_bytes
+
+    needed = factor_bytes(A, dissection(A, ordering.points, ordering.last))
+    return needed > OFTEN or not fits(needed)
+
+
 def _dissected(A: sp.csr_array, ordering: Ordering, asked: Solver) -> Factor:
-    from ssilang.kernel.base.memory import available_bytes, gigabytes
     from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
     from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError, TooLargeError
 
-    try:
-        return DissectedFactor(A, ordering.points, ordering.last)
-    except NotPositiveError as error:
-        raise SingularFactorError(str(error)) from None
-    except TooLargeError as error:
-        needed = error.n_bytes
-    if asked.petsc is not None:
-        return _by_petsc(A, True, asked, ordering)
-    if not BACKENDS[MULTIGRID].installed:
-        raise KernelError(
-            "kernel.solvers.factor-unknowns-takes-memory",
-            n_a=A.shape[0],
-            gigabytes=gigabytes(needed),
-            gigabytes_2=gigabytes(available_bytes()),
-            remedy=BACKENDS[MULTIGRID].remedy,
-        )
-    return MultigridFactor(A, True, ordering.rigid)
+    limit = ONCE if ordering.once and asked.name is None else np.inf
+    for most in (limit, np.inf):
+        try:
+            return DissectedFactor(A, ordering.points, ordering.last, most)
+        except NotPositiveError as error:
+            raise SingularFactorError(str(error)) from None
+        except TooLargeError as error:
+            chosen = error.fits
+        if not chosen and asked.petsc is not None:
+            return _by_petsc(A, True, asked, ordering)
+        found = _by_multigrid(A, True, ordering, asked)
+        if not chosen or found.converges():  # else the factor: memory holds it
+            return found
+    raise AssertionError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -11,6 +11,12 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 
 if TYPE_CHECKING:
     from ssilang.kernel.solvers.petsc.client import PetscServer
+
+
+RESIDUAL = 1e-12
+"""What a direct solver leaves of a second member, or little more."""
+FINEST, COARSEST = 1e-14, 1e-4
+"""Tolerances between which an iteration may be asked for."""
 
 
 class Factor(Protocol):
@@ -33,10 +39,13 @@ class Solver:
         The one asked for; None for the first that suits.
     petsc : PetscServer or None
         The run's server of PETSc, if it has one.
+    tolerance : float
+        Norm of the residual, of that of the second member, at which multigrid ends.
     """
 
     name: str | None = None
     petsc: PetscServer | None = field(default=None, compare=False)
+    tolerance: float = RESIDUAL
 
     @classmethod
     def of(cls, asked: Solver | str | None) -> Solver:
@@ -60,11 +69,17 @@ class Ordering:
         Unknowns to be eliminated last, together.
     rigid : array (n, k) or None
         Rigid motions of the unknowns, for multigrid.
+    nodes : array (n,) or None
+        Node of each unknown, for multigrid: unknowns side by side of one node go together.
+    once : bool
+        Whether a few solves follow rather than thousands: the factor must then pay at once.
     """
 
     points: FloatArray
     last: IntArray
     rigid: FloatArray | None = None
+    nodes: IntArray | None = None
+    once: bool = False
 
     def of(self, kept: IntArray) -> Ordering:
         """The ordering of some of the unknowns (increasing)."""
@@ -72,12 +87,13 @@ class Ordering:
         place[kept] = np.arange(len(kept))
         last = place[self.last]
         rigid = None if self.rigid is None else self.rigid[kept]
-        return Ordering(self.points[kept], last[last >= 0], rigid)
+        nodes = None if self.nodes is None else self.nodes[kept]
+        return Ordering(self.points[kept], last[last >= 0], rigid, nodes, self.once)
 
     def scaled(self, scale: FloatArray) -> Ordering:
         """The ordering of the unknowns `u / scale`."""
         rigid = None if self.rigid is None else self.rigid / scale[:, None]
-        return Ordering(self.points, self.last, rigid)
+        return replace(self, rigid=rigid)
 
 
 class SingularFactorError(Exception):

@@ -48,6 +48,7 @@ from ssilang.kernel.statics.linear_motion import (
 )
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
+FEW = 8  # unilateral conditions, a solve for each: more of them want a factor
 MET = 1e-7  # mismatch of a redundant condition, relative to the largest displacement
 
 
@@ -272,19 +273,22 @@ def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> Lin
         reduced = stabilised(reduced, len(elimination.masters))
     order = None
     if symmetric and len(saddle) == 0:
-        order = _ordering(numbering, elimination, options.solver)
+        order = _ordering(numbering, elimination, options.solver, len(contact) <= FEW)
     inverse = invert(reduced, symmetric, options.solver, order)
     return LinearSystem(numbering, K, rows, elimination, saddle, contact, inverse)
 
 
-def _ordering(numbering: Numbering, elimination: Elimination, solver: Solver) -> Ordering | None:
+def _ordering(
+    numbering: Numbering, elimination: Elimination, solver: Solver, once: bool
+) -> Ordering | None:
     """Places of the unknowns left, where a solver that goes by them is the best there is."""
     n = len(elimination.masters)
     if solver.name != MULTIGRID and not goes_to_petsc(solver, n) and not dissection_pays(n):
         return None
     nodes = numbering.nodes[elimination.masters]
     rigid = rigid_motions(numbering)[elimination.masters]
-    return Ordering(numbering.table.coordinates[nodes], np.zeros(0, np.int64), rigid)
+    points = numbering.table.coordinates[nodes]
+    return Ordering(points, np.zeros(0, np.int64), rigid, nodes, once)
 
 
 def _associated_rows(rows: ConstraintRows) -> BoolArray:

@@ -11,12 +11,18 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.interface.response import interface_energies
+from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.sparse.iterated import (
+    IteratedSolver,
+    iterated_system,
+    pays,
+)
 from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.stepping.run import History, Progress
 from ssilang.kernel.stepping.snapshot import Observer, snapshot_of
@@ -54,9 +60,9 @@ def step_statics(
     history = History(times, np.zeros((len(times), N_ENERGIES)))
     history.energies[0] = motion.energies
     try:
-        effective = effective_of(problem, problem.K, 0.0, 1.0, free=True)
-        history.solver, history.loop = effective.inverse.factor.name, "static"
-        solver = step_solver(problem, effective)
+        solver, inverse = _solver_of(problem)
+        history.solver = MULTIGRID if inverse is None else inverse.factor.name
+        history.loop = "static"
         factors = problem.loading.at(times)
         run = KeptSteps(keeper, history, motion, solver)
         if not run.go_on():
@@ -64,7 +70,7 @@ def step_statics(
         with run.going():
             for k in range(run.done + 1, len(times)):
                 with run.step(k):
-                    _check_balanced(problem, effective.inverse, motion, factors[k])
+                    _check_balanced(problem, inverse, motion, factors[k])
                     outcome = _at_load_step(problem, solver, motion, factors, k)
                     history.iterations = max(history.iterations, outcome.turns)
                     history.energies[k] = motion.energies
@@ -77,6 +83,14 @@ def step_statics(
             observer.close()
     history.seconds += time.perf_counter() - started
     return history
+
+
+def _solver_of(problem: Problem) -> tuple[StepSolver, Inverse | None]:
+    """What solves the steps: the condensed interface with its inverse, or multigrid."""
+    if problem.interface is not None and pays(problem, problem.K):
+        return IteratedSolver(problem, iterated_system(problem, problem.K, 1.0), 1.0), None
+    effective = effective_of(problem, problem.K, 0.0, 1.0, free=True)
+    return step_solver(problem, effective), effective.inverse
 
 
 def _at_load_step(
@@ -128,7 +142,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
     # what supports impose is no flight
-    if _flies_off(problem, outcome.du - problem.constraints.particular(dd), factors[1]):
+    own = outcome.du - problem.constraints.particular(dd)
+    if _flies_off(problem, own, factors[1]):
         return StepOutcome(outcome.du, 0, np.inf)
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
@@ -142,6 +157,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         problem, 0.5 * (old + motion.reaction), 0.5 * (pushed + motion.contact), outcome.du, dd,
         factors[1] - factors[0],
     )  # fmt: skip
+    if contact is None:  # loads that start out of balance grow, in the first step, from nothing
+        motion.energies[EXTERNAL] += 0.5 * old @ own
     motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
     if contact is not None and problem.contact_options.method == "PENALITE":
         motion.energies[ELASTIC] += contact.penalty_energy(
@@ -194,10 +211,10 @@ def _lost_in_joints(problem: Problem, motion: Motion) -> float:
 
 
 def _check_balanced(
-    problem: Problem, inverse: Inverse, motion: Motion, factors: FloatArray
+    problem: Problem, inverse: Inverse | None, motion: Motion, factors: FloatArray
 ) -> None:
     """Refuse loads that drive bodies which nothing holds; those without a load stay at rest."""
-    if not inverse.singular or problem.contact is not None:
+    if inverse is None or not inverse.singular or problem.contact is not None:
         return
     work = inverse.work(-problem.constraints.V.T @ _imbalance(problem, motion, factors))
     driven = inverse.kernel[:, np.abs(work) > DRIVEN]

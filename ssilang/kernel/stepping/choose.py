@@ -19,11 +19,16 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
-from ssilang.kernel.solvers.backends import PETSC, goes_to_petsc
+from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
+from ssilang.kernel.stepping.rests.sparse.iterated import (
+    IteratedSolver,
+    iterated_system,
+    pays,
+)
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View
@@ -75,6 +80,11 @@ class Case:
         p = self.problem
         end = 2.0 if p.scheme.conserving else 1 - p.scheme.alpha_f
         return effective_of(p, effective_matrix(p, self.dt), self.dt, end)
+
+    @cached_property
+    def iterated(self) -> bool:
+        """Whether multigrid solves each step."""
+        return pays(self.problem, effective_matrix(self.problem, self.dt))
 
     @cached_property
     def small(self) -> bool:
@@ -153,6 +163,13 @@ def _dense(case: Case) -> Loop:
 
 def _interleaved(case: Case) -> Loop:
     return InterleavedLoop(case.problem, case.motion, case.effective)
+
+
+def _iterated(case: Case) -> Loop:
+    p = case.problem
+    share = 1 - p.scheme.alpha_f
+    system = iterated_system(p, effective_matrix(p, case.dt), share)
+    return _sparse(case, IteratedSolver(p, system, share))
 
 
 def _condensed(case: Case) -> Loop:
@@ -291,6 +308,13 @@ RULES = (
         _dense, inside=True,
     ),
     Rule(
+        "multigrid", "multigrid",
+        "multigrid is asked for, or a factor would take gigabytes",
+        "kernel.stepping.loop-multigrid",
+        lambda c: c.iterated,
+        _iterated, renewable=True, inside=True,
+    ),
+    Rule(
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
@@ -337,7 +361,9 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     """The loop of a case; see `rule_of`."""
     rule = rule_of(case, renewable)
     loop = rule.make(case)
-    if rule.make is _adaptive:
+    if rule.make is _iterated:
+        solver = MULTIGRID
+    elif rule.make is _adaptive:
         solver = cast("AdaptiveLoop", loop).solver
     else:
         solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name

@@ -105,7 +105,7 @@ def effective_of(
     q = joints.size if joints else 0
     R = np.zeros((q, q))
     right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
-    order = _ordering(problem, right)
+    order = ordering_of(problem, right)
     inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and joints is not None:
         R = share * joints.closed_stiffness()
@@ -137,16 +137,15 @@ def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> Floa
     return S
 
 
-def _ordering(problem: Problem, right: sp.csc_array) -> Ordering | None:
+def ordering_of(problem: Problem, right: sp.csc_array) -> Ordering | None:
     """Places of the unknowns of a large symmetric problem, its interface last."""
     if problem.numbering.size <= SMALL or not problem.constraints.associated:
         return None
     own = _heaviest_rows(problem.constraints.T)
-    points = problem.numbering.table.coordinates[problem.numbering.nodes[own]]
-    rigid = None
-    if problem.solver.petsc is not None:  # it may have no memory for a factor
-        rigid = rigid_motions(problem.numbering)[own]
-    return Ordering(points, np.unique(right.indices).astype(np.int64), rigid)
+    nodes = problem.numbering.nodes[own]
+    points = problem.numbering.table.coordinates[nodes]
+    rigid = rigid_motions(problem.numbering)[own]  # for what has no memory for a factor
+    return Ordering(points, np.unique(right.indices).astype(np.int64), rigid, nodes)
 
 
 def _heaviest_rows(T: sp.csr_array) -> IntArray:

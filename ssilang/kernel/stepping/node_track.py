@@ -20,29 +20,26 @@ from ssilang.kernel.stepping.track import Rows, Track, balance_of
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
-    """Multipliers of some relations: what reactions of a few unknowns make of them.
+class Forces:
+    """Sums of what conditions push by: linear in the reactions of a few unknowns.
 
     Attributes
     ----------
-    nodes : array (m,)
-        Their nodes, increasing.
     at : array (p,)
         Unknowns that the equalities hold.
     forces : csr array (p, m)
-        Multipliers LX from the forces of the equalities on these; zero for unilateral ones.
+        The sums from the forces of the equalities on these; zero for unilateral ones.
     contact : csr array (m, size)
-        LX from the reactions of the unilateral relations.
+        The sums from the reactions of the unilateral relations.
     """
 
-    nodes: IntArray
     at: IntArray
     forces: sp.csr_array
     contact: sp.csr_array
 
     def values(self, rows: Rows) -> FloatArray:
-        """LX (k, m)."""
-        found = np.zeros((len(rows), len(self.nodes)))
+        """The sums (k, m)."""
+        found = np.zeros((len(rows), self.contact.shape[0]))
         pushed, contact = rows.tap.contact, rows.problem.contact
         if len(self.at):
             rest = rows.reactions(balance_of(rows.problem, self.at))
@@ -50,6 +47,19 @@ class Followed:
                 rest = rest - pushed @ contact.pushing[:, self.at]
             found += rest @ self.forces
         return found if contact is None else found + pushed @ self.contact.T
+
+
+@dataclass(frozen=True, eq=False)
+class Followed(Forces):
+    """Multipliers LX of some relations: what reactions of a few unknowns make of them.
+
+    Attributes
+    ----------
+    nodes : array (m,)
+        Their nodes, increasing.
+    """
+
+    nodes: IntArray
 
 
 def followed_of(problem: Problem, nodes: IntArray) -> Followed:
@@ -66,7 +76,36 @@ def followed_of(problem: Problem, nodes: IntArray) -> Followed:
     places = (first + np.arange(m - first), one_sided)
     pushed = sp.csr_array((-sense, places), shape=(m, size))
     at, order = np.flatnonzero(np.diff(columns.indptr)), np.argsort(whole, kind="stable")
-    return Followed(whole[order], at, columns[at][:, order], pushed[order])
+    return Followed(at, columns[at][:, order], pushed[order], whole[order])
+
+
+def resultants_of(problem: Problem, nodes: IntArray) -> dict[str, Forces]:
+    """Sum of the forces on the body of the relations with these multipliers, by dual name.
+
+    Frictions of unilateral relations are forces of theirs. Only names by which they push.
+    """
+    p, numbering, contact = problem, problem.numbering, problem.contact
+    equal = np.flatnonzero(np.isin(p.multipliers, nodes))
+    forces = sp.csr_array(-_pushers(p, equal) @ p.constraints.D[equal])
+    held, size = np.zeros(0, np.int64), 0
+    if contact is not None:
+        held, size = np.flatnonzero(np.isin(contact.multipliers, nodes)), contact.size
+        if contact.friction is not None:
+            places = np.flatnonzero(np.isin(contact.friction.normal, held))
+            width = contact.friction.width
+            slips = (places[:, None] * width + np.arange(width)).ravel()
+            held = np.concatenate([held, len(contact) + slips])
+    found = {}
+    for code, dual in enumerate(numbering.duals):
+        one = sp.csc_array((numbering.codes == code).astype(float)[:, None])
+        own, pushed = sp.csr_array(forces @ one), sp.csr_array((1, size))
+        if contact is not None:
+            total = (contact.pushing[held] @ one).toarray()[:, 0]
+            pushed = sp.csr_array((total, (np.zeros(len(held), int), held)), shape=(1, size))
+        if own.count_nonzero() or pushed.count_nonzero():
+            at = np.flatnonzero(np.diff(own.indptr))
+            found[dual] = Forces(at, sp.csr_array(own[at]), pushed)
+    return found
 
 
 def _pushers(problem: Problem, rows: IntArray) -> sp.csc_array:

@@ -461,7 +461,11 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     if trial.said is not None and (again := _as_before(trial, trial.said, call)) is not None:
         return again
     if len(trial.forms) == 1:  # no other form needs the operands as they stood
-        return _bound(trial.forms[0], call, trial)
+        try:
+            return _bound(trial.forms[0], call, trial)
+        except SsiError as problem:
+            _tell_form(problem, trial.forms[0])
+            raise
     if len(trial.fitting) < len(trial.forms):
         operands, used = list(call.operands), len(call.used)
         for form in trial.fitting:
@@ -478,6 +482,7 @@ def bind_operator(found: Operator, call: Call) -> Bound:
             return _bound(form, call, trial)
         except SsiError as problem:
             depth = len(call.used) - used
+            _tell_form(problem, form)
             if worst is None or depth > worst[0] or _names_the_slip(worst, depth, problem):
                 worst = depth, problem
             elif depth == worst[0]:
@@ -487,6 +492,12 @@ def bind_operator(found: Operator, call: Call) -> Bound:
     if worst is None:
         raise _no_form(found, call)
     raise worst[1]
+
+
+def _tell_form(problem: SsiError, form: Form) -> None:
+    """Let an error show the syntax of the form that it is about."""
+    if form.help.syntax:
+        problem.data.setdefault("form_syntax", form.help.syntax)
 
 
 def _names_the_slip(worst: tuple[int, SsiError], depth: int, problem: SsiError) -> bool:

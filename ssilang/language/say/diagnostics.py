@@ -325,7 +325,7 @@ def _syntax_hint(data: dict[str, object]) -> str:
     found = find_operator(str(data.get("operator", "")))
     if found is None or not found.help.syntax:
         return ""
-    lines = found.help.syntax.split("\n")
+    lines = str(data.get("form_syntax") or found.help.syntax).split("\n")
     given = data.get("quoted")
     quoted = [w for w in given if len(w) > 1] if isinstance(given, list) else []
     # of several forms, the one that a keyword of the phrase belongs to

@@ -29,6 +29,9 @@ FOREIGN: Mapping[str, str] = {
     **dict.fromkeys(("LEN", "LENGTH", "SIZE"), "write-count"),
     **dict.fromkeys(("FUNCTION", "DEF", "PROC", "RETURN", "SUBROUTINE"), "write-procedure"),
     **dict.fromkeys(("TRUE", "FALSE"), "write-truth"),
+    **dict.fromkeys(
+        ("GRAV", "GRAVITY", "GRAVITE", "PESA", "PESANTEUR", "POIDS", "WEIGHT"), "write-weight"
+    ),
 }
 """Words of other languages, with the code of how what they mean is written."""
 

@@ -29,6 +29,21 @@ if TYPE_CHECKING:
 _TRUTH = "LOGIQUE"
 
 
+MADE_BY = {
+    "CHARGEME": "CHAR 'MECA' CHPO1 EVOL1",
+    "CHPOINT": "MANU 'CHPO' MAIL1 'UX' X1",
+    "EVOLUTIO": "EVOL 'MANU' LREE1 LREE2",
+    "LISTENTI": "LECT 1 'PAS' 1 4",
+    "LISTMOTS": "MOTS 'UX' 'UY'",
+    "LISTREEL": "PROG 0. 'PAS' 0.1 1.",
+    "MCHAML": "MATE MODL1 'YOUN' X1",
+    "MMODEL": "MODE MAIL1 'MECANIQUE' 'ELASTIQUE'",
+    "RIGIDITE": "RIGI, MASS, AMOR MODL1 MAT1, BLOQ 'UX' MAIL1",
+    "TABLE": "TABL",
+}
+"""How objects of a type are mostly made."""
+
+
 def shown(path: tuple[object, ...]) -> str:
     """Indices as a script writes them, the argument left out: 'SOL' . 'ITERATION' . 1."""
     return " . ".join(str(i) if isinstance(i, int) else f"'{str(i).rstrip()}'" for i in path[1:])
@@ -57,7 +72,11 @@ def checked(
     if entry.types and found not in entry.types:
         if found != "ENTIER" or "FLOTTANT" not in entry.types:
             kinds = " | ".join(entry.types)
-            raise SsiError("entry-type", None, where=place, kinds=kinds, found=found, **data)
+            made = [MADE_BY[t] for t in entry.types if t in MADE_BY][:2]
+            raise SsiError(
+                "entry-type", None, where=place, kinds=kinds, found=found, made=made,
+                en=entry.en, fr=entry.fr, **data,
+            )  # fmt: skip
         return float(value)
     if entry.values and found == "MOT":
         word = entry.word(str(value))

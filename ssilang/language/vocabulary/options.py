@@ -69,17 +69,25 @@ _UNITS = (
 )
 _SOLVERS = (
     Word(
-        "AUTO", "The first that suits, by size, memory and what is installed; PETSC, where the run "
-        "has it, from a million unknowns on and where memory would not hold the factor",
-        "Le premier qui convient, selon la taille, la mémoire et ce qui est installé ; PETSC, si "
-        "l'exécution en dispose, à partir d'un million d'inconnues et quand la mémoire ne "
-        "contiendrait pas la factorisation",
+        "AUTO", "The first that suits, by size, memory and what is installed; MULTIGRILLE for "
+        "large solids and where memory would not hold the factor; PETSC in its place where the "
+        "run has it, from a million unknowns on or where memory would not hold the factor",
+        "Le premier qui convient, selon la taille, la mémoire et ce qui est installé ; MULTIGRILLE "
+        "pour les grands massifs et quand la mémoire ne contiendrait pas la factorisation ; PETSC "
+        "à sa place, si l'exécution en dispose, à partir d'un million d'inconnues ou quand la "
+        "mémoire ne contiendrait pas la factorisation",
     ),
     Word(
         "PETSC", "PETSc over MPI, started by the command that ssilang --petsc or SSILANG_PETSC "
         "gives: MUMPS factorises, and multigrid (GAMG) iterates where memory would not hold that",
         "PETSc sur MPI, lancé par la commande que donne ssilang --petsc ou SSILANG_PETSC : MUMPS "
         "factorise, et le multigrille (GAMG) itère quand la mémoire n'y suffirait pas",
+    ),
+    Word(
+        "MULTIGRILLE", "Conjugate gradients with multigrid, for symmetric positive systems; a "
+        "number may follow: the residual, of the second member, at which they end (1.E-12)",
+        "Gradients conjugués et multigrille, pour les systèmes symétriques positifs ; un nombre "
+        "peut suivre : le résidu, rapporté au second membre, où ils s'arrêtent (1.E-12)",
     ),
 )  # fmt: skip
 

@@ -9,6 +9,10 @@ MESSAGES: dict[str, Message] = {
         "GAUSS serves all faces, LOBATTO those of {nodal_weights}",
         "GAUSS vaut pour toutes les faces, LOBATTO pour celles en {nodal_weights}",
     ),
+    "field-lacks-component": Message(
+        "the field has no component {name} on joints {element}",
+        "le champ n'a pas de composante {name} sur les joints {element}",
+    ),
     "moduli-not-positive": Message(
         "the moduli D11 D21 ... of the joint give some motion a negative energy",
         "les modules D11 D21 ... du joint donnent une énergie négative à certains mouvements",

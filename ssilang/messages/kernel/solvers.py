@@ -58,13 +58,6 @@ MESSAGES: dict[str, Message] = {
         "known: {backends}",
         "connus : {backends}",
     ),
-    "factor-unknowns-takes-memory": Message(
-        "the factor of {n_a} unknowns takes {gigabytes} of memory, {gigabytes_2} is free",
-        "la factorisation de {n_a} inconnues prend {gigabytes} de mémoire, il en reste "
-        "{gigabytes_2}",
-        "multigrid needs less: {remedy}",
-        "le multigrille en demande moins : {remedy}",
-    ),
     "not-installed": Message(
         "solver {name} needs the package {package}, which is not installed",
         "le solveur {name} demande le paquet {package}, qui n'est pas installé",
@@ -86,10 +79,18 @@ MESSAGES: dict[str, Message] = {
         "le multigrille ne résout que des matrices symétriques positives",
     ),
     "multigrid-did-not-converge": Message(
-        "multigrid did not converge within {most_turns} {most_turns:turn|turns}: a body is "
-        "free to move, or stiffnesses differ too much",
-        "le multigrille n'a pas convergé en {most_turns} {most_turns:tour|tours} : un corps "
-        "est libre, ou les raideurs sont trop différentes",
+        "multigrid did not converge within {most_turns} {most_turns:turn|turns}: the residual is "
+        "{residual:.1e} of the second member, not {tolerance:.1e}; a body is free to move, or "
+        "stiffnesses differ too much",
+        "le multigrille n'a pas convergé en {most_turns} {most_turns:tour|tours} : le résidu vaut "
+        "{residual:.1e} du second membre, et non {tolerance:.1e} ; un corps est libre, ou les "
+        "raideurs sont trop différentes",
+    ),
+    "petsc-did-not-converge": Message(
+        "PETSc's multigrid did not converge within {most_turns} {most_turns:turn|turns}: a body "
+        "is free to move, or stiffnesses differ too much",
+        "le multigrille de PETSc n'a pas convergé en {most_turns} {most_turns:tour|tours} : un "
+        "corps est libre, ou les raideurs sont trop différentes",
     ),
     "petsc-no-command": Message(
         "solver PETSC runs behind a command, and none is given",

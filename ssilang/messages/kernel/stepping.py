@@ -267,6 +267,10 @@ MESSAGES: dict[str, Message] = {
         "condensed, nested dissection: linear but for {q} joint unknowns",
         "condensé, dissection emboîtée : linéaire hormis {q} inconnues de joint",
     ),
+    "loop-multigrid": Message(
+        "Newton's method, multigrid at each turn: linear but for {q} joint unknowns",
+        "méthode de Newton, multigrille à chaque tour : linéaire hormis {q} inconnues de joint",
+    ),
     "loop-condensed": Message(
         "condensed, sparse: linear but for {q} joint unknowns",
         "condensé, creux : linéaire hormis {q} inconnues de joint",

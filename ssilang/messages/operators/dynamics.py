@@ -3,6 +3,22 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "footing-without-joints": Message(
+        "the model has no joints: what stands on the ground is not known",
+        "le modèle n'a pas de joints : on ne sait pas ce qui repose sur le sol",
+    ),
+    "footing-not-kept": Message(
+        "the displacements have nothing at {node}, a node of the joints",
+        "les déplacements n'ont rien à {node}, un noeud des joints",
+        "MAILLAGE_SAUVE must hold the joints' mesh, or be left out",
+        "MAILLAGE_SAUVE doit contenir le maillage des joints, ou être omis",
+    ),
+    "several-footings": Message(
+        "the joints of the model are {count} footings",
+        "les joints du modèle font {count} semelles",
+        "give the model of one footing, and its parameters",
+        "donner le modèle d'une seule semelle, et ses paramètres",
+    ),
     "resumed": Message(
         "goes on behind step {step} of {steps}, t = {time:g}, where an earlier run was ended",
         "continue après le pas {step} sur {steps}, t = {time:g}, où un calcul précédent a fini",
@@ -79,6 +95,12 @@ MESSAGES: dict[str, Message] = {
         "run without --resume",
         "calculer sans --resume",
     ),
+    "checkpoint-of-report": Message(
+        "the run that left '{folder}' was made {reported:?with|without} --report",
+        "le calcul qui a laissé '{folder}' a été fait {reported:?avec|sans} --report",
+        "go on in the same way: --resume {reported:?--report|without --report}",
+        "continuer de la même façon : --resume {reported:?--report|sans --report}",
+    ),
     "charmeca-gives-a-table": Message(
         "the procedure CHARMECA must give one TABLE",
         "la procédure CHARMECA doit rendre une TABLE",
@@ -154,6 +176,18 @@ MESSAGES: dict[str, Message] = {
         "l'accélération GAMMAO demande des pas de temps égaux",
         "IPOL it first",
         "interpolez-la d'abord par IPOL",
+    ),
+    "no-relations": Message(
+        "'RELATIONS_SAUVEES' . '{name}' has no relations",
+        "'RELATIONS_SAUVEES' . '{name}' n'a aucune relation",
+        "a BLOQ, RELA or SYMT, as it stands in 'RIGI'",
+        "un BLOQ, RELA ou SYMT, tel qu'il est dans 'RIGI'",
+    ),
+    "relations-not-in-stiffness": Message(
+        "'RIGI' has not {n} {n:relation|relations} of 'RELATIONS_SAUVEES' . '{name}'",
+        "'RIGI' n'a pas {n} {n:relation|relations} de 'RELATIONS_SAUVEES' . '{name}'",
+        "give the very object that 'RIGI' was made with: each BLOQ or RELA is one of its own",
+        "donner l'objet même dont 'RIGI' est fait : chaque BLOQ ou RELA en est un à part",
     ),
     "table-without-mesh": Message(
         "'MAILLAGE_VTK' is a TABLE without MAILLAGE",
@@ -275,5 +309,22 @@ MESSAGES: dict[str, Message] = {
     "compiling": Message(
         "compiling the time loop, once on this machine (5 to 40 s)",
         "compilation de la boucle en temps, une fois sur cette machine (5 à 40 s)",
+    ),
+    "nothing-moves": Message(
+        "nothing sets anything in motion: no load, no initial displacement, no initial velocity",
+        "rien ne met quoi que ce soit en mouvement : ni chargement, ni déplacement ou vitesse "
+        "initiaux",
+        "TAB1 . 'CHAR', 'DEPL' or 'VITE'",
+        "TAB1 . 'CHAR', 'DEPL' ou 'VITE'",
+        severity="warning",
+    ),
+    "load-ends": Message(
+        "the curve of the loads {name} ends at {end:.6g} with {value:.4g}, which is kept until "
+        "{last:.6g}",
+        "l'évolution du chargement {name} finit à {end:.6g} par {value:.4g}, gardé jusqu'à "
+        "{last:.6g}",
+        "give the curve to the end of the calculation; are its times in other units?",
+        "donnez l'évolution jusqu'à la fin du calcul ; ses temps sont-ils dans une autre unité ?",
+        severity="warning",
     ),
 }

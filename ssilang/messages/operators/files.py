@@ -45,17 +45,68 @@ MESSAGES: dict[str, Message] = {
         "LIRE 'PEER' '{file}' {factor:g}; LIRE 'PEER' '{file}' 1. to have it so",
         "LIRE 'PEER' '{file}' {factor:g} ; LIRE 'PEER' '{file}' 1. pour l'avoir ainsi",
     ),
-    "format-not-read": Message(
-        "LIRE '{word}' is not supported",
-        "LIRE '{word}' n'existe pas",
-        "formats that are read: CSV, PEER, AVS, UNV, STL, PROC",
-        "formats qui se lisent : CSV, PEER, AVS, UNV, STL, PROC",
+    "no-such-format": Message(
+        "'{word}' is no format that LIRE reads{near:?; did you mean '{near}'?}",
+        "'{word}' n'est pas un format que lit LIRE{near:? ; vouliez-vous dire '{near}' ?}",
+        "LIRE 'MESH' '...' reads meshes by the ending of the file; words are {known:words}",
+        "LIRE 'MESH' '...' lit les maillages selon la fin du nom du fichier ; les mots sont "
+        "{known:words}",
+    ),
+    "no-such-ending": Message(
+        "{ending:?no mesh is known by the ending '{ending}'|the file's name has no ending that "
+        "tells its format}{near:?; did you mean '{near}'?}",
+        "{ending:?aucun maillage ne se reconnaît à la fin '{ending}'|le nom du fichier n'a pas de "
+        "fin qui dise son format}{near:? ; vouliez-vous dire '{near}' ?}",
+        "endings that are read: {endings:words}; or say the format: LIRE 'GMSH' '...'",
+        "fins qui se lisent : {endings:words} ; ou dites le format : LIRE 'GMSH' '...'",
+    ),
+    "reader-says": Message(
+        "{name}: its reader says: {remark}",
+        "{name} : son lecteur dit : {remark}",
+        severity="warning",
+    ),
+    "cells-left-out": Message(
+        "{name}: cells without a counterpart here are left out: {told}",
+        "{name} : des éléments sans équivalent ici sont omis : {told}",
+        "the mesh has holes where they were; write it with other elements",
+        "le maillage est troué à leur place ; l'écrire avec d'autres éléments",
+        severity="warning",
+    ),
+    "cells-collapsed": Message(
+        "{name}: {count} {count:cell has|cells have} nodes that coincide{left:?; {left} of them "
+        "{left:stays as it is|stay as they are}|; simpler ones take their place}",
+        "{name} : {count} {count:élément a|éléments ont} des noeuds confondus{left:? ; {left} "
+        "d'entre eux {left:reste tel quel|restent tels quels}| ; de plus simples les remplacent}",
+        severity="warning",
+    ),
+    "mesh-not-of-dimension": Message(
+        "{name}: {count} {count:node has|nodes have} a coordinate beyond the {dimension} of OPTI "
+        "DIME",
+        "{name} : {count} {count:noeud a|noeuds ont} une coordonnée au-delà des {dimension} d'OPTI "
+        "DIME",
+        "OPTI DIME 3, or a mesh whose other coordinates are 0",
+        "OPTI DIME 3, ou un maillage dont les autres coordonnées sont 0",
     ),
     "format-not-written": Message(
-        "SORT '{word}' is not supported",
-        "SORT '{word}' n'existe pas",
-        "formats of meshes that are written: VTK, AVS, STL, NAS, ABAQ",
-        "formats de maillages qui s'écrivent : VTK, AVS, STL, NAS, ABAQ",
+        "'{word}' is no format of meshes that SORT writes{near:?; did you mean '{near}'?}",
+        "'{word}' n'est pas un format de maillage qu'écrit SORT{near:? ; vouliez-vous dire "
+        "'{near}' ?}",
+        "words are {known:words}",
+        "les mots sont {known:words}",
+    ),
+    "ending-not-written": Message(
+        "SORT 'MESH' writes no file '{name}'",
+        "SORT 'MESH' n'écrit pas de fichier '{name}'",
+        "{word:?SORT '{word}' writes that|endings that it writes: {endings:words}}",
+        "{word:?SORT '{word}' écrit cela|fins qu'il écrit : {endings:words}}",
+    ),
+    "joints-not-written": Message(
+        "{count} {count:joint is|joints are} left out: other programs have no such cells",
+        "{count} {count:joint est omis|joints sont omis} : les autres programmes n'ont pas de tels "
+        "éléments",
+        "make them again with RACC behind LIRE, of the two sides",
+        "refaites-les par RACC après LIRE, à partir des deux côtés",
+        severity="warning",
     ),
     "not-of-one-file": Message(
         "'{word}' is for .vtu files, 'VTKHDF' asks for one .vtkhdf file, which is packed, begins "

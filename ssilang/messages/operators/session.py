@@ -95,6 +95,12 @@ MESSAGES: dict[str, Message] = {
         "{near:?did you mean {near}? }it takes {values:words}{told}",
         "{near:?vouliez-vous dire {near} ? }valeurs possibles : {values:words}{told}",
     ),
+    "tolerance-of-solver": Message(
+        "multigrid cannot end at a residual of {tolerance:g} of the second member",
+        "le multigrille ne peut s'arrêter à un résidu de {tolerance:g} du second membre",
+        "between {finest:g} and {coarsest:g}; without a number 1e-12",
+        "entre {finest:g} et {coarsest:g} ; sans nombre 1e-12",
+    ),
     "unknown-option": Message(
         "'{said}' is no option",
         "'{said}' n'est pas une option",

@@ -328,4 +328,13 @@ MESSAGES: dict[str, Message] = {
         "'LINE' and 'QUAD' are",
         "'LINE' et 'QUAD' le sont",
     ),
+    "body-not-joined": Message(
+        "nothing holds the body of {n_nodes} nodes around ({place}), which stays where it is: "
+        "{n_doubled} of its nodes lie on nodes of another body and are not joined to them",
+        "rien ne tient le corps de {n_nodes} noeuds autour de ({place}), qui reste où il est : "
+        "{n_doubled} de ses noeuds sont à la place de noeuds d'un autre corps sans leur être liés",
+        "ELIM joins nodes at the same place",
+        "ELIM réunit les noeuds qui sont au même endroit",
+        severity="warning",
+    ),
 }

@@ -24,6 +24,7 @@ from ssilang.operators.curves.instants import InstantField, RecordedFields, Reco
 from ssilang.operators.dynamics.motion_observers import restricted
 
 if TYPE_CHECKING:
+    from ssilang.kernel.stepping.force_track import ForceTrack
     from ssilang.kernel.stepping.node_track import NodeTrack
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
@@ -223,3 +224,14 @@ class CsvObserver:
         for name, values in self.columns.items():
             made.set(Mot(name), ListReel(values))
         return made
+
+
+def forces_table(track: ForceTrack) -> Table:
+    """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
+    made, entries = Table(), {name: Table() for name in track.named}
+    for name, entry in entries.items():
+        entry.set(Mot("TEMP"), ListReel(track.times))
+        made.set(Mot(name), entry)
+    for (name, dual), values in track.histories.items():
+        entries[name].set(Mot(dual), ListReel(values))
+    return made

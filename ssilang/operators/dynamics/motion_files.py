@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.parquet_tables import is_there
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -25,6 +25,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si, workspace
 
 if TYPE_CHECKING:
+    from ssilang.kernel.stepping.force_track import ForceTrack
     from ssilang.kernel.stepping.problem.problem import Problem
 
 
@@ -59,7 +60,7 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     one_file = wanted.sum() > MANY_INSTANTS if asked is None else str(asked).startswith("VTKH")
     writer = run_output(session).begin_series(path, units_in_si(session), one_file=one_file)
     labels = cell_labels(session, meshes)
-    return VtkObserver(wanted, meshes, writer, _stress(entries), labels)
+    return VtkObserver(wanted, meshes, writer, stress_of(entries), labels)
 
 
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
@@ -69,7 +70,7 @@ def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
     return parts
 
 
-def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
+def stress_of(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
     """Stresses of the zones of MODELE that are no joints."""
     model: Model | None = entries.get("MODELE")
     material: CellField | None = entries.get("CARACTERISTIQUES")
@@ -83,6 +84,27 @@ def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
         return CellField(tuple(stress(z, held, displacement) for z in zones), "CONTRAINTES")
 
     return of
+
+
+def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceTrack | None:
+    """What RELATIONS_SAUVEES asks for."""
+    asked = entries.inside("RELATIONS_SAUVEES")
+    if asked is None:
+        return None
+    from ssilang.kernel.stepping.force_track import ForceTrack
+
+    known, named = problem.multipliers, {}
+    if problem.contact is not None:
+        known = np.concatenate([known, problem.contact.multipliers])
+    for index, _ in asked.table.items():
+        relations = asked.get(name := str(index).rstrip()).relations
+        if not relations:
+            raise entries.error("operators.dynamics.no-relations", name=name)
+        nodes = np.unique(np.concatenate([part.multipliers for part in relations]))
+        if (lost := int(np.isin(nodes, known, invert=True).sum())) > 0:
+            raise entries.error("operators.dynamics.relations-not-in-stiffness", name=name, n=lost)
+        named[name] = nodes
+    return ForceTrack(saved, problem=problem, named=named)
 
 
 def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 
 from ssilang.io.csv_tables import as_columns, read_csv
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.mesh_files.unv import UnvMesh, read_unv
 from ssilang.io.peer_records import read_peer
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -192,45 +190,6 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
 
 
 @LIRE.form(
-    said("UNV"),
-    _FILE,
-    syntax="TAB1 = LIRE 'UNV' FIC1 ;",
-    en="UNV: nodes, cells and groups of an I-DEAS universal file, as a table of meshes: NOEUDS, "
-    "MAILLAGE, '@SEG2' ... by type, and each group under its name (NAME_GN for the nodes of a "
-    "group that holds cells too).",
-    fr="UNV : noeuds, éléments et groupes d'un fichier universel I-DEAS, en table de maillages : "
-    "NOEUDS, MAILLAGE, '@SEG2' ... par type, et chaque groupe sous son nom (NOM_GN pour les "
-    "noeuds d'un groupe qui contient aussi des éléments).",
-)
-def _unv(call: Call, file: str) -> Table:
-    return _unv_table(call, read_unv(_file(call, str(file), ".unv")))
-
-
-def _unv_table(call: Call, read: UnvMesh) -> Table:
-    ws = workspace(call.session)
-    ids = ws.nodes.add(read.points)
-    made = Table()
-    made.set(Mot("NOEUDS"), poi1(ws.nodes, ids))
-    blocks = {kind: CellBlock.make(ws.nodes, kind, ids[t]) for kind, t in read.cells.items()}
-    made.set(Mot("MAILLAGE"), Mesh(ws.nodes, tuple(blocks.values())))
-    for kind, block in blocks.items():
-        made.set(Mot("@" + kind), Mesh(ws.nodes, (block,)))
-    for name, (cells, rows) in read.groups.items():
-        rows_of: dict[str, list[int]] = {}
-        for kind, row in cells:
-            rows_of.setdefault(kind, []).append(row)
-        parts = [
-            CellBlock.make(ws.nodes, kind, blocks[kind].connectivity[chosen])
-            for kind, chosen in rows_of.items()
-        ]
-        if parts:
-            made.set(Mot(name), Mesh(ws.nodes, tuple(parts)))
-        if rows:
-            made.set(Mot(f"{name}_GN" if parts else name), poi1(ws.nodes, ids[rows]))
-    return made
-
-
-@LIRE.form(
     said("STL"),
     _FILE,
     syntax="MAIL1 = LIRE 'STL' FIC1 ;",
@@ -267,8 +226,3 @@ def _peer(call: Call, file: str, factor: float | None) -> Curve:
         record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
     )
     return Curve((part,), record.event[:72])
-
-
-@LIRE.form(said("MED", "FEM", "NAS"), gives=())
-def _refused(call: Call, word: str) -> NoReturn:
-    raise call.error("operators.files.format-not-read", word=word)

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import NoReturn
-
-from ssilang.io.atomic import write_text
-from ssilang.io.matrix_market import market_lines, node_lines, system_of, unknown_lines
+from ssilang.io.atomic import replacing, write_text
+from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.language.registry import arg, choice, flag, key, opt, said
 from ssilang.language.run.call import Call
+from ssilang.operators.files.meshes import PLANE
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
@@ -86,7 +84,6 @@ def _stl(call: Call, mesh: Mesh) -> None:
 
 
 _MESH = arg("mesh", "MAILLAGE", en="mesh", fr="maillage")
-_PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
 
 
 @SORT.form(
@@ -104,7 +101,7 @@ _PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX
 )
 def _abaq(call: Call, mesh: Mesh) -> None:
     ws = workspace(call.session)
-    plane = _PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
+    plane = PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
     lines = abaqus_lines(parted(mesh)[0], plane)
     output = run_output(call.session)
     output.reopen("SORT")
@@ -129,11 +126,6 @@ def _nas(call: Call, mesh: Mesh) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".bdf", (".nas",)), lines)
-
-
-@SORT.form(said("MED", "FER"), gives=())
-def _refused(call: Call, word: str) -> NoReturn:
-    raise call.error("operators.files.format-not-written", word=word)
 
 
 @SORT.form(
@@ -182,7 +174,10 @@ def _mat(
     system = system_of(matrix)
     path = target_path(call, ".mm")
     output = run_output(call.session)
-    texts = {path: market_lines(system, str(title))}
+    with replacing(path) as stream:
+        stream.write(market_text(system, str(title)))
+    output.wrote(path)
+    texts = {}
     if unknowns:
         texts[path.with_suffix(".inco")] = unknown_lines(system)
     if places:

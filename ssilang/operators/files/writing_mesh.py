@@ -10,8 +10,10 @@ import numpy as np
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import flag, main, named
+from ssilang.language.registry import flag, lead, main, named
 from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.files.meshes import mesh_table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.files.saving import check_settings
@@ -59,6 +61,24 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
 
 
 @LIRE.form(
+    lead("file", "MOT", en="file, or mesh that must be there", fr="fichier, ou maillage voulu"),
+    gives="TABLE|",
+    syntax="TAB1 = LIRE FIC1 ;",
+    en="A file by its ending (LIRE 'm.msh'): as MESH.",
+    fr="Un fichier selon la fin de son nom (LIRE 'm.msh') : comme MESH.",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
+        "OPTI SORT 'plate.inp' ; SORT 'MESH' S ; T = LIRE 'plate.inp' ; LIST (T . 'MAILLAGE') ;",
+    ),
+)
+def _lire_file(call: Call, file: str) -> Table | None:
+    if "." in file:  # which no name has
+        return mesh_table(call, str(file))
+    _lire_own(call, file.strip().upper())
+    return None
+
+
+@LIRE.form(
     named("wanted", optional=True, en="mesh that must be there", fr="maillage qui doit y être"),
     syntax="LIRE (GEO1) ;",
     en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
@@ -66,7 +86,7 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
     fr="Sans mot : le maillage et ses parties nommées du fichier que nomme OPTI LECT, écrit par "
     "SORT ; GEO1 doit en être un s'il est donné.",
 )
-def _lire_mesh(call: Call, wanted: str) -> None:
+def _lire_own(call: Call, wanted: str) -> None:
     path = input_path(call, option_name(call.session, "LECT", 4))
     with closing(read_archive(path)) as archive:
         _restore(call, archive, wanted)

@@ -158,6 +158,29 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
 
 
 @operator(
+    "IFRE",
+    arg("limit", "FLOTTANT", en="upper limit, in radians", fr="borne supérieure, en radians"),
+    family="functions",
+    help=Help(
+        en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
+        "sin(t) / sqrt(2 pi t).",
+        fr="Intégrales de Fresnel, de 0 à une borne, de cos(t) / racine(2 pi t) et de "
+        "sin(t) / racine(2 pi t).",
+        syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
+        examples=("C S = IFRE 1.5 ; MESS C S ;",),
+    ),
+)
+def ifre(limit: float) -> tuple[float, float]:
+    """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
+    from scipy.special import fresnel
+
+    if not limit >= 0.0:
+        raise _outside("IFRE", limit, 0.0, np.inf, False)
+    sine, cosine = fresnel(np.sqrt(2.0 * limit / np.pi))
+    return float(cosine), float(sine)
+
+
+@operator(
     "ATG",
     arg("first", *OPERANDS, en="tangent, or numerator", fr="tangente, ou numérateur"),
     opt("second", *OPERANDS, en="denominator", fr="dénominateur"),

@@ -12,6 +12,7 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
+from ssilang.kernel.solvers.factor import COARSEST, FINEST
 from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import ANY, Help, arg, each, flag, lead, operator
 from ssilang.language.run.call import Call
@@ -20,7 +21,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE, Workspace, workspace
 
 Reader = Callable[[Call, str], None]
 READERS: dict[str, Reader] = {}
@@ -216,10 +217,19 @@ def _unit(call: Call, word: str) -> None:
 
 @reader("SOLV")
 def _solv(call: Call, word: str) -> None:
-    said = _one_of(call, "SOLVEUR", ("AUTO", PETSC))
+    said = _one_of(call, "SOLVEUR", ("AUTO", PETSC, MULTIGRID_WORD))
     if said == PETSC and workspace(call.session).petsc is None:
         raise call.error("kernel.solvers.petsc-no-command", call.used[-1].value)
+    tolerance = None
+    if said == MULTIGRID_WORD:
+        tolerance = call.optional("FLOTTANT")
+    if tolerance is not None and not FINEST <= tolerance <= COARSEST:
+        raise call.error(
+            "operators.session.tolerance-of-solver", tolerance, tolerance=tolerance,
+            finest=FINEST, coarsest=COARSEST,
+        )  # fmt: skip
     _store(call, word, Mot(said))
+    _store(call, TOLERANCE, tolerance)
 
 
 @reader("LANG")

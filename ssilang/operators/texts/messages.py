@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.messages.message import Sentence
+from ssilang.messages.message import Sentence, find
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
 
@@ -37,9 +37,21 @@ _OF_LIBRARY = "stdlib."
 _STOPPED = 308  # Cast3M's number of an error that a script reports in its own words
 
 
-def _of_library(call: Call, code: str, values: Sequence[Any]) -> SsiError:
-    """What a procedure of the library refuses: a code, then what fills its sentence, in order."""
-    return SsiError(code, call.span, **filling(values), number=_STOPPED)
+def _tell(call: Call, code: str, values: Sequence[Any]) -> None:
+    """What a procedure of the library refuses or warns of: a code, then what fills its sentence.
+
+    The sentence says which of the two it is; a warning is shown at the call in the script.
+    """
+    if find(code).severity == "error":
+        raise SsiError(code, call.span, **filling(values), number=_STOPPED)
+    warning = SsiError(code, call.span, **filling(values))
+    warning.warns = True
+    frame = call.session.frame
+    while frame.caller is not None:
+        if frame.pending is not None:
+            warning.calls.append((frame.procedure, frame.pending.span))
+        frame = frame.caller
+    call.session.report(warning)
 
 
 _NUMBERED = {
@@ -118,9 +130,10 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         fr="ce qui complète une phrase de la bibliothèque",
     ),
 )
-def _worded(call: Call, text: str, values: tuple[Any, ...]) -> NoReturn:
+def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     if text.startswith(_OF_LIBRARY):
-        raise _of_library(call, str(text), values)
+        _tell(call, str(text), values)
+        return
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.stl import read_stl, stl_lines
 from ssilang.io.mesh_files.unv import read_unv
 from ssilang.kernel.mesh.mesh import Mesh
@@ -54,7 +55,12 @@ def test_nodes_cells_and_groups(tmp_path: Path) -> None:
     assert np.array_equal(read.points[2], [1.0, 1.0, 0.0])
     assert np.array_equal(read.cells["QUA4"], [[0, 1, 2, 3]])
     assert np.array_equal(read.cells["SEG2"], [[0, 1]])
-    assert read.groups["base side"] == ([("SEG2", 0)], [2])
+    assert held(read) == ({"SEG2": [0]}, [2])
+
+
+def held(read: FileMesh) -> tuple[dict[str, list[int]], list[int]]:
+    part = read.parts["base side"]
+    return {k: rows.tolist() for k, rows in part.cells.items()}, part.nodes.tolist()
 
 
 def test_a_file_without_nodes_is_refused(tmp_path: Path) -> None:
@@ -102,9 +108,9 @@ def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path: Path) -> None
     path = tmp_path / "m.unv"
     text = UNV.replace("        13", "         7")  # a node of the label that the square has
     path.write_text(text)
-    assert read_unv(path).groups["base side"] == ([("SEG2", 0)], [2])
+    assert held(read_unv(path)) == ({"SEG2": [0]}, [2])
     path.write_text(text.replace("8         5", "8        99"))  # which is no cell
-    assert read_unv(path).groups["base side"] == ([], [2])
+    assert held(read_unv(path)) == ({}, [2])
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])

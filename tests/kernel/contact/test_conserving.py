@@ -1,14 +1,16 @@
 """The energy-conserving step with unilateral relations, alone and beside joints."""
 
 import itertools
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import Recorder
 
-from ssilang.kernel.contact.conserving import mean_penalty
+from ssilang.kernel.contact.conserving import ConservingContact, mean_penalty
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -149,3 +151,24 @@ def test_mean_penalty_is_the_secant_of_the_energy_with_its_own_slope():
     up, down = mean_penalty(g, dg + step, 7.0)[0], mean_penalty(g, dg - step, 7.0)[0]
     smooth = [0, 1, 2, 3]
     assert slope[smooth] == pytest.approx(((up - down) / (2 * step))[smooth], rel=1e-6, abs=1e-6)
+
+
+class TwoStops:
+    """What a step asks of relations."""
+
+    G = sp.csr_array(np.eye(2))
+
+    def __len__(self):
+        return 2
+
+
+@pytest.mark.parametrize("options", METHODS[1:], ids=lambda o: o.method)
+def test_a_stop_that_another_s_push_drives_into_is_met_and_one_that_it_lifts_off_is_not(options):
+    """The second gap, 0.5, would close by 0.3; the first reaction takes 0.9 of itself off or on."""
+    for lever, wanted in ((0.9, [1.0, 0.0]), (-0.9, [1.27 / 0.19, 1.2 / 0.19])):
+        flexibility = np.array([[1.0, lever], [lever, 1.0]])
+        effective = SimpleNamespace(solve=lambda b, W=flexibility: W @ b, S=np.zeros((0, 0)))
+        step = ConservingContact(effective, TwoStops(), options, None)
+        gap, alone = np.array([0.0, 0.5]), np.array([-1.0, -0.3])
+        found = step.solve(SimpleNamespace(size=0), np.zeros(0), gap, alone)
+        np.testing.assert_allclose(found.P, wanted, rtol=1e-6, atol=1e-9)

@@ -35,7 +35,7 @@ def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
     position = _transfinite(nodes.coordinates[np.where(inner, 0, ids)].copy())
     sizes = float(nodes.density[ids[~inner]].mean())
     ids[inner] = nodes.add(position[inner], sizes)
-    made = Mesh.of(nodes, "CUB8", _bricks(ids), colour, tuple(faces))
+    made = Mesh.of(nodes, "CUB8", brick_cells(ids), colour, tuple(faces))
     if kinds == {"QUA8"}:
         skin = Mesh(nodes, tuple(b for f in faces for b in f.blocks))
         made = Mesh(nodes, quadratic(made, skin).blocks, tuple(faces))
@@ -175,7 +175,8 @@ def _fractions(x: FloatArray) -> FloatArray:
     return mean
 
 
-def _bricks(ids: IntArray) -> IntArray:
+def brick_cells(ids: IntArray) -> IntArray:
+    """Connectivity (n, 8) of a grid of node numbers (layers, rows, columns)."""
     low, high = ids[:-1], ids[1:]
     corners = []
     for layer in (low, high):

@@ -22,19 +22,26 @@ class DissectedFactor:
         Coordinates of the unknowns, by which they are ordered.
     last : array of int
         Unknowns eliminated last, together: the root of the tree.
+    most : float
+        Bytes that it may take.
 
     Raises
     ------
     NotPositiveError
         If the matrix is not positive.
+    TooLargeError
+        If it would take more memory than there is, or than it may.
     """
 
     name = "nested dissection"
 
-    def __init__(self, A: sp.csr_array, points: FloatArray, last: IntArray | None = None) -> None:
+    def __init__(
+        self, A: sp.csr_array, points: FloatArray, last: IntArray | None = None,
+        most: float = np.inf,
+    ) -> None:  # fmt: skip
         nothing = np.zeros(0, np.int64)
         self.tree: Tree = dissection(A, points, nothing if last is None else last)
-        self.panels = factorise_panels(A, self.tree)
+        self.panels = factorise_panels(A, self.tree, most)
         self._local = np.empty(longest(self.panels))
 
     def solve(self, b: FloatArray) -> FloatArray:

@@ -8,19 +8,24 @@ without stiffness are found from a slightly shifted matrix and judged by their e
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
 SUSPECT = 1e-9  # smallest eigenvalue (unit diagonal) below which free motions are looked for
 FREE = 1e-14  # energy below which a motion is free: some tens of rounding errors
 SHIFT = 1e-12
 MOST = 100_000_000  # numbers of which free motions may consist: 0.8 GB
+ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +105,7 @@ def invert(
     nothing = np.empty(0, dtype=np.int64)
     if n == 0:
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
-    scaled, scale = _unit_diagonal(A)
+    scaled, scale = unit_diagonal(A)
     if symmetric and not scaled.diagonal().all():
         used = np.flatnonzero(np.asarray(abs(scaled).max(axis=1).toarray()))
         if len(used) < n:
@@ -148,9 +153,12 @@ def _invert(
         return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     ordering = None if ordering is None else ordering.scaled(scale)
     factor = _try_factors(scaled, symmetric, solver, ordering)
-    if factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
-        return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
-    motions = free_motions(scaled, symmetric, solver)
+    if factor is not None and factor.name == MULTIGRID:
+        motions = cast("MultigridFactor", factor).free_motions()
+    elif factor is not None and _smallest_eigenvalue(factor, n) > SUSPECT:
+        motions = np.empty((n, 0))
+    else:
+        motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
@@ -172,14 +180,27 @@ class _Empty:
         return b
 
 
-def _unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
-    size = np.abs(A.diagonal())
-    largest = np.asarray(abs(A).max(axis=1).toarray(), dtype=float).ravel()
+def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
+    """`S A S` with a diagonal near one, and the diagonal of S."""
+    size, rows = np.abs(A.diagonal()), A.shape[0]
+    data = np.empty_like(A.data)
+    largest = np.zeros(rows)
+    parts = [(i, min(i + ROWS, rows)) for i in range(0, rows, ROWS)]
+    for low, high in parts:
+        begin, end = A.indptr[low], A.indptr[high]
+        counts = np.diff(A.indptr[low : high + 1])
+        filled = np.flatnonzero(counts)
+        if end > begin:
+            starts = A.indptr[low:high][filled] - begin
+            largest[low + filled] = np.maximum.reduceat(np.abs(A.data[begin:end]), starts)
     size = np.where(size > 1e-14 * largest, size, largest)
     # powers of two: scaling rounds nothing
     scale = np.exp2(np.round(-0.5 * np.log2(np.where(size > 0.0, size, 1.0))))
-    S = sp.diags_array(scale)
-    return sp.csr_array(S @ A @ S), scale
+    for low, high in parts:
+        part = slice(A.indptr[low], A.indptr[high])
+        data[part] = A.data[part] * scale[A.indices[part]]
+        data[part] *= np.repeat(scale[low:high], np.diff(A.indptr[low : high + 1]))
+    return sp.csr_array((data, A.indices.copy(), A.indptr.copy()), shape=A.shape), scale
 
 
 def _try_factors(
@@ -193,7 +214,8 @@ def _try_factors(
             factor = factorise(A, positive, solver, ordering)
         except SingularFactorError:
             continue
-        if not positive or accurate(A, factor):
+        # an iteration looks at its residuals by itself
+        if not positive or factor.name == MULTIGRID or accurate(A, factor):
             return factor
     return None
 

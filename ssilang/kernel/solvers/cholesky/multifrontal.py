@@ -29,11 +29,11 @@ class NotPositiveError(Exception):
 
 
 class TooLargeError(Exception):
-    """Memory would not hold the factor."""
+    """The factor takes more bytes than it may; whether memory would hold it."""
 
-    def __init__(self, n_bytes: float) -> None:
+    def __init__(self, n_bytes: float, fits: bool) -> None:
         super().__init__(f"{n_bytes:g} bytes")
-        self.n_bytes = n_bytes
+        self.n_bytes, self.fits = n_bytes, fits
 
 
 class Panels(NamedTuple):
@@ -65,7 +65,7 @@ class Columns(NamedTuple):
     data: FloatArray
 
 
-def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
+def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panels:
     """Factors of a symmetric positive A (n, n) in the order of a tree.
 
     Raises
@@ -73,8 +73,43 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     NotPositiveError
         If a pivot is not positive.
     TooLargeError
-        If memory would not hold the factor and what is needed to make it.
+        If memory would not hold the factor and what is needed to make it, or that takes more
+        than `most` bytes.
     """
+    plan = _planned(A, tree)
+    held = fits(plan.n_bytes)
+    if plan.n_bytes > most or not held:
+        raise TooLargeError(plan.n_bytes, held)
+    panels = Panels(tree.first, plan.ptr, plan.rows, plan.at, np.zeros(plan.at[-1]))
+    room = np.zeros(plan.waiting), np.zeros(plan.front)
+    bad = _factorise(plan.columns, panels, plan.above, *room)
+    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
+        raise NotPositiveError(f"pivot {bad} is not positive")
+    return panels
+
+
+class _Plan(NamedTuple):
+    """Where the numbers of a factor stand, and what it takes to make it."""
+
+    columns: Columns
+    above: IntArray
+    ptr: IntArray
+    rows: IntArray
+    at: IntArray
+    waiting: int
+    front: int
+
+    @property
+    def n_bytes(self) -> float:
+        return 8.0 * (float(self.at[-1]) + self.waiting + self.front)
+
+
+def factor_bytes(A: sp.csr_array, tree: Tree) -> float:
+    """What the factor in the order of a tree would take while it is made."""
+    return _planned(A, tree).n_bytes
+
+
+def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
@@ -82,15 +117,7 @@ def factorise_panels(A: sp.csr_array, tree: Tree) -> Panels:
     ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
-    needed = 8.0 * (float(at[-1]) + waiting + front)
-    if not fits(needed):
-        raise TooLargeError(needed)
-    panels = Panels(tree.first, ptr, rows, at, np.zeros(at[-1]))
-    columns = Columns(indptr, indices, lower.data)
-    bad = _factorise(columns, panels, above, np.zeros(waiting), np.zeros(front))
-    if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
-        raise NotPositiveError(f"pivot {bad} is not positive")
-    return panels
+    return _Plan(Columns(indptr, indices, lower.data), above, ptr, rows, at, waiting, front)
 
 
 @compiled

@@ -208,7 +208,7 @@ def _refusal(reply: Mapping[str, Any]) -> Exception:
             room=gigabytes(reply["room"]),
         )
     if word == "turns":
-        return KernelError("kernel.solvers.multigrid-did-not-converge", most_turns=reply["turns"])
+        return KernelError("kernel.solvers.petsc-did-not-converge", most_turns=reply["turns"])
     if word == "indices":
         return KernelError("kernel.solvers.petsc-indices", n_a=reply["n"])
     return KernelError("kernel.solvers.petsc-mumps", said=reply["said"], second=reply["second"])

@@ -15,7 +15,11 @@ from ssilang.kernel.interface.response import interface_energies, interface_forc
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.solvers.backends import factorise, goes_to_petsc
+from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients
 from ssilang.kernel.stepping.problem.problem import Problem
+
+MANY = 150_000  # heavy unknowns from which their accelerations are iterated
+EXACT, MOST_TURNS = 1e-14, 500  # of that iteration: masses next to each other are alike
 
 
 @dataclass(eq=False)
@@ -195,9 +199,32 @@ def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArr
     try:
         if goes_to_petsc(problem.solver, len(own)):
             return factorise(sp.csr_array(mass), True, problem.solver).solve(force)
+        if len(own) >= MANY:
+            return _of_heavy(mass, force)
         return np.asarray(spla.splu(mass).solve(force))
     except (RuntimeError, SingularFactorError):
         return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0])
+
+
+def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
+    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor.
+
+    Raises
+    ------
+    KernelError
+        If the mass is not positive.
+    """
+    diagonal, columns = mass.diagonal(), force.reshape(len(force), -1).T
+    found = [
+        conjugate_gradients(
+            lambda x: mass @ x, lambda r: r / diagonal, np.ascontiguousarray(b),
+            EXACT * float(np.linalg.norm(b)), MOST_TURNS,
+        )
+        for b in columns
+    ]  # fmt: skip
+    if not all(x.converged for x in found):
+        raise KernelError("kernel.stepping.mass-matrix-singular-no")
+    return np.column_stack([x.x for x in found]).reshape(force.shape)
 
 
 def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:

@@ -1,5 +1,7 @@
 """Multigrid gives the answers of the direct solvers, where memory holds no factor or if asked."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -17,10 +19,8 @@ from ssilang.kernel.solvers import backends
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.factor import Ordering
-from ssilang.kernel.solvers.multigrid import MultigridFactor
+from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 from ssilang.kernel.statics.linear_motion import rigid_motions
-
-pytest.importorskip("pyamg")
 
 
 def bar(long=24, wide=4, held=True):
@@ -44,7 +44,8 @@ def bar(long=24, wide=4, held=True):
     at = numbering.table.coordinates[numbering.nodes]
     kept = np.flatnonzero(at[:, 0] > 0.0) if held else np.arange(numbering.size)
     K = sp.csr_array(assemble(matrix, numbering)[kept][:, kept])
-    return K, Ordering(at[kept], np.zeros(0, np.int64), rigid_motions(numbering)[kept])
+    nodes, motions = numbering.nodes[kept], rigid_motions(numbering)[kept]
+    return K, Ordering(at[kept], np.zeros(0, np.int64), motions, nodes)
 
 
 @pytest.mark.parametrize("columns", [(), (3,)])
@@ -59,7 +60,7 @@ def test_a_slender_cantilever_bends_as_by_a_direct_solver(columns):
 
 def test_rigid_motions_make_it_fast(monkeypatch):
     K, order = bar(long=40)
-    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.MOST_TURNS", 40)
+    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.multigrid.MOST_TURNS", 40)
     b = np.random.default_rng(0).standard_normal(K.shape[0])
     MultigridFactor(K, True, order.rigid).solve(b)
     with pytest.raises(KernelError, match="did not converge within 40 turns"):
@@ -77,21 +78,24 @@ def test_a_factor_beyond_memory_gives_way_to_multigrid(monkeypatch):
     np.testing.assert_allclose(other.solve(b), x, atol=1e-8 * np.abs(x).max())
 
 
-def test_a_factor_beyond_memory_without_pyamg_says_what_to_install(monkeypatch):
-    K, order = bar(6)
-    monkeypatch.setattr(memory, "available_bytes", lambda: 1e5)
-    made, remedy = backends.BACKENDS[MULTIGRID].make, backends.BACKENDS[MULTIGRID].remedy
-    missing = backends.Backend(made, "no_such_package", remedy, lambda n, p: False)
-    monkeypatch.setitem(backends.BACKENDS, MULTIGRID, missing)
-    with pytest.raises(KernelError, match=r"takes .* GB of memory, 0.0001 GB is free") as caught:
-        invert(K, True, ordering=order)
-    assert "pip install 'ssilang[amg]'" in caught.value.hint
-
-
-def test_a_free_body_is_refused():
+def test_motions_of_a_free_body_are_found_and_pinned():
     K, order = bar(8, held=False)
-    with pytest.raises(KernelError, match="multigrid did not converge"):
-        invert(K, True, MULTIGRID, order)
+    found = invert(K, True, MULTIGRID, order)
+    assert found.kernel.shape == (K.shape[0], 6)
+    exact = invert(K, True, "SuperLU")
+    b = exact.without_work(np.random.default_rng(0).standard_normal(K.shape[0]))
+    assert np.abs(found.work(b)).max() < 1e-12
+    forces = K @ found.solve(b)
+    np.testing.assert_allclose(forces, b, atol=1e-9 * np.abs(b).max())
+
+
+def test_a_matrix_that_is_not_positive_ends_with_its_residual():
+    K, order = bar(6)
+    shifted = sp.csr_array(K - 0.3 * sp.diags_array(K.diagonal()))
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    with pytest.raises(KernelError, match="multigrid did not converge") as caught:
+        MultigridFactor(shifted, True, order.rigid, order.nodes).solve(b)
+    assert caught.value.data["residual"] > caught.value.data["tolerance"] == 1e-12
 
 
 def test_conditions_in_a_saddle_point_are_refused():
@@ -145,3 +149,52 @@ def test_reso_takes_it_with_its_conditions_eliminated_and_reports_it(monkeypatch
         names.append(result.session.statistics["systems"][-1]["solver"])
     assert names == [backends.DISSECTION, MULTIGRID]
     assert found[1] == pytest.approx(found[0], rel=1e-9)
+
+
+def test_a_script_asks_for_it_with_a_tolerance(tmp_path):
+    from ssilang.cli.run import run_text
+
+    found = {}
+    for said in ("'AUTO'", "'MULTIGRILLE'", "'MULTIGRILLE' 1.E-5"):
+        result = run_text(f"OPTI 'SOLVEUR' {said} ; {SCRIPT}", output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        found[said] = result.session.root.find("X1")
+        name = result.session.statistics["systems"][-1]["solver"]
+        assert (name == MULTIGRID) == (said != "'AUTO'")
+    exact, fine, coarse = found.values()
+    assert fine == pytest.approx(exact, rel=1e-9)
+    assert 0.0 < abs(coarse / exact - 1.0) < 1e-3
+
+
+def test_threads_change_no_bit(monkeypatch):
+    K, order = bar(20)
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    found = []
+    for count in (1, 3):
+        monkeypatch.setattr("ssilang.kernel.base.threads.thread_count", lambda count=count: count)
+        monkeypatch.setattr("ssilang.kernel.base.threads.LEAST", 1)
+        found.append(MultigridFactor(K, True, order.rigid, order.nodes).solve(b))
+    assert np.array_equal(*found)
+
+
+def test_a_size_and_a_shape_that_multigrid_finds_hard_are_factorised(monkeypatch):
+    K, order = bar(12)
+    once = replace(order, once=True)
+    assert factorise(K, True, ordering=once).name == backends.DISSECTION
+    monkeypatch.setattr(backends, "ONCE", 1e4)
+    assert factorise(K, True, ordering=once).name == MULTIGRID
+    assert factorise(K, True, ordering=order).name == backends.DISSECTION
+    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.multigrid.FEW_TURNS", 2)
+    assert factorise(K, True, ordering=once).name == backends.DISSECTION
+
+
+def test_unknowns_of_one_node_go_together():
+    K, order = bar(6)
+    turned = MultigridFactor(K, True, order.rigid, order.nodes)
+    apart = MultigridFactor(K, True, order.rigid)
+    assert np.diff(turned.hierarchy.levels[0].A.first).max() == 3
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    x = invert(K, True, "SuperLU").solve(b)
+    for found in (turned, apart):
+        np.testing.assert_allclose(found.solve(b), x, atol=1e-9 * np.abs(x).max())
+    assert turned.turns <= apart.turns

@@ -1,0 +1,306 @@
+"""The door to meshio: meshes in the formats of other programs, with their named parts.
+
+meshio numbers the nodes of a cell as VTK does, corners first. Of its readers those are let in
+whose files come back whole in the tests; what they print is kept as remarks, what they raise
+becomes a refusal.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded
+from ssilang.io.vtk.cells import ORDERS
+from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
+from ssilang.system_reasons import system_reason
+
+_TYPES = {
+    "vertex": "POI1", "line": "SEG2", "line3": "SEG3", "triangle": "TRI3", "triangle6": "TRI6",
+    "quad": "QUA4", "quad8": "QUA8", "quad9": "QUA9", "tetra": "TET4", "tetra10": "TE10",
+    "pyramid": "PYR5", "pyramid13": "PY13", "wedge": "PRI6", "wedge15": "PR15",
+    "hexahedron": "CUB8", "hexahedron20": "CU20", "hexahedron27": "CU27",
+}  # fmt: skip
+NAMES = {cell_type: name for name, cell_type in _TYPES.items()}
+"""meshio's names of the cell types here."""
+
+# middles of a brick's faces as VTK has them: x-, x+, y-, y+, bottom, top; then its own
+_FACES_OF_27 = (25, 23, 22, 24, 20, 21, 26)
+_POLYGONS = {3: "TRI3", 4: "QUA4"} | {n: name for name, n in POLYGON_SIDES.items()}
+_MOST_TAGS = 200  # different numbers in an array of integers that tells parts
+
+
+@dataclass(frozen=True)
+class Foreign:
+    """A format that meshio reads.
+
+    Attributes
+    ----------
+    reader : str
+        What meshio calls it.
+    endings : tuple of str
+    library : str
+        What meshio needs for it beside itself, '' if nothing.
+    """
+
+    reader: str
+    endings: tuple[str, ...]
+    library: str = ""
+
+
+FOREIGN = {
+    "GMSH": Foreign("gmsh", (".msh",)),
+    "MED": Foreign("med", (".med", ".rmed"), "h5py"),
+    "VTU": Foreign("vtu", (".vtu",)),
+    "VTK": Foreign("vtk", (".vtk",)),
+    "NASTRAN": Foreign("nastran", (".bdf", ".nas", ".fem")),
+    "MEDIT": Foreign("medit", (".mesh", ".meshb")),
+}
+"""Formats read through meshio, by their names in scripts."""
+
+
+def library() -> Any:
+    """meshio, with the two cells that its table of dimensions has forgotten (5.3)."""
+    import meshio
+    from meshio import _mesh
+
+    for name in ("wedge15", "pyramid13"):
+        _mesh.topological_dimension.setdefault(name, 3)
+    return meshio
+
+
+def read_foreign(path: Path, kind: str) -> FileMesh:
+    """Read a file of one of the formats.
+
+    Parameters
+    ----------
+    kind : str
+        A key of `FOREIGN`.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or a library for it is missing.
+    """
+    said = io.StringIO()
+    try:
+        path.open("rb").close()
+    except OSError as error:
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    try:
+        with redirect_stderr(said), redirect_stdout(said):
+            read = _READERS.get(kind, _by_meshio)(path, kind)
+            return _gathered(read, kind, _remarks(said.getvalue())).sound(path.name, kind)
+    except InputError:
+        raise
+    except ImportError as error:
+        raise InputError("io.mesh-library-missing", kind=kind, library=error.name) from error
+    except Exception as error:  # a damaged file: the readers check little and raise anything
+        raise InputError(
+            "io.no-readable-mesh-file", name=path.name, kind=kind, error=_first_line(error)
+        ) from error
+
+
+def _first_line(error: Exception) -> str:
+    """What an error says, or else its kind."""
+    text = str(error).strip().splitlines()
+    shown = text[0][:120] if text else ""
+    return f"{type(error).__name__} {shown}".strip() if len(shown) < 12 else shown
+
+
+def _remarks(text: str) -> tuple[str, ...]:
+    """What meshio printed, a remark each."""
+    flat = " ".join(text.split())
+    return tuple(t.strip() for t in re.split(r"(?:Warning|Info|Error):", flat) if t.strip())
+
+
+def _by_meshio(path: Path, kind: str) -> Any:
+    from importlib import import_module
+
+    library()
+    return import_module(f"meshio.{FOREIGN[kind].reader}").read(str(path))
+
+
+# element cards of Nastran that meshio passes over without a word
+_CARDS = re.compile(
+    r"^(CELAS[2-4]|CDAMP[1-5]|CMASS[1-4]|CONM[12]|CVISC|CTUBE|CONROD|CWELD|CFAST|CBEND|CSEAM|"
+    r"CRAC2D|CRAC3D|CTRIAX|CQUADX|CQUADX[48]|CTRIAX3|RBE[123]|RBAR|RROD|RTRPLT)\b",
+    re.MULTILINE,
+)
+
+
+def _nastran(path: Path, kind: str) -> Any:
+    """Bulk data; a file without its end would make meshio's reader turn for ever."""
+    from meshio.nastran import _nastran
+
+    library()
+    text = path.read_text(encoding="latin-1").replace("\r\n", "\n")
+    if "BEGIN BULK" not in text:
+        text = "BEGIN BULK\n" + text
+    if not re.search(r"^ENDDATA", text, re.MULTILINE):
+        raise InputError("io.mesh-file-cut", name=path.name, kind=kind, end="ENDDATA")
+    read = _nastran.read_buffer(io.StringIO(text.rstrip() + "\n"))
+    if np.any(read.point_data.get("nastran:ref", 0)):
+        raise InputError("io.nastran-coordinate-system", name=path.name)
+    for card in _CARDS.findall(text):
+        read.info = (read.info or {}) | {card: (read.info or {}).get(card, 0) + 1}
+    return read
+
+
+_READERS: Mapping[str, Callable[[Path, str], Any]] = {"NASTRAN": _nastran}
+
+
+# ---- cells and parts -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """Where a block of meshio's went: type ('' if left out) and row of each of its cells."""
+
+    cell_type: str
+    rows: IntArray
+
+
+def _gathered(read: Any, kind: str, remarks: tuple[str, ...]) -> FileMesh:
+    points = np.asarray(read.points, dtype=float)
+    if points.ndim != 2 or not len(points):
+        raise ValueError("points")
+    tables: dict[str, list[IntArray]] = {}
+    left_out: dict[str, int] = dict(read.info) if isinstance(read.info, dict) else {}
+    blocks = []
+    for block in read.cells:
+        blocks.append(_taken(block, tables, left_out))
+    cells = {cell_type: np.concatenate(parts) for cell_type, parts in tables.items()}
+    if kind == "GMSH":
+        cells, blocks = _once(cells, blocks)
+    parts: dict[str, Part] = {}
+    for name, chosen in _named(read, kind):
+        _add(parts, name, _part(blocks, chosen))
+    for name, nodes in _named_nodes(read):
+        _add(parts, name, Part({}, np.unique(np.asarray(nodes, dtype=np.int64))))
+    return FileMesh(padded(points), cells, parts, left_out, remarks)
+
+
+def _taken(block: Any, tables: dict[str, list[IntArray]], left_out: dict[str, int]) -> _Block:
+    data = block.data
+    count = len(data)
+    polygon = block.type == "polygon" and count
+    cell_type = _POLYGONS.get(np.shape(data)[1], "") if polygon else _TYPES.get(block.type, "")
+    if not cell_type:
+        left_out[block.type] = left_out.get(block.type, 0) + count
+        return _Block("", np.full(count, -1))
+    table = np.asarray(data).astype(np.int64).reshape(count, -1)
+    before = sum(len(t) for t in tables.get(cell_type, ()))
+    tables.setdefault(cell_type, []).append(table[:, np.argsort(vtk_order(cell_type))])
+    return _Block(cell_type, np.arange(before, before + count))
+
+
+def vtk_order(cell_type: str) -> list[int]:
+    """Places of VTK's nodes of a cell among those here."""
+    order = list(ORDERS[cell_type][1])
+    return [*order, *_FACES_OF_27] if cell_type == "CU27" else order
+
+
+def _once(
+    cells: dict[str, IntArray], blocks: Sequence[_Block]
+) -> tuple[dict[str, IntArray], list[_Block]]:
+    """Each cell once: Gmsh writes it again for each further physical group that has it."""
+    made, places = {}, {}
+    for cell_type, table in cells.items():
+        _, first, back = np.unique(table, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        made[cell_type] = table[first[order]]
+        places[cell_type] = np.argsort(order)[back.ravel()]
+    return made, [_Block(b.cell_type, places[b.cell_type][b.rows]) if b.cell_type else b
+                  for b in blocks]  # fmt: skip
+
+
+def _part(blocks: Sequence[_Block], chosen: Sequence[IntArray]) -> Part:
+    """The part of these cells of each block."""
+    found: dict[str, list[IntArray]] = {}
+    for block, cells in zip(blocks, chosen, strict=True):
+        if block.cell_type and len(cells):
+            found.setdefault(block.cell_type, []).append(block.rows[cells])
+    return Part({cell_type: np.unique(np.concatenate(r)) for cell_type, r in found.items()})
+
+
+def _add(parts: dict[str, Part], name: str, part: Part) -> None:
+    """Put a part into the parts, joined with what bears its name."""
+    if not part.cells and not len(part.nodes):
+        return
+    known = parts.get(name, Part())
+    cells = dict(known.cells)
+    for cell_type, rows in part.cells.items():
+        cells[cell_type] = np.union1d(cells.get(cell_type, NONE), rows)
+    parts[name] = Part(cells, np.union1d(known.nodes, part.nodes))
+
+
+_Chosen = tuple[str, list[IntArray]]
+
+
+def _named(read: Any, kind: str) -> Iterator[_Chosen]:
+    """Names of parts with their cells in each block."""
+    for name, sets in read.cell_sets.items():
+        if not name.startswith("gmsh:"):
+            yield name, [np.asarray(NONE if s is None else s, dtype=np.int64) for s in sets]
+    for key, arrays in read.cell_data.items():
+        whole = all(a is not None and a.dtype.kind in "iu" and a.ndim == 1 for a in arrays)
+        geometrical = key == "gmsh:geometrical" and "gmsh:physical" in read.cell_data
+        if not whole or geometrical or not arrays:
+            continue
+        tags = np.unique(np.concatenate(arrays))
+        if len(tags) <= _MOST_TAGS:
+            for dimension, tag in _tags(read, tags, key, kind):
+                names = _names_of(read, key, int(tag), dimension)
+                for name in names:
+                    yield (
+                        name,
+                        [
+                            np.flatnonzero(a == tag) if dimension in (-1, b.dim) else NONE
+                            for a, b in zip(arrays, read.cells, strict=True)
+                        ],
+                    )
+
+
+def _tags(read: Any, tags: IntArray, key: str, kind: str) -> Iterator[tuple[int, int]]:
+    """Dimension and tag; -1 where tags count for all dimensions. But for VTK's, 0 is no tag."""
+    by_dimension = key.startswith("gmsh:")
+    for tag in tags.tolist():
+        if tag == 0 and kind not in ("VTU", "VTK"):
+            continue
+        for dimension in (0, 1, 2, 3) if by_dimension else (-1,):
+            yield dimension, tag
+
+
+def _names_of(read: Any, key: str, tag: int, dimension: int) -> list[str]:
+    """Names of the part whose cells have a tag in an array."""
+    if key == "cell_tags":
+        return list(read.cell_tags.get(tag, ()))
+    found, begun = [], f"{key}_"
+    for name, value in read.field_data.items():
+        told = np.ravel(value).tolist() if np.asarray(value).dtype.kind in "iuf" else []
+        if key == "gmsh:physical" and told == [tag, dimension]:
+            return [] if name in read.cell_sets else [name]
+        if told == [tag] and name.startswith(begun):
+            found.append(name.removeprefix(begun))
+    if found or any(name.startswith(begun) for name in read.field_data):
+        return found
+    dimensional = f"{dimension}D_" if dimension >= 0 else ""
+    return [f"{key.partition(':')[2] or key}_{dimensional}{tag}"]
+
+
+def _named_nodes(read: Any) -> Iterator[tuple[str, IntArray]]:
+    yield from read.point_sets.items()
+    tags = read.point_data.get("point_tags")
+    for tag, names in getattr(read, "point_tags", {}).items():
+        for name in names:
+            yield name, np.flatnonzero(tags == tag)

@@ -1,0 +1,1 @@
+"""Cells of Gibiane in a notebook: a kernel for Jupyter, `python -m ssilang.jupyter install`."""

@@ -1,0 +1,56 @@
+"""Work on parts of arrays, on all processors that the process may use.
+
+Each part is calculated as if it were alone, so that the number of threads changes no number.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import IntArray
+
+LEAST = 200_000  # numbers that a thread must have to read before it is worth waking
+
+
+def thread_count() -> int:
+    """Processors of the process; OMP_NUM_THREADS limits them, as it does the libraries'."""
+    own = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    said = os.environ.get("OMP_NUM_THREADS", "").split(",")[0]
+    return max(1, min(own, int(said))) if said.isdigit() else own
+
+
+@cache
+def _threads(count: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(count, "ssilang")
+
+
+if hasattr(os, "register_at_fork"):  # a forked process has none of these threads
+    os.register_at_fork(after_in_child=_threads.cache_clear)
+
+
+def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
+    """Call `work(low, high)` until all rows are covered, side by side if there is enough to do.
+
+    Parameters
+    ----------
+    work : callable
+        Must leave other threads running: a function of `compiled_threaded`.
+    ends : array (n_rows + 1,)
+        Where the numbers of each row start, so that parts are of the same size.
+    """
+    n, size = len(ends) - 1, int(ends[-1])
+    count = min(thread_count(), size // LEAST)
+    if count <= 1:
+        work(0, n)
+        return
+    cuts = np.searchsorted(ends, np.linspace(0.0, size, count + 1))
+    cuts[0], cuts[-1] = 0, n
+    jobs = [_threads(count).submit(work, int(low), int(high)) for low, high in pairwise(cuts)]
+    for job in jobs:
+        job.result()

@@ -1,0 +1,231 @@
+"""The step of a model whose factor takes too much memory or time: Newton's method, by multigrid.
+
+Nothing is condensed: a thousand points are three thousand solves. The joints' tangents stand in
+the matrix of each turn, and conjugate gradients solve it with levels that hold all joints closed,
+made once. With the inertia of a step next to the stiffness that takes few turns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.laws.law_table import elastic_tangent
+from ssilang.kernel.interface.newton import hold_shear, release_shear
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    Trial,
+    accept,
+    interface_forces,
+    interface_response,
+    local_jumps,
+    new_trial,
+)
+from ssilang.kernel.solvers.backends import MULTIGRID, factor_is_large, goes_to_petsc
+from ssilang.kernel.solvers.cholesky.inverse import unit_diagonal
+from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients, minimal_residuals
+from ssilang.kernel.solvers.multigrid.multigrid import MOST_TURNS, MultigridFactor
+from ssilang.kernel.statics.linear_motion import singular
+from ssilang.kernel.stepping.effective import ordering_of
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
+
+TURNS = 60  # of Newton's method
+PLAIN_TURNS = 12  # turns without line search
+HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
+HALVINGS = 10  # of a step in the line search
+FORCING = 1e-3  # residual of a turn's solve, of what is out of balance: contact changes cost little
+MANY = 150_000  # unknowns from which the size of a factor is looked at
+SYMMETRIC = 1e-12  # of the largest tangent
+
+
+@dataclass(frozen=True, eq=False)
+class IteratedSystem:
+    """The matrix of a step with all joints closed, and its levels.
+
+    Attributes
+    ----------
+    factor : MultigridFactor
+        Of `scale T^T (A + c J^T K_0 J) T scale`, K_0 the closed joints' stiffness.
+    scale : array (r,)
+    T : csr array (n, r)
+        Motions of the scaled unknowns.
+    J : csr array (q, r)
+        Their jumps.
+    A : csr array (n, n)
+        The matrix without joints.
+    closed : array (n_points, d, d)
+        Tangents of the closed joints.
+    """
+
+    factor: MultigridFactor
+    scale: FloatArray
+    T: sp.csr_array
+    J: sp.csr_array
+    A: sp.csr_array
+    closed: FloatArray
+
+
+def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> IteratedSystem:
+    """The system of a step, `share` being c in `c J^T f`.
+
+    Raises
+    ------
+    SingularMatrixError
+        If all bodies together are free with all joints closed; it names the motions.
+    """
+    T, joints = problem.constraints.T, problem.interface
+    whole, closed = A, np.zeros((0, 1, 1))
+    if joints is not None:
+        closed = elastic_tangent(joints.parameters, joints.dimension)
+        K = _sparse_stiffness(joints.points, share * closed, joints.size)
+        whole = sp.csr_array(A + joints.J.T @ K @ joints.J)
+    scaled, scale = unit_diagonal(sp.csr_array(T.T @ whole @ T))
+    del whole
+    order = ordering_of(problem, sp.csc_array((T.shape[1], 0)))
+    rigid, nodes = None, None
+    if order is not None:
+        order = order.scaled(scale)
+        rigid, nodes = order.rigid, order.nodes
+    factor = MultigridFactor(scaled, True, rigid, nodes, problem.solver.tolerance)
+    if not factor.converges():  # found out here: what is gone on with starts alike
+        factor.in_double()
+    motions = sp.csr_array(T @ sp.diags_array(scale))
+    free = factor.free_motions()
+    if free.shape[1]:
+        code = "kernel.stepping.motions-without-mass"
+        raise singular(code, problem.numbering, motions @ free)
+    J = sp.csr_array((0, len(scale))) if joints is None else sp.csr_array(joints.J @ motions)
+    return IteratedSystem(factor, scale, motions, J, A, closed)
+
+
+def _sparse_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:
+    """Stiffness (q, q) on the jumps of pairs of tangents (n_points, d, d)."""
+    d = D.shape[1]
+    weighted = D * joints.weights[:, None, None]
+    blocks = np.einsum("pia,pij,pjb->pab", joints.B, weighted, joints.B, optimize=True)
+    places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(D), -1)
+    rows = np.broadcast_to(places[:, :, None], blocks.shape).ravel()
+    columns = np.broadcast_to(places[:, None, :], blocks.shape).ravel()
+    return sp.csr_array(sp.coo_array((blocks.ravel(), (rows, columns)), shape=(size, size)))
+
+
+class IteratedSolver:
+    """`A du + c J^T (f(delta_0 + J du) - f_0) = r`, solved to the tolerance of the problem."""
+
+    remembered: tuple[str, ...] = ()
+
+    def __init__(self, problem: Problem, system: IteratedSystem, share: float) -> None:
+        self.system, self.share = system, share
+        self.constraints, self.interface = problem.constraints, problem.interface
+        self.tolerance = problem.solver.tolerance
+        self.turns = 0
+        """Turns of the linear iterations so far."""
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
+        """Newton from what the supports impose, joints and all else at rest."""
+        start = self.constraints.particular(dd) if dd.any() else np.zeros_like(r)
+        trial = new_trial(motion.w.shape, len(motion.f))
+        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        du, outcome = self._newton(now, trial, r, start)
+        release_shear(motion.state, trial.state)
+        if outcome.turns > 0 and self.interface is not None:
+            accept(trial, now)
+        return StepOutcome(du, outcome.turns, outcome.residual)
+
+    def _newton(
+        self, now: InterfaceState, trial: Trial, r: FloatArray, start: FloatArray
+    ) -> tuple[FloatArray, StepOutcome]:
+        du, reference = start.copy(), self._reference(now, r, start)
+        rest = self._rest(now, trial, r, du)
+        size, enough = float(np.linalg.norm(rest)), self.tolerance * reference
+        for turn in range(1, TURNS + 1):
+            if size <= enough:
+                return du, StepOutcome(du, turn, size / reference)
+            if turn == HOLDING_TURN and self._hold(now, trial):
+                du = start.copy()
+                rest = self._rest(now, trial, r, du)
+                size = float(np.linalg.norm(rest))
+            step, led = self._step(trial, rest, max(0.3 * enough, FORCING * size))
+            if not led:
+                return du, StepOutcome(du, -turn, size / reference)
+            length, before = 1.0, size
+            for halving in range(HALVINGS):
+                tried = du + length * step
+                rest = self._rest(now, trial, r, tried)
+                size = float(np.linalg.norm(rest))
+                if turn <= PLAIN_TURNS or size < before or halving == HALVINGS - 1:
+                    break
+                length *= 0.5
+            du = tried
+        return du, StepOutcome(du, -TURNS, size / reference)
+
+    def _reference(self, now: InterfaceState, r: FloatArray, start: FloatArray) -> float:
+        """Size of the forces of a step, the joints' among them: it may be one at rest."""
+        s, forces = self.system, [r]
+        if start.any():
+            forces.append(s.A @ start)
+        if self.interface is not None:
+            forces.append(self.interface.J.T @ now.f)
+        return sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
+
+    def _rest(self, now: InterfaceState, trial: Trial, r: FloatArray, du: FloatArray) -> FloatArray:
+        """What is out of balance at du, on the scaled unknowns; the joints' answer into `trial`."""
+        rest = r - self.system.A @ du if du.any() else r.copy()
+        if self.interface is not None:
+            trial.y[:] = self.interface.J @ du
+            trial.delta[:] = now.delta + trial.y
+            interface_response(self.interface.points, now.state, trial.delta, trial)
+            rest -= self.interface.J.T @ (self.share * (trial.f - now.f))
+        found: FloatArray = self.system.T.T @ rest
+        return found
+
+    def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
+        """Newton's increment (n,), and whether the linear iteration led anywhere."""
+        s, joints = self.system, self.interface
+        change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
+        if not change.any():
+            multiply, symmetric = s.factor.multiply, True
+        else:
+            flipped = np.swapaxes(trial.D, 1, 2)
+            symmetric = bool(np.abs(trial.D - flipped).max() <= SYMMETRIC * np.abs(trial.D).max())
+            w, f = np.empty(trial.w.shape), np.empty(len(trial.f))
+
+            def multiply(x: FloatArray) -> FloatArray:
+                assert joints is not None
+                local_jumps(joints.points, s.J @ x, w)
+                interface_forces(joints.points, np.einsum("pij,pj->pi", change, w), f)
+                return np.asarray(s.factor.multiply(x) + s.J.T @ f)
+
+        cycle = s.factor.hierarchy.cycle
+        if symmetric:
+            found = conjugate_gradients(multiply, cycle, rest, enough, MOST_TURNS)
+            self.turns += found.turns
+        if not symmetric or not found.converged:
+            found = minimal_residuals(multiply, cycle, rest, enough, MOST_TURNS)
+            self.turns += found.turns
+        increment: FloatArray = s.T @ found.x
+        return increment, found.residual < 0.5 * float(np.linalg.norm(rest))
+
+    def _hold(self, now: InterfaceState, trial: Trial) -> bool:
+        """Hold the shear that a step's start has, where no other shear is possible."""
+        if self.interface is None:
+            return False
+        interface_response(self.interface.points, now.state, now.delta, trial)
+        return bool(hold_shear(self.interface.points, trial.t, now.state))
+
+
+def pays(problem: Problem, A: sp.csr_array) -> bool:
+    """Whether steps go by multigrid: asked for, or their factor would be too large."""
+    T, solver = problem.constraints.T, problem.solver
+    if problem.contact is not None or not problem.constraints.associated:
+        return False
+    if solver.name is not None or T.shape[1] < MANY or goes_to_petsc(solver, T.shape[1]):
+        return solver.name == MULTIGRID
+    order = ordering_of(problem, sp.csc_array((T.shape[1], 0)))
+    return order is not None and factor_is_large(sp.csr_array(T.T @ A @ T), order)

@@ -1,0 +1,174 @@
+"""ZSEM: what the joints under a footing carry in time, behind the procedure @BILANSSI."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.footing import Footing, footings_of
+from ssilang.kernel.interface.interface import (
+    Interface,
+    interface_of,
+    is_macro,
+    joint_zones,
+    point_values,
+)
+from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.materials.model import Model
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import ListChpo, ListReel, Table
+
+_TURNING = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
+
+
+@operator(
+    "ZSEM",
+    arg("model", "MMODEL", en="joints under one footing", fr="joints sous une semelle"),
+    arg("characteristics", "MCHAML", en="their parameters", fr="leurs paramètres"),
+    arg("motion", "LISTCHPO", en="displacements", fr="déplacements"),
+    arg("tractions", "TABLE", en="tractions of the same instants, from 1",
+        fr="contraintes des mêmes instants, à partir de 1"),
+    family="dynamics",
+    help=Help(
+        en="What a footing carries at some instants, for @BILANSSI: a table of lists PART (share "
+        "of the area in contact), FORCE (along the mean normal, positive in compression), CISA "
+        "(across it), PRESSION (largest), OUVERTURE (largest), ENFONCEMENT (mean motion of the "
+        "upper side into the soil); MOMENT, ROTATION and BRAS (from the centre to the edges) by "
+        "axis; AIRE. What a macro-element's law does not know is left out.",
+        fr="Ce que porte une semelle à des instants, pour @BILANSSI : une table de listes PART "
+        "(part de l'aire en contact), FORCE (selon la normale moyenne, positive en compression), "
+        "CISA (en travers), PRESSION (la plus grande), OUVERTURE (la plus grande), ENFONCEMENT "
+        "(mouvement moyen de la face supérieure vers le sol) ; MOMENT, ROTATION et BRAS (du centre "
+        "aux bords) par axe ; AIRE. Ce que la loi d'un macro-élément ignore est omis.",
+        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 ;",
+        examples=(
+            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 4 (0. 0.) (4. 0.) ; "
+            "F = S PLUS (0. 0.) ; J = RACC 1.E-3 F S ; "
+            "M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ; "
+            "A = MATE M 'KN' 2.E7 'KS' 2.E7 ; U = (MANU 'CHPO' F 2 'UX' 0. 'UY' -1.E-3) ET "
+            "(MANU 'CHPO' S 2 'UX' 0. 'UY' 0.) ; T = TABL ; T . 1 = SIGM M A U ; "
+            "R = ZSEM M A (SUIT U) T ; LIST (R . 'FORCE') ;",
+        ),
+    ),
+)  # fmt: skip
+def zsem(
+    call: Call, model: Model, characteristics: CellField, motion: ListChpo, tractions: Table
+) -> Table:
+    """Loads of the footing at each instant."""
+    zones = joint_zones(model)
+    if not zones:
+        raise call.error("operators.dynamics.footing-without-joints", model)
+    displacements = cast("list[NodeField]", motion.values)
+    numbering = _numbering(model)
+    interface = interface_of(zones, characteristics, numbering)
+    footings = footings_of(interface, numbering)
+    if len(footings) != 1:
+        raise call.error("operators.dynamics.several-footings", model, count=len(footings))
+    u = np.array([_values(numbering, field) for field in displacements])
+    moving = np.isin(numbering.codes, [numbering.code(n) for n in displacement_names(zones[0])])
+    if (lost := np.isnan(u).any(axis=0) & moving).any():
+        node = numbering.table.told(numbering.nodes[np.flatnonzero(lost)[0]])
+        raise call.error("operators.dynamics.footing-not-kept", motion, node=node)
+    u = np.nan_to_num(u, nan=0.0)
+    w = np.array([_jumps(interface, row) for row in u])
+    stresses = [cast(CellField, tractions.get(i + 1)) for i in range(len(u))]
+    t = np.array([point_values(interface, field, "traction") for field in stresses])
+    return _results(interface, footings[0], numbering, w, t, u)
+
+
+def _numbering(model: Model) -> Numbering:
+    """Displacements, and rotations of macro-elements, of the joints' nodes."""
+    zones = joint_zones(model)
+    table = zones[0].cells.nodes
+    dimension = zones[0].mode.dimension
+    names = displacement_names(zones[0]) + _TURNING.get(dimension, ())
+    nodes = np.unique(np.concatenate([z.cells.raw.ravel() for z in zones]))
+    nodes = np.unique(table.resolve(nodes))
+    codes = np.tile(np.arange(len(names)), len(nodes))
+    return Numbering(table, names, names, np.repeat(nodes, len(names)), codes, table.version)
+
+
+def _values(numbering: Numbering, field: NodeField) -> FloatArray:
+    """Values of the unknowns, nan where the field has none."""
+    found = np.zeros(numbering.size)
+    for name in numbering.unknowns:
+        place = numbering.where(name)
+        found[place] = field.values_at(name, numbering.nodes[place], np.nan)
+    return found
+
+
+def _jumps(interface: Interface, u: FloatArray) -> FloatArray:
+    """Jumps (n_points, d) at the points."""
+    of_pairs = (interface.J @ u).reshape(-1, interface.dimension)[interface.pairs]
+    local = of_pairs.reshape(interface.n_points, -1)
+    w: FloatArray = np.einsum("pia,pa->pi", interface.B, local)
+    return w
+
+
+def _results(
+    interface: Interface,
+    footing: Footing,
+    numbering: Numbering,
+    w: FloatArray,
+    t: FloatArray,
+    u: FloatArray,
+) -> Table:
+    loads = footing.loads(w, t, u[:, footing.unknowns])
+    made = {"FORCE": loads.force, "OUVERTURE": loads.opening}
+    result = Table()
+    if not footing.macro:
+        made |= {"PART": loads.share, "PRESSION": loads.pressure}
+        push = np.einsum("g,gij,kgi->kj", footing.weights, footing.frames, t[:, footing.points])
+        normal = footing.normal[: push.shape[1]]
+        across = push - (push @ normal)[:, None] * normal
+        made["CISA"] = np.linalg.norm(across, axis=1)
+        made["ENFONCEMENT"] = -_mean_motion(interface.joints, numbering, u, normal)
+    for name, values in made.items():
+        result.set(name, ListReel(values))
+    result.set("AIRE", footing.area)
+    for name, rows in (("MOMENT", loads.moment), ("ROTATION", loads.rotation)):
+        inner = Table()
+        for axis, values in enumerate(rows.T, 1):
+            inner.set(axis, ListReel(values))
+        result.set(name, inner)
+    arms = Table()
+    if not footing.macro:
+        for axis, ends in enumerate(_arms(interface.joints, footing), 1):
+            arms.set(axis, ListReel(ends))
+    result.set("BRAS", arms)
+    return result
+
+
+def _mean_motion(
+    joints: tuple[JointCells, ...], numbering: Numbering, u: FloatArray, normal: FloatArray
+) -> FloatArray:
+    """Mean displacement (k,) of the upper side along the normal."""
+    total, area = np.zeros(len(u)), 0.0
+    for j in joints:
+        codes = np.array([numbering.code(n) for n in displacement_names(j.zone)])
+        nodes: IntArray = j.zone.cells.nodes.resolve(j.upper)
+        index = numbering.index(nodes[:, :, None], codes)  # (n, m, d)
+        parts = np.einsum("ng,gm->nm", j.weights, j.shape)
+        total += np.einsum("nm,knmd,d->k", parts, u[:, index], normal)
+        area += float(j.weights.sum())
+    mean: FloatArray = total / area
+    return mean
+
+
+def _arms(joints: tuple[JointCells, ...], footing: Footing) -> FloatArray:
+    """Levers (m, 2) of the edges about each axis, the lowest and the highest."""
+    places = [
+        j.zone.cells.nodes.coordinates[j.zone.cells.nodes.resolve(j.upper).ravel()]
+        for j in joints
+        if not is_macro(j)
+    ]
+    arms = np.concatenate(places) - footing.centre
+    levers = np.stack([np.cross(axis, arms) @ footing.normal for axis in footing.axes])
+    return np.stack([levers.min(axis=1), levers.max(axis=1)], axis=1)

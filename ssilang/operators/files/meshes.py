@@ -1,0 +1,334 @@
+"""LIRE 'MESH' and SORT 'MESH': meshes of other programs, with their named parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ssilang.io.mesh_files.abaqus import read_abaqus
+from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part
+from ssilang.io.mesh_files.foreign import FOREIGN, read_foreign
+from ssilang.io.mesh_files.geo import read_geo
+from ssilang.io.mesh_files.stl import read_stl
+from ssilang.io.mesh_files.unv import read_unv
+from ssilang.io.mesh_files.writing import WRITTEN, write_mesh_file
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.mesh.changes.local_refinement import parted
+from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.orientation import orient
+from ssilang.language.near import nearest
+from ssilang.language.registry import arg, flag, lead, main, said
+from ssilang.language.run.call import Call
+from ssilang.language.values import Mot, Table
+from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.files.reading import LIRE
+from ssilang.operators.files.writing import SORT, target_path
+from ssilang.operators.workspace import workspace
+
+PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
+"""What Abaqus calls plane solids, by the mode; CPE in all others."""
+
+Reader = Callable[[Call, Path], FileMesh]
+
+
+def _stl(call: Call, path: Path) -> FileMesh:
+    corners = read_stl(path)
+    count = len(corners)
+    return FileMesh(corners.reshape(-1, 3), {"TRI3": np.arange(3 * count).reshape(-1, 3)})
+
+
+def _abaqus(call: Call, path: Path) -> FileMesh:
+    beside = path.parent
+    return read_abaqus(path, lambda name: input_path(call, str(beside / name)))
+
+
+def _geo(call: Call, path: Path) -> FileMesh:
+    return read_geo(path, workspace(call.session).dimension or 3)
+
+
+_OWN: dict[str, tuple[tuple[str, ...], Reader]] = {
+    "ABAQUS": ((".inp",), _abaqus),
+    "UNV": ((".unv",), lambda call, path: read_unv(path)),
+    "STL": ((".stl",), _stl),
+    "GEO": ((".geo",), _geo),
+}
+ENDINGS = {e: kind for kind, f in FOREIGN.items() for e in f.endings} | {
+    e: kind for kind, (endings, _) in _OWN.items() for e in endings
+}
+"""Formats by the ending of the file."""
+
+_FILE = lead("file", "MOT", en="file", fr="fichier")
+
+
+@LIRE.form(
+    said("MESH"),
+    _FILE,
+    syntax="TAB1 = LIRE 'MESH' FIC1 ;",
+    en="MESH: a mesh of another program, in the format that the ending of the file tells (.msh "
+    ".med .vtu .vtk .inp .bdf .nas .fem .mesh .unv .stl; Gmsh meshes a .geo), as a table of "
+    "meshes: NOEUDS all nodes, MAILLAGE all cells, '@QUA4' ... those of a type, and each named "
+    "part under its name: physical groups, sets, groups and tags; NAME_GN for the nodes of a part "
+    "that has cells too, KEY_3 for a tag 3 without a name. Cells are turned so that their Jacobian "
+    "is positive; those with nodes that coincide become simpler ones, those that have no "
+    "counterpart are left out, both with a warning that counts them. Fields are not read. MED "
+    "needs h5py.",
+    fr="MESH : un maillage d'un autre programme, au format que dit la fin du nom du fichier (.msh "
+    ".med .vtu .vtk .inp .bdf .nas .fem .mesh .unv .stl ; Gmsh maille un .geo), en table de "
+    "maillages : NOEUDS tous les noeuds, MAILLAGE tous les éléments, '@QUA4' ... ceux d'un type, "
+    "et chaque partie nommée sous son nom : groupes physiques, ensembles, groupes et étiquettes ; "
+    "NOM_GN pour les noeuds d'une partie qui a aussi des éléments, CLE_3 pour une étiquette 3 sans "
+    "nom. Les éléments sont tournés pour que leur jacobien soit positif ; ceux dont des noeuds "
+    "coïncident en deviennent de plus simples, ceux qui n'ont pas d'équivalent sont omis, avec un "
+    "avertissement qui les compte. Les champs ne sont pas lus. MED demande h5py.",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (2. 0.) ; S = L TRAN 2 (0. 1.) ;\n"
+        "OPTI SORT 'plate.msh' ; SORT 'MESH' S ;\n"
+        "T = LIRE 'MESH' 'plate.msh' ; LIST (NBEL (T . 'L')) ; LIST (MESU (T . '@QUA4')) ;",
+    ),
+)
+def _mesh(call: Call, file: str) -> Table:
+    return mesh_table(call, str(file))
+
+
+_BY_WORD = {
+    "GMSH": "GMSH", "MED": "MED", "VTU": "VTU", "VTK": "VTK", "ABAQUS": "ABAQUS",
+    "NAS": "NASTRAN", "FEM": "NASTRAN", "MEDIT": "MEDIT", "UNV": "UNV",
+}  # fmt: skip
+
+
+@LIRE.form(
+    said("GMSH", "MED", "VTU", "VTK", "ABAQUS", "NAS", "FEM", "MEDIT", "UNV"),
+    _FILE,
+    syntax="TAB1 = LIRE 'GMSH'|'MED'|'VTU'|'VTK'|'ABAQ'|'NAS'|'FEM'|'MEDI'|'UNV' FIC1 ;",
+    en="The word of a format: as MESH, whatever the ending. NAS and FEM are Nastran's bulk data, "
+    "UNV is I-DEAS' universal file.",
+    fr="Le mot d'un format : comme MESH, quelle que soit la fin du nom. NAS et FEM sont les "
+    "données de Nastran, UNV le fichier universel d'I-DEAS.",
+    examples=(
+        "OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ;\n"
+        "OPTI SORT 'one.bdf' ; SORT 'NAS' T ; R = LIRE 'NAS' 'one.bdf' ;\n"
+        "LIST (MESU (R . '@TRI3')) ;",
+    ),
+)
+def _by_word(call: Call, word: str, file: str) -> Table:
+    return mesh_table(call, str(file), _BY_WORD[word])
+
+
+@LIRE.form(lead("word", "MOT"), lead("file", "MOT"), gives="TABLE")
+def _no_format(call: Call, word: str, file: str) -> NoReturn:
+    raise call.error("operators.files.no-such-format", word, **_formats(str(word)))
+
+
+def mesh_table(call: Call, name: str, kind: str = "") -> Table:
+    """The mesh of a file as a table of its parts.
+
+    Raises
+    ------
+    SsiError, InputError
+        Where the file cannot be read, or its format is not known.
+    """
+    path = input_path(call, name)
+    kind = kind or ENDINGS.get(path.suffix.lower(), "")
+    if not kind:
+        raise call.error(
+            "operators.files.no-such-ending", name, ending=path.suffix, endings=list(ENDINGS),
+            near=nearest(path.suffix, ENDINGS, 0.5),
+        )  # fmt: skip
+    read = _OWN[kind][1](call, path) if kind in _OWN else read_foreign(path, kind)
+    for remark in read.remarks:
+        call.warn("operators.files.reader-says", name=path.name, remark=remark)
+    if read.left_out:
+        told = [f"{count} {cell}" for cell, count in sorted(read.left_out.items())]
+        call.warn("operators.files.cells-left-out", name=path.name, told=told)
+    return _table(call, read, path.name)
+
+
+def _formats(word: str) -> dict[str, Any]:
+    known = ("MESH", "CSV", "PEER", "AVS", "PROC", "STL", *_BY_WORD)
+    return {"word": word, "near": nearest(word, known, 0.5), "known": known}
+
+
+def _table(call: Call, read: FileMesh, name: str) -> Table:
+    ws = workspace(call.session)
+    dimension = ws.dimension
+    outside = np.abs(read.points[:, dimension:]).max(axis=1, initial=0.0)
+    if dimension and (outside > 1e-9 * np.abs(read.points).max(initial=0.0)).any():
+        raise call.error(
+            "operators.files.mesh-not-of-dimension", name=name, dimension=dimension,
+            count=int((outside > 0).sum()),
+        )  # fmt: skip
+    ids = ws.nodes.add(read.points[:, : dimension or 3])
+    whole = Mesh(
+        ws.nodes, tuple(CellBlock.make(ws.nodes, k, ids[t]) for k, t in read.cells.items())
+    )
+    blocks = {b.cell_type: b for b in orient(whole, max(dimension, 1)).blocks}
+    collapsed = repeated_nodes(whole)
+    simpler = _sound(whole)
+    if collapsed:
+        left = repeated_nodes(simpler)
+        call.warn("operators.files.cells-collapsed", name=name, count=collapsed, left=left)
+    made = Table()
+    made.set(Mot("NOEUDS"), poi1(ws.nodes, ids))
+    shown = [b for k, b in blocks.items() if k != "POI1"] or list(blocks.values())
+    made.set(Mot("MAILLAGE"), _sound(Mesh(ws.nodes, tuple(shown))))
+    for block in _sound(Mesh(ws.nodes, tuple(blocks.values()))).blocks:
+        made.set(Mot("@" + block.cell_type), Mesh(ws.nodes, (block,)))
+    taken = {str(index) for index, _ in made.items()}
+    for title, part in read.parts.items():
+        index = f"{title}_G" if title in taken else title
+        cells = tuple(
+            CellBlock.make(ws.nodes, k, blocks[k].connectivity[rows])
+            for k, rows in part.cells.items()
+        )
+        if cells:
+            made.set(Mot(index), _sound(Mesh(ws.nodes, cells)))
+        if len(part.nodes):
+            made.set(Mot(f"{index}_GN" if cells else index), poi1(ws.nodes, ids[part.nodes]))
+    return made
+
+
+def _sound(mesh: Mesh) -> Mesh:
+    """The mesh, cells with nodes that coincide made simpler."""
+    return regenerate(mesh) if repeated_nodes(mesh) else mesh
+
+
+# ---- writing -------------------------------------------------------------------------------------
+
+
+@SORT.form(
+    said("MESH", "MED"),
+    arg(
+        "mesh",
+        "MAILLAGE",
+        "TABLE",
+        en="mesh, or a table of its parts",
+        fr="maillage, ou table de ses parties",
+    ),
+    syntax="SORT 'MESH'|'MED' MAIL1|TAB1 ;",
+    en="MESH: a mesh with its named parts for another program, in the format that the ending of "
+    "the file tells: .msh (Gmsh 2.2: physical groups), .med (groups; needs h5py; the word MED puts "
+    "the ending), .inp (Abaqus: sets). Parts are the meshes and points that the script calls by a "
+    "name and that lie on nodes of the mesh, or those of a table such as MAILLER's or LIRE's, "
+    "whose MAILLAGE or TOTAL is the whole. Joints are left out, with a warning.",
+    fr="MESH : un maillage avec ses parties nommées pour un autre programme, au format que dit la "
+    "fin du nom du fichier : .msh (Gmsh 2.2 : groupes physiques), .med (groupes ; demande h5py ; "
+    "le mot MED met cette fin), .inp (Abaqus : ensembles). Les parties sont les maillages et "
+    "points nommés dans le jeu de données et situés sur des noeuds du maillage, ou ceux d'une "
+    "table comme celle de MAILLER ou de LIRE, dont MAILLAGE ou TOTAL est le tout. Les joints sont "
+    "omis, avec un avertissement.",
+    examples=(
+        "OPTI DIME 2 ELEM QUA4 ; T = MAILLER 'SEMELLE' 4. 1. 'SOL' 12. 4. ;\n"
+        "OPTI SORT 'footing.inp' ; SORT 'MESH' T ; R = LIRE 'MESH' 'footing.inp' ;\n"
+        "LIST (MESU (R . 'SEMELLE')) ;",
+    ),
+)
+def _sort(call: Call, word: str, mesh: Any) -> None:
+    path = target_path(call, ".med" if word == "MED" else "")
+    ending = path.suffix.lower()
+    if ending not in WRITTEN:
+        raise call.error(
+            "operators.files.ending-not-written", name=option_name(call.session, "SORT", 7),
+            endings=list(WRITTEN), word=_OTHER_WORDS.get(ending, ""),
+        )  # fmt: skip
+    ws = workspace(call.session)
+    made = _file_mesh(call, mesh)
+    if not made.cells:
+        raise call.missing(("MAILLAGE",))
+    plane = PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
+    write_mesh_file(path, made, max(ws.dimension, 2), plane)
+    run_output(call.session).wrote(path)
+
+
+@SORT.form(main("mesh", "MAILLAGE"), flag("kept", "NOOP"), arg("word", "MOT"), gives=())
+def _not_written(call: Call, mesh: Mesh, kept: bool, word: str) -> NoReturn:
+    near = nearest(str(word), _WORDS, 0.5)
+    raise call.error("operators.files.format-not-written", word, word=word, near=near, known=_WORDS)
+
+
+_WORDS = ("MESH", "VTK", "AVS", "STL", "MED", "NAS", "ABAQ")
+_OTHER_WORDS = {".bdf": "NAS", ".nas": "NAS", ".stl": "STL", ".vtu": "VTK", ".vtk": "VTK"}
+"""Words of SORT for other endings."""
+
+
+def _parts_of(call: Call, given: Any) -> tuple[list[Mesh], dict[str, Any]]:
+    """The whole, where there is one, and the named parts."""
+    if isinstance(given, Mesh):
+        frame = call.session.frame
+        found = {name: frame.find(name) for name in sorted(frame.names())}
+        return [given], {n: v for n, v in found.items() if _lies_on(v, given)}
+    entries = {str(i).strip(): v for i, v in given.items() if isinstance(i, str)}
+    whole = [v for n in ("MAILLAGE", "TOTAL") if isinstance(v := entries.get(n), Mesh)]
+    skipped = ("MAILLAGE", "TOTAL", "NOEUDS")
+    return whole[:1], {
+        n: v for n, v in entries.items() if n not in skipped and not n.startswith("@")
+        and isinstance(v, Mesh | Point)
+    }  # fmt: skip
+
+
+def _lies_on(value: Any, mesh: Mesh) -> bool:
+    if isinstance(value, Point):
+        return bool(np.isin(value.node, mesh.sorted_node_ids))
+    return (
+        isinstance(value, Mesh)
+        and bool(value.blocks)
+        and bool(np.isin(value.sorted_node_ids, mesh.sorted_node_ids).all())
+    )
+
+
+def _blocks(value: Any) -> Iterator[CellBlock]:
+    if isinstance(value, Point):
+        yield CellBlock.make(value.nodes, "POI1", np.array([[value.node]]))
+    else:
+        yield from parted(value)[0].blocks
+
+
+def _file_mesh(call: Call, given: Any) -> FileMesh:
+    """The mesh and its parts on the numbers of a file: each cell once, points where cells are."""
+    whole, named = _parts_of(call, given)
+    blocks: list[tuple[str, CellBlock]] = []
+    joints = 0
+    for name, value in [*(("", w) for w in whole), *named.items()]:
+        for block in _blocks(value):
+            if block.kind.joint:
+                joints += len(block)
+            else:
+                blocks.append((name, block))
+    if joints:
+        call.warn("operators.files.joints-not-written", count=joints)
+    nodes = workspace(call.session).nodes
+    ids = np.unique(np.concatenate([NONE, *(b.connectivity.ravel() for _, b in blocks)]))
+    tables: dict[str, list[tuple[str, IntArray]]] = {}
+    parts: dict[str, tuple[dict[str, IntArray], IntArray]] = {name: ({}, NONE) for name in named}
+    for name, block in blocks:
+        table = np.searchsorted(ids, block.connectivity)
+        if block.cell_type != "POI1":
+            tables.setdefault(block.cell_type, []).append((name, table))
+        elif name:
+            parts[name] = parts[name][0], np.union1d(parts[name][1], table[:, 0])
+    cells = {}
+    for cell_type, found in tables.items():
+        cells[cell_type], rows = _each_once([t for _, t in found])
+        for (name, _), at in zip(found, rows, strict=True):
+            if name:
+                parts[name][0][cell_type] = np.union1d(parts[name][0].get(cell_type, NONE), at)
+    points: FloatArray = nodes.coordinates[ids]
+    held = {name: Part(c, n) for name, (c, n) in parts.items() if c or len(n)}
+    return FileMesh(points, cells, held)
+
+
+def _each_once(tables: list[IntArray]) -> tuple[IntArray, list[IntArray]]:
+    """Cells of several tables, those of the same nodes once, and the rows of each table."""
+    every = np.concatenate(tables)
+    _, first, back = np.unique(
+        np.sort(every, axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    order = np.argsort(first)
+    place = np.argsort(order)[back.ravel()]
+    ends = np.cumsum([len(t) for t in tables])[:-1]
+    return every[first[order]], np.split(place, ends)

@@ -1,0 +1,146 @@
+"""Steps by multigrid give what the condensed interface gives; linear ones the exact answer."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+from references.soil_block import FRICTION, soil_block
+
+from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
+from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
+from ssilang.kernel.stepping import choose
+from ssilang.kernel.stepping.newmark import hht
+from ssilang.kernel.stepping.problem import initial
+from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
+from ssilang.kernel.stepping.rests.sparse import iterated
+from ssilang.kernel.stepping.run import integrate
+
+SOFTENING = {"KN": 2e8, "KS": 1e8, "FU": 2e4, "GF": 200.0, "FC": -1e4}
+BY_MULTIGRID = Solver("multigrid")
+
+
+class Last:
+    """Keeps every fifth instant."""
+
+    def __init__(self, problem):
+        self.wanted = np.arange(len(problem.times)) % 5 == 0
+        self.kept = []
+
+    def receive(self, snapshot):
+        """One more."""
+        self.kept.append(snapshot)
+
+    def close(self):
+        """Nothing to close."""
+
+
+@pytest.fixture(autouse=True)
+def several_levels(monkeypatch):
+    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.hierarchy.COARSEST", 20)
+
+
+def run(problem, solver=FIRST_FIT):
+    kept = Last(problem)
+    history = integrate(replace(problem, solver=solver), [kept])
+    return history, kept.kept
+
+
+def assert_same(problem, tolerance=1e-9):
+    (found, kept), (exact, expected) = run(problem, BY_MULTIGRID), run(problem)
+    assert (found.loop, found.solver) == ("multigrid", "multigrid")
+    assert exact.solver != "multigrid"
+    for name in ("u", "v", "reaction", "w", "t", "state"):
+        a, b = (np.array([getattr(s, name) for s in k]) for k in (kept, expected))
+        if b.size:
+            assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
+    size = np.abs(exact.energies).max()
+    assert np.abs(found.energies - exact.energies).max() <= tolerance * size
+    return kept
+
+
+@pytest.mark.parametrize(
+    ("joint", "words"),
+    [(FRICTION, ()), (SOFTENING, ()), ({"KN": 2e8, "KS": 1e8}, ("CISAILLEMENT_ELASTIQUE",))],
+)
+def test_laws_of_the_joint(joint, words):
+    problem = soil_block(
+        steps=30, size=(16, 8, 4), joint=joint, words=words, damping=(0.5, 2e-3), acceleration=6.0
+    )
+    openings = np.array([s.w[:, -1] for s in assert_same(problem)])
+    assert (openings > 1e-6).any()
+    assert (openings < 0.0).any()
+
+
+def test_moving_supports_and_a_dissipating_scheme():
+    assert_same(soil_block(steps=20, size=(16, 8, 4), moving=True, scheme=hht(0.1)))
+
+
+def test_without_joints_the_energy_of_each_step_is_in_balance():
+    problem = soil_block(steps=20, size=(16, 8, 4), damping=None)
+    linear = replace(problem, interface=None, state=np.zeros((0, 0)))
+    kept = assert_same(linear)
+    assert len(kept) == 5
+    kinetic, elastic, stored, lost, _, external = run(linear, BY_MULTIGRID)[0].energies.T
+    balance = kinetic + elastic + stored + lost - external
+    assert np.abs(balance - balance[0]).max() < 1e-9 * np.abs(external).max()
+
+
+def test_a_coarser_tolerance_takes_fewer_turns_and_is_met(monkeypatch):
+    turns, kept = {}, {}
+    problem = soil_block(steps=10, size=(16, 8, 4), acceleration=6.0)
+    solve = iterated.IteratedSolver.solve
+    for tolerance in (1e-12, 1e-6):
+
+        def counted(self, *given, tolerance=tolerance):
+            outcome = solve(self, *given)
+            assert outcome.residual <= tolerance
+            turns[tolerance] = self.turns
+            return outcome
+
+        monkeypatch.setattr(iterated.IteratedSolver, "solve", counted)
+        kept[tolerance] = run(problem, Solver("multigrid", tolerance=tolerance))[1]
+    assert turns[1e-6] < 0.7 * turns[1e-12]
+    fine, coarse = (kept[t][-1].u for t in (1e-12, 1e-6))
+    assert 0.0 < np.abs(coarse - fine).max() < 1e-4 * np.abs(fine).max()
+
+
+def test_large_factors_give_way_and_small_ones_do_not(monkeypatch):
+    problem = soil_block(steps=2)
+    case = choose.Case(problem, None, float(problem.times[1]))
+    assert choose.rule_of(case).name == "dissection"
+    monkeypatch.setattr(iterated, "MANY", 100)
+    monkeypatch.setattr("ssilang.kernel.solvers.backends.DISSECTED", 100)
+    assert not choose.Case(problem, None, case.dt).iterated
+    monkeypatch.setattr("ssilang.kernel.solvers.backends.OFTEN", 1e4)
+    assert choose.rule_of(choose.Case(problem, None, case.dt)).name == "multigrid"
+
+
+def test_an_iteration_that_ends_nowhere_says_its_residual(monkeypatch):
+    monkeypatch.setattr(iterated, "MOST_TURNS", 1)
+    monkeypatch.setattr(iterated, "TURNS", 3)
+    problem = replace(soil_block(steps=3, size=(16, 8, 4)), solver=BY_MULTIGRID)
+    with pytest.raises(ConvergenceError, match="residual") as caught:
+        integrate(problem)
+    assert caught.value.data["residual"] > 1e-12
+
+
+def test_a_model_that_nothing_holds_is_named():
+    problem = soil_block(steps=3, size=(16, 8, 4))
+    none = EliminatedConstraints(sparse.csr_array((0, problem.numbering.size)))
+    free = replace(problem, solver=BY_MULTIGRID, constraints=none)
+    with pytest.raises(SingularMatrixError) as caught:
+        iterated.iterated_system(free, free.K, 1.0)
+    assert caught.value.data["count"] == 3
+
+
+def test_accelerations_of_many_unknowns_with_a_consistent_mass(monkeypatch):
+    problem = soil_block(steps=2)
+    whole = abs(problem.K - sparse.diags_array(problem.K.diagonal()))
+    consistent = problem.M + 1e-2 * problem.M.max() / whole.max() * whole  # diagonally dominant
+    problem = replace(problem, M=sparse.csr_array(consistent))
+    force = np.random.default_rng(0).standard_normal((problem.numbering.size, 2))
+    exact = initial.accelerated(problem, force)
+    monkeypatch.setattr(initial, "MANY", 10)
+    found = initial.accelerated(problem, force)
+    assert np.abs(found - exact).max() < 1e-11 * np.abs(exact).max()

@@ -1,0 +1,182 @@
+"""@BILANSSI: rigid footings against statics by hand, floor spectra against their definition."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import RunOptions, run_text
+
+B, K, N, MU, CAPACITY = 4.0, 2.0e7, 6.0e5, 0.7, 6.0e5
+SHEARS = (2.0e5, 6.0e5, 9.0e5)  # 1 m above the footing: e = 1/3, 1, 1.5 m
+
+STRIP = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 32 (0. 0.) (4. 0.) ; F = S PLUS (0. 0.) ;"
+    "J = RACC 1.E-3 F S ; M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ; PC = 2. 1. ;"
+    f"A = MATE M 'KN' {K} 'KS' {K} ;"
+    "B = (BLOQ 'UX' 'UY' S) ET (RELA 'CORI' 'DEPL' 'ROTA' PC F) ;"
+)
+PUSH = (
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = B ;"
+    "C = EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.) ;"
+    f"E = EVOL 'MANU' (PROG 0. 1. 2. 3. 4.) (PROG 0. 0. {' '.join(f'{h:.1f}' for h in SHEARS)}) ;"
+    f"T . 'CHARGEMENT' = (CHAR 'MECA' (FORC (0. {-N}) PC) C) ET "
+    "(CHAR 'MECA' (FORC (1. 0.) PC) E) ; T . 'TEMPS_CALCULES' = PROG 0. 1. 2. 3. 4. ; PASAPAS T ;"
+    "V = TABL ; V . 'RESULTATS' = T ; V . 'MODELE' = M ; V . 'CARACTERISTIQUES' = A ;"
+)
+VERDICT = f"V . 'CAPACITE' = {CAPACITY} ; V . 'FROTTEMENT' = {MU} ; R = @BILANSSI V ;"
+
+
+def histories(result):
+    table = result.session.root.find("R").get("HISTOIRES")
+    return {str(k): np.array(v.values) for k, v in table.items()}
+
+
+def peak(result, name):
+    found = result.session.root.find("R").get("PICS").get(name)
+    return found.get("VALEUR"), found.get("TEMPS")
+
+
+@cache
+def pushed():
+    result = run_text(STRIP + PUSH + VERDICT)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def test_contact_and_toe_pressure_of_a_strip_are_those_of_statics():
+    got = histories(pushed())
+    e = np.array([0.0, *SHEARS]) / N
+    lifted = e > B / 6
+    share = np.where(lifted, 3.0 * (0.5 - e / B), 1.0)
+    toe = np.where(lifted, 2.0 * N / (3.0 * (B / 2 - e)), N / B * (1.0 + 6.0 * e / B))
+    np.testing.assert_allclose(got["TEMPS"], [1.0, 2.0, 3.0, 4.0])
+    np.testing.assert_allclose(got["FORCE"], N, rtol=1e-9)
+    np.testing.assert_allclose(got["MOMENT"], [0.0, *(-h for h in SHEARS)], atol=1e-3)
+    # cells of B/32, the one where contact ends is a straight line over two points
+    np.testing.assert_allclose(got["PART"], share, atol=2e-3)
+    np.testing.assert_allclose(got["PRESSION"], toe, rtol=3e-3)
+    np.testing.assert_allclose(got["TAUX"], toe / CAPACITY, rtol=3e-3)
+
+
+def test_factors_of_a_strip_are_those_of_statics():
+    got = histories(pushed())
+    expected = [1000.0, *(N * B / 2 / h for h in SHEARS)]
+    np.testing.assert_allclose(got["RENVERSEMENT"], expected, rtol=1e-9)
+    np.testing.assert_allclose(got["GLISSEMENT"][1:], [MU * N / h for h in SHEARS], rtol=1e-9)
+    for name in ("PART", "RENVERSEMENT", "GLISSEMENT"):
+        assert peak(pushed(), name) == (got[name].min(), 4.0)
+    assert peak(pushed(), "ROTATION")[0] == got["ROTATION"][-1] < 0.0  # the one largest in size
+    left = pushed().session.root.find("R").get("RESIDUS")
+    assert left.get("ROTATION") == pytest.approx(got["ROTATION"][-1])
+
+
+def test_rotation_and_settlement_in_full_contact():
+    got = histories(pushed())
+    assert got["ENFONCEMENT"][:2] == pytest.approx([N / (K * B)] * 2, rel=1e-9)
+    assert got["ROTATION"][1] == pytest.approx(-SHEARS[0] / (K * B**3 / 12), rel=1e-9)
+
+
+def test_a_raft_in_space_has_both_its_axes():
+    lx, ly, moment = 6.0, 4.0, 3.0e5
+    result = run_text(
+        f"OPTI DIME 3 ELEM QUA4 ; S = (DROI 6 (0. 0. 0.) ({lx} 0. 0.)) TRAN 4 (0. {ly} 0.) ;"
+        "F = S PLUS (0. 0. 0.) ; J = LIAI F S ; M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI4 ;"
+        f"A = MATE M 'KN' {K} 'KS' {K} ; PC = {lx / 2} {ly / 2} 1. ;"
+        "B = (BLOQ 'UX' 'UY' 'UZ' S) ET (RELA 'CORI' 'DEPL' 'ROTA' PC F) ;"
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = B ;"
+        "C = EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.) ;"
+        f"T . 'CHARGEMENT' = (CHAR 'MECA' (FORC (0. 0. {-N}) PC) C) ET "
+        f"(CHAR 'MECA' (MOME 'MX' {moment} 'MY' {0.5 * moment} PC) C) ;"
+        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;"
+        "V = TABL ; V . 'RESULTATS' = T ; V . 'MODELE' = M ; V . 'CARACTERISTIQUES' = A ;"
+        "R = @BILANSSI V ;"
+    )
+    assert result.exit_code == 0, result.message
+    got = histories(result)
+    turns = moment / (K * lx * ly**3 / 12), 0.5 * moment / (K * ly * lx**3 / 12)
+    assert got["MOMENT"] == pytest.approx(moment * np.sqrt(1.25), rel=1e-9)
+    assert got["ROTATION"] == pytest.approx(np.hypot(*turns), rel=1e-9)
+    assert got["RENVERSEMENT"] == pytest.approx(N * ly / 2 / moment, rel=1e-9)
+    assert got["PART"] == pytest.approx(1.0)
+
+
+def test_floor_spectra_are_broadened_and_have_the_ground_added(tmp_path):
+    frequencies = np.geomspace(0.5, 20.0, 25)
+    listed = " ".join(f"{f:.12g}" for f in frequencies)
+    text = (
+        STRIP + "U0 = (MANU 'CHPO' PC 3 'UX' 0. 'UY' -7.5E-3 'RZ' 0.) ET "
+        "(MANU 'CHPO' F 2 'UX' 0. 'UY' -7.5E-3) ; T = TABL ; T . 'DEPL' = U0 ;"
+        "T . 'VITE' = 0. * U0 ; T . 'RIGI' = B ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;"
+        "T . 'MASS' = (MASS 'DEPL' 6.E4 PC) ET (MASS 'ROTA' 1.E5 PC) ;"
+        "LT = PROG 0. 'PAS' 0.005 0.4 ; LA = SIN (LT * 720.) ;"
+        "T . 'CHAR' = (CHAR 'MECA' (FORC (0. -6.E5) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)))"
+        " ET (CHAR 'MECA' (FORC (-6.E4 0.) PC) (EVOL 'MANU' LT LA)) ; T . 'TEMPS_CALCULES' = LT ;"
+        "T . 'PAS_SAUVES' = 'TOUS' ; D = DYNAMIC T ; V = TABL ; V . 'RESULTATS' = D ;"
+        "V . 'MODELE' = M ; V . 'CARACTERISTIQUES' = A ; P = TABL ; P . 'POINT' = PC ;"
+        "P . 'COMPOSANTE' = 'UX' ; P . 'ACCELERATION_BASE' = EVOL 'MANU' LT LA ;"
+        f"P . 'FREQUENCES' = PROG {listed} ; P . 'AMORTISSEMENTS' = PROG 0.02 0.05 ;"
+        "V . 'PLANCHERS' = TABL ; V . 'PLANCHERS' . 1 = P ; V . 'FICHIER_CSV' = 'footing' ;"
+        "V . 'DESSIN' = VRAI ; R = @BILANSSI V ; X = PROG ;"
+        "REPE I (DIME LT) ; X = X ET (EXTR (D . &I . 'ACCE') 'UX' PC) ; FIN I ;"
+        "S = SPO (EVOL 'MANU' LT (X + LA)) 'AMOR' (PROG 0.02 0.05) 'FREQ' (P . 'FREQUENCES')"
+        " 'ACCE' ;"
+    )
+    result = run_text(text, options=RunOptions(output_directory=tmp_path))
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    raw, wide = (find("R").get(w).get(1) for w in ("SPECTRES", "SPECTRES_ELARGIS"))
+    fine = np.geomspace(0.5, 20.0, 20_001)
+    for part, spectrum, expected in zip(wide.parts, raw.parts, find("S").parts, strict=True):
+        np.testing.assert_allclose(spectrum.ordinates, expected.ordinates, rtol=1e-12)
+        dense = np.interp(fine, frequencies, spectrum.ordinates)
+        for f, value in zip(frequencies, part.ordinates, strict=True):
+            near = (fine >= f / 1.15) & (fine <= f / 0.85)
+            assert value == pytest.approx(dense[near].max(), rel=1e-3)
+    assert len(list(tmp_path.glob("*.png"))) == 4
+    table = (tmp_path / "footing.csv").read_text()
+    assert "RENVERSEMENT" in table.splitlines()[0]
+    assert len(table.splitlines()) == 82
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("V . 'DEBUT' = 9. ;", "stdlib.bilanssi-no-instants"),
+        ("V . 'CAPACITE' = -1. ;", "stdlib.bilanssi-above-zero"),
+        (
+            "W = TABL ; W . 1 = TABL ; W . 1 . 'TEMP' = 0. ; V . 'RESULTATS' = W ;"
+            "W . 1 . 'CONTRAINTES' = T . 'CONTRAINTES' . 1 ;"
+            "W . 1 . 'DEPL' = REDU (T . 'DEPLACEMENTS' . 1) F ;",
+            "operators.dynamics.footing-not-kept",
+        ),
+        ("V . 'MODELE' = MODE S MECANIQUE ELASTIQUE BARR ;",
+         "operators.dynamics.footing-without-joints"),
+        (
+            "S2 = DROI 2 (9. 0.) (10. 0.) ; M2 = MODE (RACC 1.E-3 (S2 PLUS (0. 0.)) S2) MECANIQUE"
+            " ELASTIQUE JOINT_SDM JOI2 ; V . 'MODELE' = M ET M2 ;"
+            f"V . 'CARACTERISTIQUES' = A ET (MATE M2 'KN' {K} 'KS' {K}) ;",
+            "operators.dynamics.several-footings",
+        ),
+    ],
+)  # fmt: skip
+def test_what_has_no_verdict_is_refused_by_name(text, code):
+    result = run_text(STRIP + PUSH + text + "R = @BILANSSI V ;")
+    assert result.exit_code == 1
+    assert result.errors[0].code == code
+
+
+def test_a_macro_element_is_refused_and_dead_load_and_missing_weight_are_told():
+    macro = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PC = 0. 0. ; PS = 0. -1. ; J = MANU 'SEG2' PS PC ;"
+        "M = MODE J MECANIQUE ELASTIQUE MACRO_SEMELLE JOI1 ;"
+        f"A = MATE M 'KN' {K} 'KS' {K} 'LARG' 4. ;"
+        "B = (BLOQ 'UX' 'UY' 'RZ' PS) ET (BLOQ 'UX' PC) ;"
+    )
+    result = run_text(macro + PUSH.replace("(FORC (1. 0.) PC)", "(FORC (0. -1.) PC)") + VERDICT)
+    assert result.errors[0].code == "stdlib.bilanssi-macro"
+    result = run_text(STRIP + PUSH + "V . 'CAPACITE' = 1.E5 ; R = @BILANSSI V ;")
+    assert [w.code for w in result.session.warnings] == ["stdlib.bilanssi-dead-load"]
+    lifted = PUSH.replace(f"(0. {-N})", "(0. 0.)").replace("0. 1. 2. 3. 4. ; P", "0. 1. ; P")
+    result = run_text(STRIP + lifted + "R = @BILANSSI V ;")
+    assert "stdlib.bilanssi-no-weight" in [w.code for w in result.session.warnings]
