@@ -155,6 +155,9 @@ _OPTIONS: tuple[Entry, ...] = (
         "('LEGE' (PLACE)) (TAB1) ;",
         examples=(
             "EV = EVOL 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; DESS EV 'GRIL' 'MIMA' ;",
+            "E1 = EVOL 'MANU' 'LEGE' 'exact' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ;\n"
+            "E2 = EVOL 'MANU' 'LEGE' 'found' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3.5 1.) ;\n"
+            "DESS (E1 ET E2) 'ECAR' ;",
             (
                 "E = EVOL 'MANU' (PROG -1. 0. 2.) (PROG -3. 9. 1.) ;\n"
                 "DESS E 'AXES' 'POSX' 'CENT' 'POSY' 'EXCE' 'LEGE' 'NE' ;"
