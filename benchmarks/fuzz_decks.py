@@ -388,7 +388,7 @@ def _ran(text: str, folder: Path, clock: _Clock, *, summary: bool) -> tuple[str,
     options = RunOptions(
         folder / "out",
         limits=Limits(50, _STATEMENTS),
-        given={"XNAN": float("nan"), "XINF": float("inf")},
+        given={n: float(n[1:]) for n in ("XNAN", "XINF") if n in text.upper()},
         summary=summary,
     )
     out, err = io.StringIO(), io.StringIO()

@@ -24,8 +24,9 @@ from types import ModuleType
 _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parent
 _KEPT = (
-    "*.md", "docs/*.md", "docs/fr/*.md", "cases/*.md", "cases/*/*.md", "cases/*/pictures/*.png",
-    "benchmarks/*.md", "benchmarks/pictures/*.png", "editors/vscode/README.md",
+    "*.md", "docs/*.md", "docs/*.ipynb", "docs/fr/*.md",
+    "cases/*.md", "cases/*/*.md", "cases/*/pictures/*.png", "benchmarks/*.md",
+    "benchmarks/pictures/*.png", "editors/vscode/README.md",
 )  # fmt: skip
 _LINES_OF_A_HEAD = 10
 _SIGN = re.compile(r"([\\`*_<>\[\]])")  # says something to Markdown, and is plain text in a head
@@ -57,11 +58,12 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Learn", (
         ("The language", "docs/language.md"), ("Uplift", "docs/uplift.md"),
         ("Meshes of others", "docs/meshes.md"), ("Sweeps", "docs/sweep.md"),
-        ("Editor", "docs/editor.md"), ("Python", "docs/python.md"), ("PETSc", "docs/petsc.md"),
+        ("Editor", "docs/editor.md"), ("Python", "docs/python.md"),
+        ("Notebooks", "docs/jupyter.md"), ("PETSc", "docs/petsc.md"),
     )),
     ("Questions", (("Questions", "docs/faq.md"),)),
     ("Physics", (
-        ("Joints and steps", "docs/uplift.md"), ("Plastic bodies", "docs/laws.md"),
+        ("The equations", "docs/physics.md"), ("Plastic bodies", "docs/laws.md"),
     )),
     ("Others", (("OpenSees", "docs/opensees.md"), ("Cast3M", "docs/differences.md"))),
     ("Français", (
@@ -149,6 +151,17 @@ def gallery_markdown(found: Sequence[Deck]) -> str:
     return "\n".join(lines)
 
 
+def with_mathml(text: str) -> str:
+    """A page whose formulas, written as on GitHub, are MathML: browsers draw it by themselves."""
+    from latex2mathml.converter import convert
+
+    def block(match: re.Match[str]) -> str:
+        return f"<div>{convert(match[1].strip(), display='block')}</div>"
+
+    text = re.sub(r"^\$\$\n(.*?)^\$\$$", block, text, flags=re.DOTALL | re.MULTILINE)
+    return re.sub(r"\$([^$\n]+)\$", lambda m: convert(m[1]), text)
+
+
 def stage(pages: Path, only: Collection[str] = ()) -> None:
     """Lay out all pages below a folder.
 
@@ -162,6 +175,8 @@ def stage(pages: Path, only: Collection[str] = ()) -> None:
             target = pages / path.relative_to(_ROOT)
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(path, target)
+    equations = pages / "docs" / "physics.md"
+    equations.write_text(with_mathml(equations.read_text(encoding="utf-8")), encoding="utf-8")
     found = decks()
     for deck in found:
         (pages / "cases" / f"{deck.place}.md").write_text(deck_markdown(deck), encoding="utf-8")
@@ -205,8 +220,8 @@ def make(target: Path, only: Collection[str] = ()) -> int:
     only : collection of str, optional
         See `stage`.
     """
-    if importlib.util.find_spec("material") is None:
-        print("the site is made by MkDocs with its theme: pip install 'ssilang[docs]'")
+    if not all(map(importlib.util.find_spec, ("material", "latex2mathml"))):
+        print("MkDocs with its theme, and latex2mathml, make the site: pip install 'ssilang[docs]'")
         return 2
     with tempfile.TemporaryDirectory() as folder:
         pages = Path(folder) / "pages"

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import node_axes
 from ssilang.api.libraries import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering
+from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.values import LazyRows, Table
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import InstantField, RecordedFields
@@ -46,15 +48,25 @@ def words_of(table: Table) -> list[str]:
     ]
 
 
-def full_word(table: Table, word: str) -> str:
-    """The index of a table of results that a word means: DEPL of DEPLACEMENTS too."""
+def full_word(table: Table, word: str, language: str) -> str:
+    """The index of a table of results that a word means: DEPL of DEPLACEMENTS too.
+
+    Raises
+    ------
+    MissingKey
+        If the table has nothing of that name in time.
+    """
     known = words_of(table)
-    return next((k for k in (word, *known) if k in known and k.startswith(word)), word)
+    for index in (word, *known):
+        if index in known and index.startswith(word):
+            return index
+    near = nearest(word, known, SHORT_LIKE)
+    raise refused("api.no-such-result", language, MissingKey, word=word, near=near, known=known)
 
 
 def over_time(table: Table, word: str, language: str) -> xarray.DataArray:
     """All values of nodal fields in time, (time, node, component)."""
-    fields, times = results_in_time(table, full_word(table, word), unmade=True)
+    fields, times = results_in_time(table, full_word(table, word, language), unmade=True)
     nodes, names, values, points = _arrays(fields)
     return library("xarray", language).DataArray(
         values,

@@ -20,6 +20,7 @@ from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
+from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.scopes import PREDEFINED, Frame
@@ -261,8 +262,11 @@ class Result(Mapping[str, Any]):
             For a word, a component or a point that is not there: what is near.
         """
         results = self._results(table)
-        text = f"EVOL 'TEMP' RESULTS '{histories.full_word(results, word)}' '{component}' PLACE ;"
-        place = self._place(point, results, word, component)
+        index = histories.full_word(results, word, self.language)
+        text = f"EVOL 'TEMP' RESULTS '{index}' '{component}' PLACE ;"
+        place = self._place(point, results, index, component)
+        if isinstance(place, Point):  # as a mesh: the curve gets the name that the script gave it
+            place = poi1(place.nodes, np.array([place.node]))
         found = self._evaluated(text, {"RESULTS": results, "PLACE": place})
         return CurveView(found[0])
 
@@ -306,7 +310,7 @@ class Result(Mapping[str, Any]):
     def _node_at(self, at: Any, table: Table, word: str, component: str) -> int:
         """The node at coordinates, of those where the component was saved."""
         nodes = workspace(self.session).nodes
-        among = histories.nodes_of(table, histories.full_word(table, word), component)
+        among = histories.nodes_of(table, word, component)
         if not len(among):
             among = np.unique(nodes.resolve(np.arange(len(nodes))))
         x = nodes.coordinates[among]

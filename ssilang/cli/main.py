@@ -1,4 +1,4 @@
-"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `warm`, `repl`, `version`."""
+"""The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `view`, `repl` ..."""
 
 from __future__ import annotations
 
@@ -158,11 +158,15 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
+    from ssilang.kernel.base.compiled import ALLOWED
+
+    ALLOWED.add("beside")
     run_options = _run_options(options)
+    run_options.report = options.report
     run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
-        from ssilang.cli.repl import interact
+        from ssilang.cli.terminal.repl import interact
 
         return interact(result.session)
     return result.exit_code
@@ -212,6 +216,20 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
             raise SystemExit(USAGE)
         given[name] = values[0]
     return given
+
+
+def _report(options: argparse.Namespace) -> int:
+    from ssilang.cli.run import write_report
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.language.say.diagnostics import render
+    from ssilang.language.say.errors import SsiError
+
+    try:
+        sys.stdout.write(write_report(options.folder, options.lang) + "\n")
+    except (InputError, OutputError) as problem:
+        sys.stderr.write(render(SsiError.of(problem, None), options.lang) + "\n")
+        return USAGE if isinstance(problem, InputError) else FAILED
+    return OK
 
 
 def _sweep(options: argparse.Namespace) -> int:
@@ -287,6 +305,23 @@ def _completion(options: argparse.Namespace) -> int:
     return OK
 
 
+def _view(options: argparse.Namespace) -> int:
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.io.viewer import Wish, draw, show
+    from ssilang.language.say.errors import SsiError
+
+    wish = Wish(options.field, options.step, options.scale)
+    try:
+        if options.output is None:
+            show(options.file, wish)
+        else:
+            draw(options.file, options.output, wish)
+    except (InputError, OutputError) as problem:
+        _told(SsiError.of(problem, None), options.lang)
+        return USAGE
+    return OK
+
+
 def _lsp(options: argparse.Namespace) -> int:
     try:
         from ssilang.cli.editor.server import start
@@ -308,7 +343,7 @@ def _help(options: argparse.Namespace) -> int:
 
 
 def _repl(options: argparse.Namespace) -> int:
-    from ssilang.cli.repl import start
+    from ssilang.cli.terminal.repl import start
 
     return start(_run_options(options))
 
@@ -322,6 +357,7 @@ def _version(options: argparse.Namespace) -> int:
 
 _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "run": _run,
+    "report": _report,
     "new": _new,
     "check": _check,
     "format": _format,
@@ -329,6 +365,7 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
     "sweep": _sweep,
     "warm": _warm,
     "repl": _repl,
+    "view": _view,
     "lsp": _lsp,
     "completion": _completion,
     "version": _version,

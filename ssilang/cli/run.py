@@ -15,9 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ssilang.cli.colour import coloured
-from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
+from ssilang.cli.terminal.colour import coloured
+from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
@@ -77,6 +77,7 @@ class RunOptions:
     quiet: bool = False
     verbose: bool = False  # say by which method each calculation is done
     summary: bool = False  # write summary.json into the output folder
+    report: bool = False  # write report.html too, and the summary
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     resume: bool = False  # go on from what an earlier run of the deck kept
@@ -204,10 +205,13 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     follow_loops(session, err)
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own
+    summary = options.summary or options.report
     try:
-        if options.summary:  # it writes there in any case
+        if summary:  # it writes there in any case
             hold_folder(session)
         keep_for(session, source, options)
+        if options.report:
+            _take_down(session, source)
         with _libraries_quiet(options.debug):
             execute(session, source)
     except SeveralErrors as several:
@@ -222,6 +226,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     _tell_refused_code(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
+        _end_recording(session, errors)
         _close_files(session, errors)
         if not errors:
             _forget_checkpoints(session)
@@ -234,10 +239,39 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
     seconds = time.perf_counter() - session.started - session.away()
     result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
-    if options.summary and not refused:  # what stands there is the other run's
+    if summary and not refused:  # what stands there is the other run's
         _summarise(result, source, err, options.quiet)
+        if options.report:
+            _report(result, err, options.quiet)
     _release_folder(session)
     return result
+
+
+def _take_down(session: Session, source: Source) -> None:
+    """Let the run take down what its report shows."""
+    from ssilang.io.recording import FOLDER, Recording
+    from ssilang.operators.files.outputs import run_output
+
+    output = run_output(session)
+    told = {"name": source.name, "text": source.text, "language": session.language}
+    output.recording = Recording(output.directory / FOLDER, told)
+
+
+def _end_recording(session: Session, errors: list[SsiError]) -> None:
+    """Write what was taken down, also of a run that failed; what cannot be written is an error."""
+    from ssilang.io.errors import OutputError
+    from ssilang.operators.files.outputs import run_output
+
+    output = run_output(session)
+    if output.recording is None:
+        return
+    from ssilang.operators.dynamics.recorded_shapes import record_shapes
+
+    try:
+        record_shapes(session, output.recording)
+        output.wrote(output.recording.write())
+    except OutputError as problem:
+        errors.append(SsiError.of(problem, None))
 
 
 def _end_petsc(session: Session) -> None:
@@ -394,6 +428,37 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
     }
     with suppress(OSError):
         err.write(visible(sentence("cli.files-written", told, session.language)) + "\n")
+
+
+def _report(result: RunResult, err: TextIO, quiet: bool) -> None:
+    """Write report.html of what stands in the output folder; where that fails, the run fails."""
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.operators.files.outputs import run_output
+
+    session = result.session
+    try:
+        text = write_report(run_output(session).directory, session.language)
+    except (InputError, OutputError) as problem:
+        text = coloured(render(SsiError.of(problem, None), session.language), err)
+        result.exit_code, quiet = result.exit_code or 1, False
+    with suppress(OSError):
+        err.write("" if quiet else text + "\n")
+
+
+def write_report(folder: Path, language: str) -> str:
+    """Write report.html of a folder of results; a line that says so.
+
+    Raises
+    ------
+    InputError, OutputError
+        If no run has left anything there, or it cannot be written.
+    """
+    from ssilang.cli.editor.outline import colours_of_text
+    from ssilang.report.report_file import make_report
+
+    path = make_report(folder, language, colours_of_text)
+    told = {"path": path, "size": path.stat().st_size / 1e6}
+    return visible(sentence("report.written", told, language))
 
 
 def _energy(session: Session, calculations: list[dict[str, Any]]) -> dict[str, str]:

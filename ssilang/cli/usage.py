@@ -16,8 +16,8 @@ from typing import Any, NoReturn
 from ssilang.messages.message import Teller, teller
 
 COMMANDS = (
-    "run", "new", "check", "format", "help", "sweep", "warm", "repl", "lsp", "completion",
-    "version",
+    "run", "report", "new", "check", "format", "help", "sweep", "warm", "repl", "view", "lsp",
+    "completion", "version",
 )  # fmt: skip
 LANGUAGES = ("en", "fr")
 SHELLS = ("bash", "zsh", "fish", "words")
@@ -107,6 +107,9 @@ def parser(words: Sequence[str]) -> Parser:
     commands = made.add_subparsers(dest="command", metavar=f"{{{','.join(COMMANDS)}}}")
     command = partial(commands.add_parser, told=told)
     _run(command("run", help="cli.usage-run"))
+    report = command("report", help="cli.usage-report", epilog="cli.usage-report-example")
+    report.add_argument("folder", type=Path, metavar="DIR", help="cli.usage-report-folder")
+    _language_argument(report)
     new = command("new", help="cli.usage-new")
     new.add_argument("name", nargs="?", default="", help="cli.usage-new-name")
     new.add_argument("file", nargs="?", type=Path, help="cli.usage-new-file")
@@ -127,6 +130,7 @@ def parser(words: Sequence[str]) -> Parser:
     _sweep(command("sweep", help="cli.usage-sweep"))
     _warm(command("warm", help="cli.usage-warm", epilog="cli.usage-warm-example"))
     _session_arguments(command("repl", help="cli.usage-repl"))
+    _view(command("view", help="cli.usage-view"))
     _language_argument(command("lsp", help="cli.usage-lsp"))
     shell = command("completion", help="cli.usage-completion")
     shell.add_argument("shell", choices=SHELLS, help="cli.usage-shell")
@@ -151,6 +155,7 @@ def _run(run: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="NAME=VALUE", help="cli.usage-set-one"
     )
     run.add_argument("--resume", action="store_true", help="cli.usage-resume")
+    run.add_argument("--report", action="store_true", help="cli.usage-report-option")
     run.add_argument("-i", "--interactive", action="store_true", help="cli.usage-interactive")
 
 
@@ -172,6 +177,15 @@ def _warm(warm: argparse.ArgumentParser) -> None:
     warm.add_argument("files", nargs="*", type=Path, metavar="DECK", help="cli.usage-warm-files")
     _allowed(warm)
     _language_argument(warm)
+
+
+def _view(view: argparse.ArgumentParser) -> None:
+    view.add_argument("file", type=Path, help="cli.usage-view-file")
+    view.add_argument("-o", "--output", type=Path, metavar="FILE", help="cli.usage-view-output")
+    view.add_argument("--field", default="", metavar="NAME[:PART]", help="cli.usage-view-field")
+    view.add_argument("--step", type=int, metavar="N", help="cli.usage-view-step")
+    view.add_argument("--scale", type=float, metavar="X", help="cli.usage-view-scale")
+    _language_argument(view)
 
 
 def _session_arguments(to: argparse.ArgumentParser) -> None:

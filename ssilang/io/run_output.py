@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Checkpoints, Deck
+    from ssilang.io.recording import Recording
 
 _SHOWN = 60  # letters of a name in a message
 _FLUSH_EVERY = 1.0  # seconds: a loop that adds lines does not rewrite the file at each turn
@@ -59,6 +60,8 @@ class RunOutput:
         Whether it goes on from what an earlier run of the deck kept.
     read : list of Path
         Files that were read and that the run has not written, each once.
+    recording : Recording or None
+        What is taken down for a report, if one was asked for.
     """
 
     directory: Path
@@ -71,6 +74,7 @@ class RunOutput:
     deck: Callable[[], Deck] | None = None
     resume: bool = False
     read: list[Path] = field(default_factory=list)
+    recording: Recording | None = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 

@@ -73,6 +73,12 @@ MESSAGES: dict[str, Message] = {
         "say which: table='NAME'",
         "dites laquelle : table='NOM'",
     ),
+    "no-such-result": Message(
+        "the table of results has no '{word}'",
+        "la table de résultats n'a pas de '{word}'",
+        "{near:?did you mean '{near}'?|it has {known:and}}",
+        "{near:?vouliez-vous dire '{near}' ?|elle a {known:and}}",
+    ),
     "no-point": Message(
         "a {kind} is no point",
         "un {kind} n'est pas un point",

@@ -162,6 +162,25 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-run": Message(
         "run a script (- for standard input)", "exécute un script (- pour l'entrée standard)"
     ),
+    "usage-report": Message(
+        "report.html of a folder of results", "report.html d'un répertoire de résultats"
+    ),
+    "usage-report-folder": Message(
+        "folder of a run, such as results/case", "répertoire d'un calcul, comme results/cas"
+    ),
+    "usage-report-option": Message(
+        "write report.html into the output folder: checks, energies, curves, the footing in "
+        "contact, the scene that turns and plays",
+        "écrire report.html dans le répertoire des résultats : vérifications, énergies, courbes, "
+        "semelle en contact, scène qui tourne et se joue",
+    ),
+    "usage-report-example": Message(
+        "Example: ssilang run tower.ssi --report writes results/tower/report.html, one file that "
+        "opens in any browser; ssilang report results/tower --lang fr makes it again, in French.",
+        "Exemple : ssilang run tour.ssi --report écrit results/tour/report.html, un seul fichier "
+        "qui s'ouvre dans tout navigateur ; ssilang report results/tour --lang en le refait, en "
+        "anglais.",
+    ),
     "usage-check": Message("report mistakes without running", "signale les fautes sans exécuter"),
     "usage-help-of": Message(
         "help of a word, or what is known about it", "aide d'un mot, ou ce qu'on en sait"
@@ -315,6 +334,27 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "lsp-extra": Message(
         "the language server needs pygls: pip install 'ssilang[editor]'",
         "le serveur de langage demande pygls : pip install 'ssilang[editor]'",
+    ),
+    "usage-view": Message(
+        "show results, a mesh or a picture in a window, or draw it to a file",
+        "montre des résultats, un maillage ou une image dans une fenêtre, ou les dessine",
+    ),
+    "usage-view-file": Message(
+        "file (vtkhdf, pvd, vtu, msh, med, png ...) or folder of results",
+        "fichier (vtkhdf, pvd, vtu, msh, med, png ...) ou dossier de résultats",
+    ),
+    "usage-view-output": Message(
+        "write a picture (png, jpg) or all instants (gif) instead of opening a window",
+        "écrit une image (png, jpg) ou tous les instants (gif) au lieu d'ouvrir une fenêtre",
+    ),
+    "usage-view-field": Message(
+        "field that colours, and its component (the displacement, or the first field)",
+        "champ qui colore, et sa composante (le déplacement, ou le premier champ)",
+    ),
+    "usage-view-step": Message("instant, from 1 (the last)", "instant, à partir de 1 (le dernier)"),
+    "usage-view-scale": Message(
+        "displacements so many times as large (a scale that shows them)",
+        "déplacements multipliés par ce nombre (une échelle qui les montre)",
     ),
     "usage-lsp": Message(
         "language server for editors, over standard input and output",

@@ -46,6 +46,48 @@ MESSAGES: dict[str, Message] = {
         "there is nothing to draw: the mesh is empty",
         "il n'y a rien à tracer : le maillage est vide",
     ),
+    "not-viewed": Message(
+        "'{path}' cannot be shown: {reason}", "'{path}' ne se montre pas : {reason}"
+    ),
+    "not-viewed-no-points": Message(
+        "'{path}' holds no points, or is damaged",
+        "'{path}' ne contient aucun point, ou est endommagé",
+    ),
+    "not-viewed-absent": Message(
+        "there is no file or folder '{path}'", "il n'y a ni fichier ni dossier '{path}'"
+    ),
+    "not-viewed-kind": Message(
+        "'{path}' is of no kind that can be shown",
+        "'{path}' n'est pas d'une sorte qui se montre",
+        "files end in {known:words}",
+        "les fichiers se terminent par {known:words}",
+    ),
+    "not-viewed-empty": Message(
+        "the folder '{path}' holds nothing to show",
+        "le dossier '{path}' ne contient rien à montrer",
+        "results end in {known:words}",
+        "les résultats se terminent par {known:words}",
+    ),
+    "not-drawn-kind": Message(
+        "'{path}' is no name of a picture",
+        "'{path}' n'est pas un nom d'image",
+        "pictures end in {known:words}; a gif holds all instants",
+        "les images se terminent par {known:words} ; un gif contient tous les instants",
+    ),
+    "no-screen": Message(
+        "there is no screen to open a window on",
+        "il n'y a pas d'écran où ouvrir une fenêtre",
+        "write a picture: ssilang view {path} -o picture.png",
+        "écrivez une image : ssilang view {path} -o image.png",
+    ),
+    "no-such-instant": Message(
+        "instant {step} is asked for, there {count:is|are} {count}",
+        "l'instant {step} est demandé, il y en a {count}",
+    ),
+    "no-such-array": Message(
+        "there is no field '{field}', the file has {names}",
+        "il n'y a pas de champ '{field}', le fichier a {names}",
+    ),
     "no-drawing-in-space": Message(
         "the picture is left out: nothing here draws in space without a screen ({reason})",
         "l'image est omise : rien ici ne dessine en 3D sans écran ({reason})",

@@ -194,6 +194,12 @@ MESSAGES: dict[str, Message] = {
         "statements run from top to bottom: move that line before this one",
         "les instructions s'exécutent de haut en bas : mettez cette ligne avant celle-ci",
     ),
+    "type-for-operator": Message(
+        "{word} is a type, and no operator",
+        "{word} est un type, et non un opérateur",
+        "{maker} makes such a list",
+        "{maker} fait une telle liste",
+    ),
     "unread-operator": Message(
         "the phrase ends before {name}, which is not run{before_text}",
         "la phrase finit avant {name}, qui n'est pas exécuté{before_text}",

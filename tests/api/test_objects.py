@@ -22,6 +22,7 @@ def test_a_history_at_a_point_by_name_number_and_place(swing, point):
     assert len(u.x) == 51
     assert u.y == pytest.approx(exact(u.x), abs=4e-4)  # steps of a 314th of the period
     assert u.units == ("s", "m")
+    assert u.names == ("UX P1",)
     assert u.series().loc[0.5] == pytest.approx(exact(0.5), abs=4e-4)
 
 
@@ -30,8 +31,8 @@ def test_a_mesh_gives_a_curve_a_node(swing):
     assert len(both) == 2
     frame = both.frame()
     assert frame.shape == (51, 2)
-    assert abs(frame["UX 2"]).max() == pytest.approx(2.0, rel=2e-3)
-    assert abs(frame["UX 1"]).max() == 0.0
+    assert abs(frame["UX P1"]).max() == pytest.approx(2.0, rel=2e-3)
+    assert abs(frame["UX P0"]).max() == 0.0
 
 
 @pytest.mark.parametrize(
@@ -41,7 +42,7 @@ def test_a_mesh_gives_a_curve_a_node(swing):
         (("DEPL", "UX", 9), "there is no node 9: they are counted from 1 to 6"),
         (("DEPL", "UX", "P2"), "P2"),
         (("DEPL", "UW", "P1"), "there are UX, UY"),
-        (("DEPO", "UX", "P1"), "DEPO"),
+        (("DEPO", "UX", "P1"), "did you mean 'DEPL'?"),
         (("DEPL", "UX", {}), "a dict is no point"),
         (("DEPL", "UX", "P1", "T1"), "no table of results"),
     ],
@@ -86,6 +87,24 @@ def test_all_values_in_time_as_xarray(oscillator, touched):
     at = u.sel(node=2, component="UX")
     assert at.values == pytest.approx(0.5 * exact(u.time.values), abs=2e-4)
     assert u.x.values.tolist() == [0.0, 1.0]
+
+
+def test_results_of_pasapas_are_read_in_the_same_way():
+    deck = """OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P0 = 0. 0. ; P1 = 1. 0. ; L = P0 D 1 P1 ;
+    MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
+    MA = MATE MO 'YOUN' 100. 'NU' 0. 'SECT' 1. 'RHO' 0. ;
+    T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' P0) ET (BLOQ 'UY' P1) ;
+    EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;
+    T . 'CHARGEMENT' = CHAR 'MECA' (FORC (5. 0.) P1) EV ;
+    T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.25 1. ; PASAPAS T ;"""
+    r = ssilang.run(deck)
+    exact = 0.05 * np.linspace(0.0, 1.0, 5)  # F L / (E A)
+    assert r.history("DEPL", "UX", (1.0, 0.0)).y == pytest.approx(exact)
+    u = r["T"].xarray("DEPLACEMENTS")
+    assert u.sel(node=2, component="UX").values == pytest.approx(exact)
+    with pytest.raises(KeyError, match="the table of results has no 'VITE'"):
+        r.history("VITE", "UX", "P1")
 
 
 def test_fields_at_nodes_and_in_cells(swing):

@@ -43,7 +43,8 @@ def test_a_page_belongs_to_the_navigation(web, tmp_path):
 
 
 @pytest.mark.skipif(
-    importlib.util.find_spec("material") is None, reason="mkdocs-material is not installed"
+    not all(map(importlib.util.find_spec, ("material", "latex2mathml"))),
+    reason="mkdocs-material and latex2mathml, extra docs, are not installed",
 )
 def test_the_site_is_made_and_no_link_leads_nowhere(web, tmp_path, capfd):
     assert web.make(tmp_path / "site", ("LIRE", "MAILLER")) == 0, capfd.readouterr().err
@@ -53,6 +54,9 @@ def test_the_site_is_made_and_no_link_leads_nowhere(web, tmp_path, capfd):
     assert "pictures/strip_uplift.png" in deck.read_text(encoding="utf-8")
     gallery = (tmp_path / "site" / "cases" / "gallery.html").read_text(encoding="utf-8")
     assert "n**2 pi/(2 L**2) sqrt(E I/(rho A))" in gallery  # signs of formulas are no emphasis
+    equations = (tmp_path / "site" / "docs" / "physics.html").read_text(encoding="utf-8")
+    assert equations.count("<math") > 40
+    assert "$" not in equations.partition("<article")[2].partition("</article")[0]
     index = json.loads((tmp_path / "site" / "search" / "search_index.json").read_text())
     places = {d["location"].partition("#")[0] for d in index["docs"]}
     assert {"docs/reference/lire.html", "docs/reference/mailler.html"} <= places

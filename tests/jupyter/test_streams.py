@@ -1,6 +1,6 @@
 """What a session in a notebook prints: few messages, and one line of progress."""
 
-from ssilang.cli.loop_progress import LoopProgress
+from ssilang.cli.terminal.loop_progress import LoopProgress
 from ssilang.jupyter.streams import SentProgress, SentText
 from ssilang.messages.message import teller
 from ssilang.operators.session.progress import ProgressLine
@@ -29,8 +29,8 @@ def test_progress_is_one_line_that_goes_away(monkeypatch):
 
 
 def test_loops_too(monkeypatch):
-    monkeypatch.setattr("ssilang.cli.loop_progress.PATIENCE", 0.0)
-    monkeypatch.setattr("ssilang.cli.loop_progress.REFRESH", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.PATIENCE", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.REFRESH", 0.0)
     shown = []
     loops = LoopProgress(SentProgress(shown.append), teller("en"))
     loops.enter("B", 3)

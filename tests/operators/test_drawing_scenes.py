@@ -65,6 +65,13 @@ def test_pictures_are_named_after_title_or_objects(tmp_path: Path) -> None:
     assert names == ["0001_x-s.png", "0002_the-plate.png", "0003_in-force.png"]
 
 
+def test_the_bar_has_the_units_of_the_deck_where_they_are_certain(tmp_path: Path) -> None:
+    run("OPTI TRAC SVG UNIT 'N-MM' ; TRAC MO SG ; TRAC U S ;", tmp_path)
+    stress, displacement = (p.read_text("utf-8") for p in sorted(tmp_path.glob("*.svg")))
+    assert ">von Mises (MPa)" in stress
+    assert ">UX   " in displacement  # it may be a velocity
+
+
 SOLID = (
     "OPTI DIME 3 ELEM SEG2 MODE TRID ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; OPTI ELEM QUA4 ; "
     "S = TRAN L 1 (0. 1. 0.) ; OPTI ELEM CUB8 ; V = S VOLU 'TRAN' 2 (0. 0. 1.) ; X = COOR 1 V ; "

@@ -11,6 +11,7 @@ from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.names import Kind
 from ssilang.cli.editor.tokens import Phrase
 from ssilang.language.registry import find_operator
+from ssilang.language.text.source import Source
 
 OPENS = {"DEBP": "FINP", "DEBM": "FINM", "SI": "FINS", "REPE": "FIN"}
 CONTROL = frozenset({*OPENS, *OPENS.values(), "SINO", "QUIT", "ITER"})
@@ -106,6 +107,11 @@ def folds(document: Document) -> Iterator[tuple[int, int, str]]:
                 yield start, before, "comment"
             start = number
         before = number
+
+
+def colours_of_text(text: str) -> list[tuple[int, int, Colour]]:
+    """The colours of a script's text."""
+    return colours(Document(Source("script", text)))
 
 
 def colours(document: Document) -> list[tuple[int, int, Colour]]:

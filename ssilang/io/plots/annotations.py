@@ -166,13 +166,35 @@ def _triad(axes: Axes, view: View) -> None:
         corner.text(x, y, name, fontsize=8, color="#4a4f57", ha="center", va="center")
 
 
+Ends = dict[str, FloatArray]
+"""Places (n, 3) of the least ('min') and the largest ('max') value."""
+
+
+def mark_extremes(
+    axes: Axes, view: View, ends: Ends, photograph: Photograph | None, bounds: FloatArray
+) -> None:
+    """Mark where the extreme values are, if they are seen."""
+    for name, marker in (("min", "v"), ("max", "^")):
+        places = ends.get(name, np.empty((0, 3)))
+        flat = view.project(places)
+        if photograph is not None:
+            flat = flat[photograph.shows(flat, view.depth(places), bounds)]
+        if len(flat):
+            axes.plot(
+                *flat.T, linestyle="none", marker=marker, markersize=7, zorder=6,
+                markerfacecolor="white", markeredgecolor="#1b1f24", markeredgewidth=1.0,
+                clip_on=False, gid=name,
+            )  # fmt: skip
+
+
 def colour_bar(
     axes: Axes,
     levels: Levels,
     name: str,
     extremes: tuple[float, float] | None,
+    marked: bool,
 ) -> None:
-    """The colour bar with the name of what is shown and its extremes."""
+    """The colour bar with the name of what is shown and its extremes, with their marks if any."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.ticker import FuncFormatter
 
@@ -195,5 +217,6 @@ def colour_bar(
     bar.formatter = FuncFormatter(lambda value, _: f"{value:.4g}")
     text = name
     if extremes is not None:
-        text += f"    min {extremes[0]:.4g}   max {extremes[1]:.4g}"
+        low, high = ("\u25bd ", "\u25b3 ") if marked else ("", "")
+        text += f"    {low}min {extremes[0] + 0.0:.4g}   {high}max {extremes[1] + 0.0:.4g}"
     bar.set_label(text, fontsize=9)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ssilang.io.plots.labels import Annotation, Category
 from ssilang.io.plots.layers import Layer
 from ssilang.io.plots.values import component_names
 from ssilang.kernel.fields.cell_field import CellField
@@ -43,12 +44,16 @@ class Subjects:
 
 @dataclass
 class Composition:
-    """Layers, arrows that stand still, components (one panel each), notes under the picture."""
+    """Layers, arrows that stand still, components (one panel each), notes under the picture.
+
+    `legend` says what the colours of several deformed shapes stand for.
+    """
 
     layers: list[Layer]
     arrows: Arrows | None = None
     components: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    legend: Annotation = field(default_factory=Annotation)
 
 
 def compose(subjects: Subjects) -> Composition:
@@ -58,7 +63,8 @@ def compose(subjects: Subjects) -> Composition:
         parts = with_scales(subjects.deformed.parts)
         if subjects.values is not None:
             parts = parts[:1]
-        made.notes = _amplifications(parts)
+        made.legend = _legend(parts)
+        made.notes = () if made.legend.categories else _amplifications(parts)
     else:
         parts = ()
     if subjects.values is not None:
@@ -88,6 +94,15 @@ def _amplifications(parts: tuple[DeformedPart, ...]) -> tuple[str, ...]:
     if not scales:
         return ()
     return ("amplification " + ", ".join(f"{s:.4g}" for s in scales),)
+
+
+def _legend(parts: tuple[DeformedPart, ...]) -> Annotation:
+    """The amplification of each colour, where several shapes are told apart by theirs."""
+    seen = {p.colour: p.scale or 0.0 for p in parts}
+    one_each = all(seen[p.colour] == (p.scale or 0.0) for p in parts)
+    if len(seen) < 2 or None in seen or not one_each:
+        return Annotation()
+    return Annotation(tuple(Category(c or 0, f"amplification {s:.4g}") for c, s in seen.items()))
 
 
 def _add_field(made: Composition, subjects: Subjects, moved: DeformedPart | None) -> None:

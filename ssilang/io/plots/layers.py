@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ssilang.io.plots.labels import Annotation
@@ -68,6 +69,8 @@ class PictureOptions:
         Stand at the sides of a picture in the plane.
     legend_name : str, optional
         Stands over the colour bar instead of the component.
+    unit_of : function, optional
+        What stands behind a component's name over the colour bar, '' where that is not certain.
     frame : Mesh, optional
         The picture shows its surroundings only (BOIT).
     only_colour : int, optional
@@ -97,6 +100,7 @@ class PictureOptions:
     axes: tuple[str, str] = ("", "")
     legend_name: str | None = None
     legend: bool = True
+    unit_of: Callable[[str], str] | None = None
     frame: Mesh | None = None
     bounds: FloatArray | None = None
     only_colour: int | None = None

@@ -16,6 +16,7 @@ import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
+from ssilang.io.plots.annotations import Ends
 from ssilang.io.plots.cutting import behind
 from ssilang.io.plots.faces import (
     add_bands,
@@ -32,6 +33,7 @@ from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.patches import Faces, visible_faces
 from ssilang.io.plots.stage import Stage
+from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import Plane, View, plane_view
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows
@@ -170,9 +172,17 @@ class _Panel:
         """All that takes place beside the drawing itself."""
         notes.frame(self.axes, self.view, self.bounds, self.options.axes)
         if self.levels is not None and self.options.legend:
-            of_layers = (x.component for x, _ in self.prepared if x.field is not None)
-            name = self.options.legend_name or next(of_layers)
-            notes.colour_bar(self.axes, self.levels, to_mathtext(name), _range(self.prepared))
+            name = to_mathtext(self._legend_name())
+            marked = bool(self._marks())
+            notes.colour_bar(self.axes, self.levels, name, _range(self.prepared), marked)
+
+    def _legend_name(self) -> str:
+        """What the colours show: the component, with its unit if that is certain."""
+        if self.options.legend_name:
+            return self.options.legend_name
+        name = next(x.component for x, _ in self.prepared if x.field is not None)
+        unit = self.options.unit_of(name) if self.options.unit_of else ""
+        return f"{name} ({unit})" if unit else name
 
     def finish(self, arrows: Arrows | None, stage: Stage) -> None:
         """The drawing, and the texts over it that are seen."""
@@ -185,14 +195,20 @@ class _Panel:
         photograph = None
         if self.view.solid:
             hides = self.options.hidden or self.options.filled or self.levels is not None
-            deep = bool(labels.asked and hides)
+            deep = bool(hides and (labels.asked or self._marks()))
             taken = painter.photograph(self.axes, stage, self.bounds, deep)
             photograph = taken if deep else None
         else:
             painter.draw(self.axes)
         labels.write(self.axes, photograph, self.bounds)
+        notes.mark_extremes(self.axes, self.view, self._marks(), photograph, self.bounds)
         if self.options.annotation is not None:
             draw_annotation(self.axes, self.view, self.options.annotation, size)
+
+    def _marks(self) -> Ends:
+        """Where the extremes are marked: not on a section, which shows other values."""
+        shown = self.levels is not None and self.options.legend
+        return _ends(self.prepared) if shown and self.options.section is None else {}
 
 
 def _prepared(
@@ -244,6 +260,30 @@ def _range(prepared: list[tuple[Layer, list[Faces]]]) -> tuple[float, float] | N
     values = band_values(prepared)
     known = values[np.isfinite(values)] if values is not None else np.empty(0)
     return (float(known.min()), float(known.max())) if len(known) else None
+
+
+_MOST_ENDS = 3  # nodes that share an extreme value
+
+
+def _ends(prepared: list[tuple[Layer, list[Faces]]]) -> Ends:
+    """Places (n, 3) of the least and of the largest value; none if they are at many nodes."""
+    places, values = [np.empty((0, 3))], [np.empty(0)]
+    for layer, faces in prepared:
+        for f in faces if layer.field is not None else ():
+            assert layer.field is not None
+            found = values_on(f, layer.field, layer.component)
+            known = np.isfinite(found)
+            places.append(layer.positions()[f.nodes[known]])
+            values.append(found[known])
+    where, what = np.concatenate(places), np.concatenate(values)
+    if not len(what) or np.ptp(what) <= 1e-12 * np.abs(what).max():
+        return {}
+    slack = 1e-6 * float(np.ptp(what))
+    ends = {
+        "min": np.unique(where[what <= what.min() + slack], axis=0),
+        "max": np.unique(where[what >= what.max() - slack], axis=0),
+    }
+    return {name: points for name, points in ends.items() if len(points) <= _MOST_ENDS}
 
 
 def _caption(figure: Figure, options: PictureOptions) -> None:

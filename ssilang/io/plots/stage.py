@@ -192,20 +192,27 @@ class _Sheet:
 
 
 def _open() -> Any:
-    _choose_window()
+    choose_window()
     import pyvista
 
     plotter: Any = pyvista.Plotter(off_screen=True, lighting="none")
-    plotter.background_color = "white"
+    light_up(plotter)
     plotter.render_window.SetMultiSamples(0)  # pictures are drawn larger and made small
-    plotter.add_light(pyvista.Light(position=_LAMP, light_type="camera light"))
     plotter.enable_parallel_projection()
     plotter.camera.parallel_scale = 1.0
     return plotter
 
 
+def light_up(plotter: Any) -> None:
+    """White paper, and one lamp that goes with the eye."""
+    import pyvista
+
+    plotter.background_color = "white"
+    plotter.add_light(pyvista.Light(position=_LAMP, light_type="camera light"))
+
+
 @lru_cache(maxsize=1)
-def _choose_window() -> None:
+def choose_window() -> None:
     """Have VTK open the kind of window that works on this system without a screen.
 
     Left to itself VTK asks for an X server first and says so when there is none, and dies where

@@ -30,6 +30,10 @@ def _threads(count: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(count, "ssilang")
 
 
+if hasattr(os, "register_at_fork"):  # a forked process has none of these threads
+    os.register_at_fork(after_in_child=_threads.cache_clear)
+
+
 def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
     """Call `work(low, high)` until all rows are covered, side by side if there is enough to do.
 

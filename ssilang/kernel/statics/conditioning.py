@@ -17,6 +17,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.statics.linear import LinearSystem
 from ssilang.kernel.stepping.effective import effective_matrix
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -164,9 +165,14 @@ class Extremes:
 
 
 def system_extremes(system: LinearSystem, matrix: Matrix) -> Extremes | None:
-    """Condition of a matrix that is factorised; None if it is singular, or has saddle rows."""
+    """Condition of a matrix that is factorised; None if it is singular, or has saddle rows.
+
+    None by multigrid too: its residual is known, and an estimate is twenty iterations.
+    """
     inverse = system.inverse
     if inverse.singular or len(system.saddle) or system.n_masters == 0:
+        return None
+    if inverse.factor.name == MULTIGRID:
         return None
     T = system.elimination.T
     A = sp.csr_array(T.T @ system.K @ T)

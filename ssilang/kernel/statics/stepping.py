@@ -142,7 +142,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
     # what supports impose is no flight
-    if _flies_off(problem, outcome.du - problem.constraints.particular(dd), factors[1]):
+    own = outcome.du - problem.constraints.particular(dd)
+    if _flies_off(problem, own, factors[1]):
         return StepOutcome(outcome.du, 0, np.inf)
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
@@ -156,6 +157,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         problem, 0.5 * (old + motion.reaction), 0.5 * (pushed + motion.contact), outcome.du, dd,
         factors[1] - factors[0],
     )  # fmt: skip
+    if contact is None:  # loads that start out of balance grow, in the first step, from nothing
+        motion.energies[EXTERNAL] += 0.5 * old @ own
     motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
     if contact is not None and problem.contact_options.method == "PENALITE":
         motion.energies[ELASTIC] += contact.penalty_energy(

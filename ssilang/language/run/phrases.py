@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 
 # operators whose operands must stay as written
 _RAW_ITEMS = frozenset({"TEXT"})
+MADE_LISTS = {
+    "LISTREEL": "PROG", "LISTENTI": "LECT", "LISTMOTS": "MOTS", "LISTCHPO": "SUIT",
+    "LISTOBJE": "ENUM",
+}  # fmt: skip
+"""Types whose first four letters are an operator's, with the operators that make them."""
 _SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
 # how numpy begins to refuse an array that no memory holds
 _BEYOND_MEMORY = ("array is too big", "Maximum allowed")
@@ -111,6 +116,8 @@ class PhraseRunner(OperandReader):
                 return
 
     def _operate(self, found: Operator, operand: Operand, call: Call) -> None:
+        if found.name == "LIST" and (word := operand.value.rstrip().upper()) in MADE_LISTS:
+            raise SsiError("type-for-operator", operand.span, word=word, maker=MADE_LISTS[word])
         call.span, call.name, call.used = operand.span, found.full_name, []
         try:
             results = self.guarded(lambda: run_operator(found, call), operand.span, found.full_name)

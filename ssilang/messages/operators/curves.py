@@ -187,6 +187,10 @@ MESSAGES: dict[str, Message] = {
     "no-results-in-time": Message(
         "the table holds no results in time at index {index}",
         "la table ne contient pas de résultats en temps à l'indice {index}",
+        "DYNAMIC gives them in another table, TAB2 = DYNAMIC TAB1; PASAPAS keeps 'DEPLACEMENTS' "
+        "in its own",
+        "DYNAMIC les donne dans une autre table, TAB2 = DYNAMIC TAB1 ; PASAPAS garde "
+        "'DEPLACEMENTS' dans la sienne",
     ),
     "no-such-step": Message(
         "there are {n_fields} {n_fields:step|steps}",

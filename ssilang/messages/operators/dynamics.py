@@ -95,6 +95,12 @@ MESSAGES: dict[str, Message] = {
         "run without --resume",
         "calculer sans --resume",
     ),
+    "checkpoint-of-report": Message(
+        "the run that left '{folder}' was made {reported:?with|without} --report",
+        "le calcul qui a laissé '{folder}' a été fait {reported:?avec|sans} --report",
+        "go on in the same way: --resume {reported:?--report|without --report}",
+        "continuer de la même façon : --resume {reported:?--report|sans --report}",
+    ),
     "charmeca-gives-a-table": Message(
         "the procedure CHARMECA must give one TABLE",
         "la procédure CHARMECA doit rendre une TABLE",
@@ -303,5 +309,22 @@ MESSAGES: dict[str, Message] = {
     "compiling": Message(
         "compiling the time loop, once on this machine (5 to 40 s)",
         "compilation de la boucle en temps, une fois sur cette machine (5 à 40 s)",
+    ),
+    "nothing-moves": Message(
+        "nothing sets anything in motion: no load, no initial displacement, no initial velocity",
+        "rien ne met quoi que ce soit en mouvement : ni chargement, ni déplacement ou vitesse "
+        "initiaux",
+        "TAB1 . 'CHAR', 'DEPL' or 'VITE'",
+        "TAB1 . 'CHAR', 'DEPL' ou 'VITE'",
+        severity="warning",
+    ),
+    "load-ends": Message(
+        "the curve of the loads {name} ends at {end:.6g} with {value:.4g}, which is kept until "
+        "{last:.6g}",
+        "l'évolution du chargement {name} finit à {end:.6g} par {value:.4g}, gardé jusqu'à "
+        "{last:.6g}",
+        "give the curve to the end of the calculation; are its times in other units?",
+        "donnez l'évolution jusqu'à la fin du calcul ; ses temps sont-ils dans une autre unité ?",
+        severity="warning",
     ),
 }

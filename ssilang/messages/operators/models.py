@@ -245,6 +245,13 @@ MESSAGES: dict[str, Message] = {
         "{text}: {described}",
         "{text}: {described}",
     ),
+    "friction-as-angle": Message(
+        "{name} = {value:g} is an unusually large coefficient of friction",
+        "{name} = {value:g} est un coefficient de frottement anormalement grand",
+        "{degrees:?of an angle of {value:g} degrees it would be {tangent:.3g}}",
+        "{degrees:?d'un angle de {value:g} degrés, ce serait {tangent:.3g}}",
+        severity="warning",
+    ),
     "no-stiffness": Message(
         "YOUN = 0: these cells resist nothing, and nodes that have no others are held by nothing",
         "YOUN = 0 : ces éléments ne résistent à rien, et les noeuds qui n'en ont pas d'autres ne "

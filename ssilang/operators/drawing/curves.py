@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
@@ -31,7 +31,11 @@ from ssilang.operators.drawing.pictures import (
     refuse_rest,
     save_picture,
 )
+from ssilang.operators.files.outputs import run_output
 from ssilang.operators.workspace import workspace
+
+if TYPE_CHECKING:
+    from ssilang.io.recording import Recording
 
 
 def _corner() -> Keyword:
@@ -173,10 +177,38 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     if "title" not in found and not curve.title.strip():
         found["title"] = workspace(call.session).title
     units = workspace(call.session).units
-    figure = draw_curves(curve, CurveOptions(**found, written=units.written if units else None))
+    options = CurveOptions(**found, written=units.written if units else None)
+    figure = draw_curves(curve, options)
     title = str(found.get("title") or curve.title)
     stem = picture_name(call.session, title, curves[0].name or "dess")
-    save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+    files = save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+    recording = run_output(call.session).recording
+    if recording is not None:
+        _take_down(recording, curve, options, title, [f.name for f in files])
+
+
+def _take_down(
+    recording: Recording, curve: Curve, options: CurveOptions, title: str, files: list[str]
+) -> None:
+    """The same curves for the run's report, where they are of numbers."""
+    numbers = options.chosen or range(1, len(curve.parts) + 1)
+    drawn = {n: curve.parts[n - 1] for n in numbers}
+    plain = {n: p for n, p in drawn.items() if not p.words and not p.abscissa_words}
+    if not plain:
+        return
+    first = next(iter(plain.values()))
+    told = {
+        "title": title,
+        "x": options.x_title or first.abscissa_name,
+        "y": options.y_title or first.ordinate_name,
+        "log": [options.log_x, options.log_y],
+        "files": files,
+    }
+    lines = [
+        {"name": options.names.get(n, p.legend), "x": p.abscissas, "y": p.ordinates}
+        for n, p in plain.items()
+    ]
+    recording.draw(told, lines)
 
 
 def _settings(

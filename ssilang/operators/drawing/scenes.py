@@ -16,6 +16,7 @@ from ssilang.io.plots.layers import PictureOptions
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.scene import draw_scene
+from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
@@ -39,6 +40,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.session import Session
 from ssilang.language.values import type_of
+from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -178,7 +180,7 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "plane, SECT what is cut by it, BOIT frames a mesh, TITR LEGE NOLE DATE for texts; "
         "ANIME writes an animated GIF of the successive deformed shapes beside the picture, OSCIL "
         "one that also runs back. A field of several components is drawn in several panels, a "
-        "stress in cells as von Mises.",
+        "stress in cells as von Mises; triangles mark its least and largest value.",
         fr="Trace dans une image PNG numérotée du dossier de sortie : un maillage (ou celui sur "
         "lequel s'appuie une rigidité), des déformées, des vecteurs, un champ par points ou par "
         "éléments en isovaleurs (selon OPTI ISOV), avec un nombre ou une liste de niveaux ; un "
@@ -190,7 +192,8 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "au-delà d'un plan, SECT ce qu'il coupe, BOIT cadre sur un maillage, TITR LEGE NOLE DATE "
         "pour les textes ; ANIME écrit à côté de l'image un GIF animé des déformées successives, "
         "OSCIL un GIF aller et retour. Un champ à plusieurs composantes a plusieurs vignettes, "
-        "une contrainte par éléments est tracée en von Mises.",
+        "une contrainte par éléments est tracée en von Mises ; des triangles marquent la plus "
+        "petite et la plus grande valeur.",
         syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') ('FACE') "
         "('ECLA' (FLOT1)) ('COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) ('BOIT' MAIL2) ;\n"
         "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
@@ -261,6 +264,10 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     options.setdefault("title", ws.title)
     options["iso"] = _ISO.get(str(ws.options.get("ISOV", ""))[:4].upper(), "SURFACE")
     options["notes"] = made.notes
+    if made.legend.categories:
+        given = options.get("annotation", Annotation())
+        options["annotation"] = made.legend.joined(given)
+    options["unit_of"] = _unit_of(ws)
     options["axes"] = _axes(ws)
     if said.qualify:
         options["labels"] = _labels(session, [layer.mesh for layer in made.layers])
@@ -293,6 +300,18 @@ def _axes(ws: Workspace) -> tuple[str, str]:
     first, second = "rz" if round_axis else "xy"
     unit = ws.units.written("m")
     return f"{first} ({unit})", f"{second} ({unit})"
+
+
+def _unit_of(ws: Workspace) -> Callable[[str], str] | None:
+    """Units of components that are certain, in the deck's system (UX may be a speed)."""
+    units = ws.units
+    if units is None:
+        return None
+
+    def unit_of(component: str) -> str:
+        return units.written("Pa" if component == VON_MISES else result_unit(component, ""))
+
+    return unit_of
 
 
 def _view(session: Session, said: _Said, meshes: list[Mesh]) -> View:

@@ -208,6 +208,7 @@ class KeptCalculation:
             "procedure": self.entries.procedure,
             "problem": self._known,
             "bodies": bodies,
+            "report": run_output(self.session).recording is not None,
             "files": self._files(),
         }
 
@@ -231,6 +232,10 @@ class KeptCalculation:
         if changed:
             raise self.entries.error(
                 "operators.dynamics.checkpoint-of-files", folder=folder, files=changed
+            )
+        if kept.get("report", False) != own["report"]:
+            raise self.entries.error(
+                "operators.dynamics.checkpoint-of-report", folder=folder, reported=not own["report"]
             )
         if any(kept[word] != own[word] for word in ("procedure", "problem", "bodies")):
             raise self.entries.error(

@@ -30,10 +30,13 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
+from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
+    warn_at_rest,
     warn_motion_elsewhere,
     warn_of_connections,
+    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -70,6 +73,7 @@ MOST_STEPS = 1e9
 )
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
+    from ssilang.kernel.base.compiled.beside import tell_ahead
     from ssilang.kernel.base.compiled.cache import is_compiled
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_track import NodeTrack
@@ -81,6 +85,8 @@ def zdyn(call: Call, table: Table) -> Table:
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
     warn_motion_elsewhere(entries, problem, inputs)
+    warn_at_rest(entries, inputs)
+    warn_of_loads_that_end(entries, inputs.load, times)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
@@ -90,17 +96,25 @@ def zdyn(call: Call, table: Table) -> Table:
     vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
     forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
-    extremes = Extremes(problem=problem, asked=entries.flag("EXTREMES"))
+    record = calculation_record(entries, problem, inputs)
+    asked_for = entries.flag("EXTREMES") or record is not None
+    extremes = Extremes(problem=problem, asked=asked_for)
     uplift = UpliftWatch.of(problem)
     lists = None if csv is None else csv.track
     given = (results.observer, vtk, lists, forces, extremes, uplift)
     observers = [o for o in given if o is not None]
+    observers += [] if record is None else record.observers
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
+        if not problem.small:
+            tell_ahead("_factorise", "run_interleaved")
     try:
-        history = _integrated(entries, problem, observers, line, bodies)
+        with recorded(record):
+            history = _integrated(entries, problem, observers, line, bodies)
     finally:
         line.close()
+    if record is not None:
+        record.save(history, extremes)
     _say_reduction(entries, history)
     if csv is not None:
         entries.table.set(Mot("RESULTATS_CSV"), csv.table)

@@ -60,7 +60,7 @@ def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
     one_file = wanted.sum() > MANY_INSTANTS if asked is None else str(asked).startswith("VTKH")
     writer = run_output(session).begin_series(path, units_in_si(session), one_file=one_file)
     labels = cell_labels(session, meshes)
-    return VtkObserver(wanted, meshes, writer, _stress(entries), labels)
+    return VtkObserver(wanted, meshes, writer, stress_of(entries), labels)
 
 
 def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
@@ -70,7 +70,7 @@ def _parts(entries: Entries, table: Table) -> dict[str, Mesh]:
     return parts
 
 
-def _stress(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
+def stress_of(entries: Entries) -> Callable[[NodeField], CellField | None] | None:
     """Stresses of the zones of MODELE that are no joints."""
     model: Model | None = entries.get("MODELE")
     material: CellField | None = entries.get("CARACTERISTIQUES")

@@ -239,8 +239,9 @@ def _warn_of_nothing(call: Call, values: Values, said: dict[str, Any]) -> None:
     if session.frame.procedure not in session.library.standard_names:
         array = values["YOUN"][0]
         if array.dtype == float and (array == 0.0).any():
-            place = call.error("operators.models.no-stiffness", said["YOUN"]).span
-            session.warn("operators.models.no-stiffness", place)
+            warning = call.error("operators.models.no-stiffness", said["YOUN"])
+            warning.warns = True
+            session.report(warning)
 
 
 def _set_value(

@@ -30,6 +30,8 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         Parameters of the zone: their values, and what the script gave for them.
     """
     session, system = call.session, workspace(call.session).units
+    if system is None:
+        _warn_of_friction(call, zone, given)
     if system is None or session.frame.procedure in session.library.standard_names:
         return
     for name, (array, said) in given.items():
@@ -42,6 +44,27 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         unusual = next((v for v in ends if v * here not in meant.usual), None)
         if unusual is not None:
             _warn(call, meant, unusual, said, system)
+
+
+def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
+    """Warn of coefficients of friction that are angles, which shows in any system of units."""
+    for name in ("FROT", "MU"):
+        meant = words.parameter(name, zone) if name in given else None
+        if meant is None or meant.unit or not np.isfinite(meant.usual.high):
+            continue
+        array, said = given[name]
+        value = float(array.max()) if array.dtype == float and array.size else 0.0
+        if value > meant.usual.high:
+            warning = call.error(
+                "operators.models.friction-as-angle",
+                said,
+                name=name,
+                value=value,
+                tangent=float(np.tan(np.radians(min(value, 89.0)))),
+                degrees=value < 90.0,
+            )
+            warning.warns = True
+            call.session.report(warning)
 
 
 def _warn(call: Call, meant: Quantity, value: float, said: Any, system: UnitSystem) -> None:

@@ -26,10 +26,12 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.dynamic import integrated
+from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
     warn_contrast,
     warn_of_connections,
+    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -74,6 +76,7 @@ def zpas(call: Call, table: Table) -> None:
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
+    warn_of_loads_that_end(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     work = entries
@@ -151,6 +154,8 @@ def _stretch(
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
     if work is not entries:
         observers.append(Steering(entries.call, entries.table, work.table, results, len(times)))
+    record = calculation_record(entries, problem, inputs)
+    observers += [] if record is None else record.observers
     path = control_asked(work)
     made = None if bodies is None or path else bodies(problem, inputs)
     keeper = kept_calculation(entries, problem, observers, _not_kept(entries, work), made)
@@ -159,20 +164,23 @@ def _stretch(
     line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
         (warn_resolution if dynamic else warn_contrast)(work, problem)
-        if path:
-            history = follow(entries, _path_run(problem, inputs, bodies, observers))
-        elif made is not None:
-            history = run_bulk(problem, *made, observers, line, dynamic, keeper)
-        elif dynamic:
-            full = work.flag("NEWTON_COMPLET")
-            if full or work is not entries:  # a procedure of the script's steps in its own turn
-                history = integrate(problem, observers, line, full, keeper=keeper)
+        with recorded(record):
+            if path:
+                history = follow(entries, _path_run(problem, inputs, bodies, observers))
+            elif made is not None:
+                history = run_bulk(problem, *made, observers, line, dynamic, keeper)
+            elif dynamic:
+                full = work.flag("NEWTON_COMPLET")
+                if full or work is not entries:  # a procedure of the script's steps in its own turn
+                    history = integrate(problem, observers, line, full, keeper=keeper)
+                else:
+                    history = integrated(entries.call.session, problem, observers, line, keeper)
             else:
-                history = integrated(entries.call.session, problem, observers, line, keeper)
-        else:
-            history = step_statics(problem, observers, line, keeper)
+                history = step_statics(problem, observers, line, keeper)
     finally:
         line.close()
+    if record is not None:
+        record.save(history)
     report(entries, problem, history)
     return state_table(reached.values)
 

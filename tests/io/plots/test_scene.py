@@ -166,6 +166,47 @@ def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
     assert share(drawn(Layer(mesh, field=nothing, component="UX")), (0.93, 0.94, 0.95)) > 0.1
 
 
+def ends(figure: Any) -> dict[str, list[float]]:
+    return {m.get_gid(): list(m.get_xydata()[0]) for m in figure.axes[0].lines if m.get_gid()}
+
+
+def test_extremes_are_marked_where_they_are() -> None:
+    mesh = grid(4)
+    hill = field(mesh, T=lambda x: x[:, 0] + 2 * x[:, 1])
+    made = draw_scene((Layer(mesh, field=hill, component="T"),))
+    assert ends(made) == {"min": [0.0, 0.0], "max": [1.0, 1.0]}
+    assert "max 3" in made.axes[-1].get_ylabel()
+    # one value at many nodes has no place
+    slope = field(mesh, T=lambda x: np.maximum(x[:, 0], 0.8) + 1e-3 * x[:, 1])
+    assert set(ends(draw_scene((Layer(mesh, field=slope, component="T"),)))) == {"max"}
+    options = PictureOptions(legend=False)
+    assert not ends(draw_scene((Layer(mesh, field=hill, component="T"),), (), options))
+
+
+def test_the_bar_says_component_and_unit() -> None:
+    mesh = grid(2)
+    layer = Layer(mesh, field=field(mesh, FX=lambda x: x[:, 0]), component="FX")
+
+    def label(**options: Any) -> str:
+        return draw_scene((layer,), (), PictureOptions(**options)).axes[-1].get_ylabel()
+
+    assert label(unit_of={"FX": "kN"}.get).startswith("FX (kN) ")
+    assert label(unit_of=lambda name: "").startswith("FX ")
+    assert label(legend_name="force", unit_of={"FX": "kN"}.get).startswith("force ")
+
+
+def test_colours_of_several_shapes_are_named() -> None:
+    mesh = grid(2)
+    u = field(mesh, UX=lambda x: 0.01 * x[:, 1])
+    parts = DeformedPart(mesh, u, 0.0, 1), DeformedPart(mesh, u, 50.0, 2)
+    made = compose(Subjects(deformed=Deformed(parts)))
+    named = [(c.colour, c.text) for c in made.legend.categories]
+    assert named == [(1, "amplification 0"), (2, "amplification 50")]
+    assert made.notes == ()
+    twice = DeformedPart(mesh, u, 10.0, 2)  # one colour for two amplifications says nothing
+    assert not compose(Subjects(deformed=Deformed((*parts, twice)))).legend.categories
+
+
 def test_multipliers_have_no_panel() -> None:
     mesh = grid(2)
     u = field(mesh, UX=lambda x: x[:, 1])

@@ -192,9 +192,9 @@ def test_a_system_that_cannot_draw_keeps_the_run(
     else:  # as where a wheel finds no libXrender
         monkeypatch.setitem(sys.modules, "pyvista", None)
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
-    stages._choose_window.cache_clear()
+    stages.choose_window.cache_clear()
     said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path)
-    stages._choose_window.cache_clear()
+    stages.choose_window.cache_clear()
     assert said.exit_code == 0, said.message
     assert said.session.root.find("A") == 1
     (warning,) = said.session.warnings

@@ -13,6 +13,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.state import EXTERNAL
 
 STRIP = Strip(4.0, 1.0, 2e7, 6e5)
 
@@ -147,3 +148,32 @@ def test_body_held_by_unilateral_relations_alone_is_in_balance():
 def test_overturned_body_has_no_equilibrium():
     with pytest.raises(ConvergenceError, check=lambda e: e.code == "kernel.statics.at-load-step"):
         held_by_relations([(0.0, 0.0), (-1.0, 2.0)])
+
+
+@pytest.mark.parametrize("factors", [[1.0, 1.0, 1.0], [0.5, 1.0, 2.0], [0.0, 1.0, 2.0]])
+@pytest.mark.parametrize("joint", [False, True])
+def test_a_load_that_is_there_at_the_start_does_the_work_of_one_that_grows(factors, joint):
+    """Its work is what is stored, F^2 / 2k, whatever the first instant finds out of balance."""
+    bench = Bench()
+    low, top = bench.node(0.0, 0.0), bench.node(0.0, 1.0)
+    bench.fix(low)
+    bench.fix(top, "UX")
+    if joint:
+        bench.joint("SEG2", [low, top], "JOI1", KN=4e5, KS=0.0)
+        bench.spring(1e5, top)
+    else:
+        bench.spring(5e5, top)
+    times = np.arange(3.0)
+    problem = make_problem(
+        Inputs(
+            bench.stiffness,
+            times,
+            load=bench.load(bench.field((top, "FY", -3e3)), times, factors),
+            model=bench.model,
+            characteristics=bench.characteristics,
+        )
+    )
+    history = step_statics(problem, [Recorder(3)])
+    force = 3e3 * np.array(factors[1:])
+    np.testing.assert_allclose(history.energies[1:, EXTERNAL], force**2 / 1e6, rtol=1e-9)
+    assert np.abs(history.imbalance).max() <= 1e-9 * history.energies[-1, EXTERNAL]

@@ -11,6 +11,7 @@ from references.rocking_beam import rocking
 from references.soil_block import soil_block
 
 from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.solvers.factor import Solver
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose
 from ssilang.kernel.stepping.choose import only
@@ -79,6 +80,9 @@ CASES = {
     "penalty on modes": ("relations on modes", lambda: feet(PENALTY)),
     "relations": ("relations", lambda: feet(damping="dashpots", moving=True)),
     "condensed": ("condensed", lambda: soil_block(steps=60, size=(16, 8, 4))),
+    "multigrid": (
+        "multigrid", lambda: replace(soil_block(60, size=(16, 8, 4)), solver=Solver("multigrid"))
+    ),
     "dissection": ("dissection", lambda: soil_block(steps=140, size=(16, 8, 4))),
     "dissection, moving": ("dissection", lambda: soil_block(90, size=(16, 8, 4), moving=True)),
     "dissection, many jumps": ("dissection", lambda: soil_block(60, 5e-3, (100, 8, 80))),

@@ -10,3 +10,6 @@ from __future__ import annotations
 import os
 
 PLAIN = os.environ.get("SSILANG_PLAIN_NUMBA", "") not in ("", "0")
+
+ALLOWED: set[str] = set()
+"""What this process may start: `beside`, a second one that compiles."""

@@ -30,6 +30,7 @@ from numba.core import cgutils, imputils, types
 from numba.core.typing.templates import infer, infer_global, make_intrinsic_template, signature
 
 from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled.beside import BESIDE, title
 from ssilang.kernel.base.compiled.compiler import compiled
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -70,6 +71,10 @@ class Apart:
     def __reduce__(self) -> str:
         return self.name
 
+    def compile(self, args: tuple[types.Type, ...]) -> None:
+        """Make or load the code for these types."""
+        self.dispatcher.compile(args)
+
     def address(self, args: tuple[types.Type, ...]) -> int:
         """Address of the code for these types, compiled now if it is not yet.
 
@@ -78,7 +83,7 @@ class Apart:
         TypeError
             If the function does not return what its annotation says.
         """
-        self.dispatcher.compile(args)
+        self.compile(args)
         made = self.dispatcher.overloads[args]
         if made.signature.return_type != self.result:
             found = made.signature.return_type
@@ -130,6 +135,8 @@ def _call(function: Apart, context: Any, builder: Any, sig: Any, args: Any) -> A
     conv, int64 = context.call_conv, ir.IntType(64)
     name = f"{function.__module__}.{function.name}"
     wanted = pickle.dumps((function.__module__, function.name, sig.args))
+    if sig.args not in function.dispatcher.overloads:
+        BESIDE.tell(title(function.__module__, function.name, sig.args), wanted)
     place = cgutils.add_global_variable(builder.module, int64, f"address of {name}{sig.args}")
     place.linkage, place.initializer = "internal", int64(0)
     with cgutils.if_unlikely(builder, cgutils.is_null(builder, builder.load(place))):

@@ -21,6 +21,8 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import make_concrete_template
 
+from ssilang.kernel.base.compiled.beside import BESIDE, title
+
 Types = tuple[Any, ...]
 
 _NOT_TYPED_BY = ("no_cpython_wrapper", "no_cfunc_wrapper", "no_compile")
@@ -111,7 +113,11 @@ class Linked(CPUDispatcher):
 
     def compile(self, sig: Any) -> Any:
         """Code that Python can call, or by its address."""
-        with _without_collections():
+        args = getattr(sig, "args", sig)
+        if args in self.overloads:
+            return super().compile(sig)
+        function = title(self.py_func.__module__, self.py_func.__qualname__, args)
+        with _without_collections(), BESIDE.taking(function):
             return super().compile(sig)
 
     def get_call_template(self, args: Any, kws: Any) -> Any:

@@ -181,7 +181,7 @@ class _Empty:
 
 
 def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
-    """`S A S` with a diagonal near one, and the diagonal of S; columns are shared with A."""
+    """`S A S` with a diagonal near one, and the diagonal of S."""
     size, rows = np.abs(A.diagonal()), A.shape[0]
     data = np.empty_like(A.data)
     largest = np.zeros(rows)
@@ -200,7 +200,7 @@ def unit_diagonal(A: sp.csr_array) -> tuple[sp.csr_array, FloatArray]:
         part = slice(A.indptr[low], A.indptr[high])
         data[part] = A.data[part] * scale[A.indices[part]]
         data[part] *= np.repeat(scale[low:high], np.diff(A.indptr[low : high + 1]))
-    return sp.csr_array((data, A.indices, A.indptr), shape=A.shape), scale
+    return sp.csr_array((data, A.indices.copy(), A.indptr.copy()), shape=A.shape), scale
 
 
 def _try_factors(

@@ -1,5 +1,7 @@
 """Multigrid gives the answers of the direct solvers, where memory holds no factor or if asked."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -147,3 +149,52 @@ def test_reso_takes_it_with_its_conditions_eliminated_and_reports_it(monkeypatch
         names.append(result.session.statistics["systems"][-1]["solver"])
     assert names == [backends.DISSECTION, MULTIGRID]
     assert found[1] == pytest.approx(found[0], rel=1e-9)
+
+
+def test_a_script_asks_for_it_with_a_tolerance(tmp_path):
+    from ssilang.cli.run import run_text
+
+    found = {}
+    for said in ("'AUTO'", "'MULTIGRILLE'", "'MULTIGRILLE' 1.E-5"):
+        result = run_text(f"OPTI 'SOLVEUR' {said} ; {SCRIPT}", output_directory=tmp_path)
+        assert result.exit_code == 0, result.message
+        found[said] = result.session.root.find("X1")
+        name = result.session.statistics["systems"][-1]["solver"]
+        assert (name == MULTIGRID) == (said != "'AUTO'")
+    exact, fine, coarse = found.values()
+    assert fine == pytest.approx(exact, rel=1e-9)
+    assert 0.0 < abs(coarse / exact - 1.0) < 1e-3
+
+
+def test_threads_change_no_bit(monkeypatch):
+    K, order = bar(20)
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    found = []
+    for count in (1, 3):
+        monkeypatch.setattr("ssilang.kernel.base.threads.thread_count", lambda count=count: count)
+        monkeypatch.setattr("ssilang.kernel.base.threads.LEAST", 1)
+        found.append(MultigridFactor(K, True, order.rigid, order.nodes).solve(b))
+    assert np.array_equal(*found)
+
+
+def test_a_size_and_a_shape_that_multigrid_finds_hard_are_factorised(monkeypatch):
+    K, order = bar(12)
+    once = replace(order, once=True)
+    assert factorise(K, True, ordering=once).name == backends.DISSECTION
+    monkeypatch.setattr(backends, "ONCE", 1e4)
+    assert factorise(K, True, ordering=once).name == MULTIGRID
+    assert factorise(K, True, ordering=order).name == backends.DISSECTION
+    monkeypatch.setattr("ssilang.kernel.solvers.multigrid.multigrid.FEW_TURNS", 2)
+    assert factorise(K, True, ordering=once).name == backends.DISSECTION
+
+
+def test_unknowns_of_one_node_go_together():
+    K, order = bar(6)
+    turned = MultigridFactor(K, True, order.rigid, order.nodes)
+    apart = MultigridFactor(K, True, order.rigid)
+    assert np.diff(turned.hierarchy.levels[0].A.first).max() == 3
+    b = np.random.default_rng(0).standard_normal(K.shape[0])
+    x = invert(K, True, "SuperLU").solve(b)
+    for found in (turned, apart):
+        np.testing.assert_allclose(found.solve(b), x, atol=1e-9 * np.abs(x).max())
+    assert turned.turns <= apart.turns

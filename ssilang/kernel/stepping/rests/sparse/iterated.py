@@ -93,6 +93,8 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
         order = order.scaled(scale)
         rigid, nodes = order.rigid, order.nodes
     factor = MultigridFactor(scaled, True, rigid, nodes, problem.solver.tolerance)
+    if not factor.converges():  # found out here: what is gone on with starts alike
+        factor.in_double()
     motions = sp.csr_array(T @ sp.diags_array(scale))
     free = factor.free_motions()
     if free.shape[1]:

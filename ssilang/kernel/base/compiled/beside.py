@@ -1,0 +1,184 @@
+"""A second process that compiles beside the first, on a machine that has no kept code yet.
+
+While a function is compiled, those that it reaches by address (`apart`) become known: a run needs
+most of them next. They are told to another process, which compiles them and keeps their code; the
+run loads what it finds done. Who makes a file of a function's name compiles it; the run waits where
+the other has begun, and never the other way. What only Python calls is not known before its turn:
+`ahead.txt` has the types of the largest ones, which all decks share. Were they others, the other
+process would work in vain, and no answer would change.
+
+Nothing starts but where it was allowed (the command line does) and there is a second core. The
+other process is given names and types by a pipe, writes only kept code, and ends with the run,
+however that ends.
+"""
+
+from __future__ import annotations
+
+import atexit
+import base64
+import hashlib
+import importlib
+import os
+import pickle
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, Any
+
+from ssilang.kernel.base.compiled import ALLOWED, PLAIN
+
+PACKAGES = Path(__file__).parents[4]
+"""Where the package lies."""
+POLL = 0.002  # s
+LENGTH = 4  # bytes that tell how long a task is
+AHEAD = Path(__file__).with_name("ahead.txt")
+
+
+def free_cores() -> int:
+    """Cores that this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on Linux
+        return os.cpu_count() or 1
+
+
+class Beside:
+    """The other process as the run sees it; in the other process, what waits there."""
+
+    def __init__(self) -> None:
+        self.found: list[bytes] | None = None  # in the other process: of what it compiles
+        self._told: set[str] = set()
+        self._own: set[str] = set()  # taken by this process
+        self._process: subprocess.Popen[bytes] | None = None
+        self._claims: Path | None = None
+
+    def tell(self, name: str, task: bytes) -> None:
+        """Code that was just made calls a function: `task` is its pickled name and types."""
+        if name in self._told:
+            return
+        self._told.add(name)
+        if self.found is not None:
+            self.found.append(task)
+            return
+        if self._process is None and "beside" in ALLOWED:
+            self._start()
+        process = self._process
+        if process is not None and process.stdin is not None:
+            try:
+                process.stdin.write(len(task).to_bytes(LENGTH, "little") + task)
+                process.stdin.flush()
+            except OSError:  # it has ended: the run goes on alone
+                self.end()
+
+    @contextmanager
+    def taking(self, name: str) -> Iterator[bool]:
+        """While a function is compiled, or after the other process has; whether it is ours."""
+        if self._claims is None or name in self._own:
+            yield True
+            return
+        place = self._claims / hashlib.sha256(name.encode()).hexdigest()
+        done = place.with_suffix(".done")
+        try:
+            place.touch(exist_ok=False)
+        except FileExistsError:
+            self._wait(done)
+            yield False
+            return
+        except OSError:  # the folder has gone
+            yield True
+            return
+        self._own.add(name)
+        try:
+            yield True
+        finally:
+            if self.found is not None:
+                with suppress(OSError):
+                    done.touch()
+
+    def _wait(self, done: Path) -> None:
+        while self._process is not None and self._process.poll() is None and not done.exists():
+            time.sleep(POLL)
+
+    def _start(self) -> None:
+        """Start the other process, once; without it all goes as before."""
+        ALLOWED.discard("beside")
+        if PLAIN or os.name != "posix" or free_cores() < 2:
+            return
+        paths = os.pathsep.join([str(PACKAGES), os.environ.get("PYTHONPATH", "")])
+        program = f"import sys; from {__name__} import BESIDE; BESIDE.serve(sys.argv[1])"
+        try:
+            self._claims = Path(tempfile.mkdtemp(prefix="ssilang-compiling-"))
+            self._process = subprocess.Popen(
+                [sys.executable, "-P", "-c", program, str(self._claims)],
+                stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                env=os.environ | {"PYTHONPATH": paths}, start_new_session=True,
+            )  # fmt: skip
+        except OSError:
+            self.end()
+            return
+        atexit.register(self.end)
+
+    def end(self) -> None:
+        """Stop the other process."""
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            with suppress(OSError):
+                process.communicate()
+        claims, self._claims = self._claims, None
+        if claims is not None:
+            shutil.rmtree(claims, ignore_errors=True)
+
+    def serve(self, claims: str) -> None:
+        """Compile what is told on the standard input, until the run has ended.
+
+        The last is the first: the run takes others itself. Of what a function calls, however, the
+        first comes first.
+        """
+        self._claims, waiting = Path(claims), list[bytes]()
+        threading.Thread(target=self._read, args=(sys.stdin.buffer, waiting), daemon=True).start()
+        while True:
+            if not waiting:
+                time.sleep(POLL)
+                continue
+            module, name, args = pickle.loads(waiting.pop())
+            self.found = []
+            with suppress(Exception):  # the run will tell
+                getattr(importlib.import_module(module), name).compile(args)
+            waiting += reversed(self.found)
+
+    def _read(self, tasks: IO[bytes], waiting: list[bytes]) -> None:
+        while head := tasks.read(LENGTH):
+            waiting.append(tasks.read(int.from_bytes(head, "little")))
+        if self._claims is not None:
+            shutil.rmtree(self._claims, ignore_errors=True)
+        os._exit(0)
+
+
+BESIDE = Beside()
+"""Of this process."""
+
+
+def tell_ahead(*names: str) -> None:
+    """Tell of functions that the run will call from Python, the first needed last."""
+    for name, task in tasks_ahead().items():
+        if name in names:
+            BESIDE.tell(title(*pickle.loads(task)), task)
+
+
+def tasks_ahead() -> dict[str, bytes]:
+    """Pickled module, name and types of functions by their names."""
+    lines = (line.split() for line in AHEAD.read_text(encoding="ascii").splitlines())
+    return {name: zlib.decompress(base64.b64decode(text)) for name, text in lines}
+
+
+def title(module: str, name: str, args: tuple[Any, ...]) -> str:
+    """A function for types of arguments."""
+    return f"{module}.{name}{args}"

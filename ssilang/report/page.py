@@ -1,0 +1,475 @@
+"""The page of a report: what a folder of results holds as one HTML file that asks for nothing.
+
+What is text stands in the file as HTML, so that it prints and needs no script; curves and scenes
+stand in it as data, drawn by uPlot and vtk.js, which are in the file too.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from collections.abc import Iterable, Sequence
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.say.visible import visible
+from ssilang.messages.message import Teller, teller
+from ssilang.report.charts import Chart, charts_of
+from ssilang.report.deck_text import Colours, deck_html
+from ssilang.report.results import Results
+from ssilang.report.scenes import SceneError, packed_scene
+
+LARGEST = 20_000_000
+"""Bytes of a report."""
+PICTURES = 3_000_000
+"""Bytes of the pictures that it holds."""
+MOST_SCENES = 8
+
+ENERGY_LIMIT = 0.01
+"""Imbalance of energy, as a part of the largest, above which a report marks it."""
+
+
+def page_of(results: Results, language: str, colours: Colours) -> str:
+    """The page.
+
+    Parameters
+    ----------
+    language : 'en' or 'fr'
+    colours : callable
+        Start, end and colour of the words of a deck.
+    """
+    told = teller(language)
+    charts = charts_of(results, told)
+    sections = [
+        _section("checks", told("report.checks"), _checks(results, told)),
+        _section("warnings", told("report.warnings"), _warnings(results, told)),
+    ]
+    pictures = _pictures(results, told)
+    rest = [
+        *_chart_sections(charts, told),
+        _section("largest", told("report.largest"), _largest(results, told)),
+        _section("pictures", told("report.pictures"), pictures),
+        _section("runs", told("report.calculations"), _calculations(results, told)),
+        _section("deck", told("report.deck"), _deck(results, colours, told)),
+        _section("files", told("report.files"), _files(results)),
+    ]
+    data = _json([c.told() for c in charts])
+    other = "".join([*sections, *rest])
+    room = LARGEST - len(other.encode()) - len(data.encode()) - sum(map(len, _assets().values()))
+    scenes, faults = _scenes(results, room, told)
+    viewer = _section("scene", told("report.scene"), _viewer(scenes, faults, told))
+    body = [_head(results, told), sections[0], sections[1], viewer, *rest]
+    return Template(_asset("page.html")).substitute(
+        language=language,
+        title=_text(_name(results)),
+        version=_text(results.summary.get("version", "")),
+        style=_asset("uPlot.min.css") + _asset("page.css"),
+        body="\n".join(b for b in body if b),
+        charts=data,
+        scenes=_json([scene for scene, _ in scenes]),
+        blobs="\n".join(
+            f'<script type="application/octet-stream" id="scene-{i}">{text}</script>'
+            for i, (_, text) in enumerate(scenes)
+        ),
+        words=_json({w: told(code) for w, code in _WORDS.items()}),
+        vtk=_asset("vtk.js") if scenes else "",
+        uplot=_asset("uPlot.iife.min.js") if charts else "",
+        script=_asset("charts.js") + _asset("scene.js"),
+        licences=_text(_asset("uPlot.LICENSE") + "\n" + _asset("vtk.js.LICENSE")),
+        made=_text(told("report.made")),
+        licence_title=_text(told("report.licences")),
+    )
+
+
+_WORDS = {
+    "play": "report.play", "pause": "report.pause", "reset": "report.reset",
+    "zoomIn": "report.zoom-in", "zoomOut": "report.zoom-out", "all": "report.show-all",
+    "time": "report.time", "mode": "report.mode", "noWebgl": "report.no-webgl",
+    "magnitude": "report.magnitude", "ux": "report.ux", "uy": "report.uy", "uz": "report.uz",
+    "plain": "report.plain", "opening": "report.opening", "pressure": "report.pressure",
+    "stress_vertical": "report.stress-vertical", "stress_mises": "report.stress-mises",
+}  # fmt: skip
+"""What the page's script says."""
+
+
+# ---- pieces --------------------------------------------------------------------------------------
+
+
+def _text(value: object) -> str:
+    return html.escape(visible(str(value)))
+
+
+def _json(value: object) -> str:
+    """JSON that may stand in a script's element."""
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c")
+
+
+@cache
+def _asset(name: str) -> str:
+    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def _assets() -> dict[str, bytes]:
+    names = ("vtk.js", "uPlot.iife.min.js", "charts.js", "scene.js", "page.css", "page.html")
+    return {name: _asset(name).encode() for name in names}
+
+
+def _section(name: str, title: str, body: str) -> str:
+    if not body:
+        return ""
+    return f'<section id="{name}"><h2>{_text(title)}</h2>\n{body}</section>'
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], numbers: Sequence[int]) -> str:
+    """A table of cells that are HTML already; `numbers`: the columns that hold numbers."""
+    made = "".join(
+        f"<th scope=col{' class=number' if i in numbers else ''}>{_text(h)}</th>"
+        for i, h in enumerate(heads)
+    )
+    lines = [
+        "<tr>"
+        + "".join(
+            f"<td{' class=number' if i in numbers else ''}>{c}</td>" for i, c in enumerate(row)
+        )
+        + "</tr>"
+        for row in rows
+    ]
+    return (
+        f"<div class=wide><table><thead><tr>{made}</tr></thead><tbody>"
+        + "".join(lines)
+        + "</tbody></table></div>"
+    )
+
+
+def number(value: object) -> str:
+    """A number in five digits, '' for none."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return ""
+    return f"{value + 0.0:.5g}"
+
+
+def _head(results: Results, told: Teller) -> str:
+    summary = results.summary
+    code = summary.get("exit_code")
+    failed = [f for f in summary.get("figures", ()) if f["ok"] is False]
+    judged = [f for f in summary.get("figures", ()) if f["ok"] is not None]
+    state, word = "good", told("report.ran")
+    if not summary:
+        state, word = "bad", told("report.not-ended")
+    elif code != 0:
+        state, word = "bad", told("report.failed", code=code)
+    lines = [
+        f"<header><h1>{_text(_name(results))}</h1>",
+        f'<p class="state {state}">{_text(word)}</p>',
+    ]
+    for error in summary.get("errors", ()):
+        place = told("report.line", line=error["line"]) if error["line"] else ""
+        lines.append(f'<p class="error">{_text(place)} {_text(error["text"])}</p>')
+    cards = []
+    if judged:
+        good = f"{len(judged) - len(failed)} / {len(judged)}"
+        cards.append((told("report.checks-held"), good, "bad" if failed else "good"))
+    worst = max((c.get("energy_imbalance") or 0.0 for c in _runs(results)), default=0.0)
+    if worst:
+        mark = "warn" if worst > ENERGY_LIMIT else "good"
+        cards.append((told("report.energy-imbalance"), f"{100.0 * worst:.2g} %", mark))
+    openings = _all(results, "opening_")
+    openings += [
+        np.array([x["value"]])
+        for c in results.calculations for x in c.largest if x["kind"] == "OUVERTURE"
+    ]  # fmt: skip
+    if openings:
+        top = f"{max(float(v.max()) for v in openings):.4g} {_unit(results, 'm')}"
+        cards.append((told("report.largest-opening"), top.strip(), ""))
+    shares = _all(results, "share_")
+    if shares:
+        least = min(float(v.min()) for v in shares)
+        cards.append((told("report.least-contact"), f"{100.0 * least:.3g} %", ""))
+    count = len(summary.get("warnings", ()))
+    if summary:
+        cards.append((told("report.warnings"), str(count), "warn" if count else ""))
+        cards.append((told("report.duration"), f"{summary.get('seconds', 0.0):.3g} s", ""))
+    lines.append("<ul class=cards>")
+    lines += [
+        f'<li class="{m}"><b>{_text(v)}</b> <span>{_text(n)}</span></li>' for n, v, m in cards
+    ]
+    lines.append("</ul>")
+    lines.append(f"<p class=facts>{_text(_facts(results, told))}</p>")
+    lines += [f"<p class=note>{_text(note)}</p>" for note in _notes(results, told)]
+    return "\n".join([*lines, "</header>"])
+
+
+def _all(results: Results, name: str) -> list[FloatArray]:
+    """Histories of all footings by the beginning of their titles."""
+    return [
+        values
+        for calculation in results.calculations
+        for title, values in calculation.columns.items()
+        if title.startswith(name) and len(values)
+    ]
+
+
+def _name(results: Results) -> str:
+    """The deck's, without its folder."""
+    return Path(results.deck).name or results.folder.name
+
+
+def _facts(results: Results, told: Teller) -> str:
+    summary = results.summary
+    if not summary:
+        return ""
+    parts = [results.deck, f"ssilang {summary['version']}"]
+    parts.append(told("report.statements", count=summary.get("statements", 0)))
+    if summary.get("peak_memory_mb"):
+        parts.append(told("report.memory", size=summary["peak_memory_mb"]))
+    units = summary.get("units")
+    if units:
+        named = ", ".join(str(v) for k, v in units.items() if k != "system")
+        parts.append(told("report.units", system=units["system"], units=named))
+    else:
+        parts.append(told("report.no-units"))
+    return " · ".join(parts)
+
+
+def _notes(results: Results, told: Teller) -> list[str]:
+    notes = []
+    if not results.recorded:
+        notes.append(told("report.not-recorded"))
+    if results.changed:
+        notes.append(told("report.deck-changed"))
+    left = results.left_out
+    if left.get("calculations") or left.get("drawings"):
+        notes.append(told("report.left-out", **left))
+    if results.unread:
+        notes.append(told("report.unread", names=results.unread))
+    return notes
+
+
+def _unit(results: Results, unit: str) -> str:
+    """A unit of the deck for an SI unit, '' where the deck names none."""
+    return written_unit(results.summary.get("units"), unit)
+
+
+def written_unit(units: dict[str, Any] | None, unit: str) -> str:
+    """What stands for an SI unit where `summary.json` names the deck's system."""
+    from ssilang.language.vocabulary.unit_systems import SYSTEMS
+
+    system = SYSTEMS.get(str((units or {}).get("system", "")))
+    return "" if system is None else system.written(unit)
+
+
+def _runs(results: Results) -> list[dict[str, Any]]:
+    statistics = results.summary.get("statistics", {})
+    found: list[dict[str, Any]] = statistics.get("calculations", [])
+    return found
+
+
+def _checks(results: Results, told: Teller) -> str:
+    figures = results.summary.get("figures", ())
+    if not figures:
+        return ""
+    marks = {True: told("report.held"), False: told("report.missed"), None: ""}
+    rows = [
+        (
+            _text(f["name"]), number(f["value"]), number(f["expected"]), number(f["tolerance"]),
+            _meter(f),
+            f'<b class="{"good" if f["ok"] else "bad"}">{_text(marks[f["ok"]])}</b>',
+        )
+        for f in figures
+    ]  # fmt: skip
+    heads = [
+        told("report.name"), told("report.value"), told("report.expected"),
+        told("report.tolerance"), told("report.used"), "",
+    ]  # fmt: skip
+    return _table(heads, rows, (1, 2, 3))
+
+
+def _meter(figure: dict[str, Any]) -> str:
+    """How much of its tolerance a figure takes."""
+    if figure["ok"] is None or not figure["tolerance"]:
+        return ""
+    part = abs(figure["value"] - figure["expected"]) / figure["tolerance"]
+    return f'<meter min=0 max=1 high=1 value="{min(part, 1.0):.3g}"></meter> {100.0 * part:.3g} %'
+
+
+def _warnings(results: Results, told: Teller) -> str:
+    found = results.summary.get("warnings", ())
+    rows = [
+        f"<li>{_text(told('report.line', line=w['line']) if w['line'] else '')} {_text(w['text'])}"
+        for w in found
+    ]
+    return f"<ul>{''.join(rows)}</ul>" if rows else ""
+
+
+def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
+    titles = {
+        "footing": told("report.footing"),
+        "energy": told("report.energies"),
+        "curves": told("report.curves"),
+        "tables": told("report.tables"),
+    }
+    made = []
+    for group, title in titles.items():
+        figures = [
+            f'<figure class=chart data-chart="{i}"><figcaption>{_text(c.title)}</figcaption>'
+            "<div class=plot></div></figure>"
+            for i, c in enumerate(charts)
+            if c.group == group
+        ]
+        head = f"<p class=note>{_text(told('report.zoom'))}</p>"
+        body = f"{head}<div class=charts>{''.join(figures)}</div>" if figures else ""
+        made.append(_section(group, title, body))
+    return made
+
+
+def _largest(results: Results, told: Teller) -> str:
+    rows = []
+    kinds = {
+        "OUVERTURE": told("report.opening"),
+        "COMPRESSION": told("report.compression"),
+        "CISAILLEMENT": told("report.shear"),
+        "DEPL": told("report.displacement"),
+        "REACTIONS": told("report.reaction"),
+    }
+    for i, calculation in enumerate(results.calculations, 1):
+        found = sorted(calculation.largest, key=lambda x: list(kinds).index(x["kind"]))
+        for peak in found:
+            if peak["value"] == 0.0 and peak["component"]:
+                continue
+            name = f"{kinds[peak['kind']]} {peak['component']}".strip()
+            place = " ".join(f"{x:.4g}" for x in peak["place"])
+            rows.append(
+                (
+                    _text(f"{calculation.name} {i}"), _text(name), number(peak["value"]),
+                    number(peak["time"]), _text(place),
+                )
+            )  # fmt: skip
+    if not rows:
+        return ""
+    heads = [
+        told("report.calculation"), told("report.quantity"), told("report.value"),
+        told("report.time"), told("report.place"),
+    ]  # fmt: skip
+    return _table(heads, rows, (2, 3))
+
+
+def _calculations(results: Results, told: Teller) -> str:
+    rows = [
+        (
+            _text(f"{c.get('procedure', '')} {i}"), number(c.get("unknowns")),
+            number(c.get("interface_unknowns")), number(c.get("steps")), _text(c.get("method", "")),
+            _text(c.get("solver", "")), number(c.get("most_interface_iterations")),
+            number(c.get("energy_imbalance")), number(c.get("seconds")),
+        )
+        for i, c in enumerate(_runs(results), 1)
+    ]  # fmt: skip
+    if not rows:
+        return ""
+    heads = [
+        told("report.calculation"), told("report.unknowns"), told("report.interface-unknowns"),
+        told("report.steps"), told("report.method"), told("report.solver"),
+        told("report.iterations"), told("report.energy-imbalance"), told("report.seconds"),
+    ]  # fmt: skip
+    return _table(heads, rows, (1, 2, 3, 6, 7, 8))
+
+
+def _deck(results: Results, colours: Colours, told: Teller) -> str:
+    if not results.text:
+        return f"<p class=note>{_text(told('report.deck-gone'))}</p>"
+    lines = [m["line"] for m in results.summary.get("errors", ()) if m["line"]]
+    return deck_html(results.text, colours, lines)
+
+
+def _files(results: Results) -> str:
+    rows = [
+        (_text(f["path"]), f"{f['bytes'] / 1000.0:,.1f} kB")
+        for f in results.summary.get("files", ())
+    ]
+    if not rows:
+        return ""
+    return "<details>" + "<summary>" + str(len(rows)) + "</summary>" + _table(
+        ("", ""), rows, (1,)
+    ) + "</details>"  # fmt: skip
+
+
+def _pictures(results: Results, told: Teller) -> str:
+    made, left, room = [], 0, PICTURES
+    for path in results.pictures:
+        try:
+            data = path.read_bytes()
+        except OSError:
+            data = b""
+        if not data or len(data) > room:
+            left += 1
+            continue
+        room -= len(data)
+        text = base64.b64encode(data).decode()
+        made.append(
+            f'<figure><img alt="{_text(path.name)}" src="data:image/png;base64,{text}">'
+            f"<figcaption>{_text(path.name)}</figcaption></figure>"
+        )
+    if left:
+        made.append(f"<p class=note>{_text(told('report.pictures-left', count=left))}</p>")
+    return f"<div class=charts>{''.join(made)}</div>" if made else ""
+
+
+# ---- scenes --------------------------------------------------------------------------------------
+
+Scene = tuple[dict[str, Any], str]
+
+
+def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], list[str]]:
+    """What can be shown, with its data, and why the rest cannot."""
+    wanted: list[tuple[str, str, Any, list[float]]] = [
+        (f"{c.name} {i}", "motion", c.scene, [])
+        for i, c in enumerate(results.calculations, 1)
+        if c.scene is not None
+    ]
+    wanted += [
+        (told("report.modes", name=s.name) if s.kind == "modes" else s.name, s.kind, s.scene,
+         s.frequencies)
+        for s in results.shapes
+    ]  # fmt: skip
+    if not wanted:
+        wanted = [(p.name, "motion", p, []) for p in results.series]
+    made: list[Scene] = []
+    faults = []
+    each = int(0.98 * room / max(min(len(wanted), MOST_SCENES), 1))
+    for name, kind, path, frequencies in wanted[:MOST_SCENES]:
+        try:
+            scene, text = packed_scene(path, each)
+        except SceneError as problem:
+            faults.append(told(problem.code, **problem.data))
+            continue
+        shown = name or told("report.mesh")
+        made.append(({"name": shown, "kind": kind, "frequencies": frequencies, **scene}, text))
+    if len(wanted) > MOST_SCENES:
+        faults.append(told("report.scenes-left", count=len(wanted) - MOST_SCENES))
+    return made, faults
+
+
+def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
+    notes = "".join(f"<p class=note>{_text(f)}</p>" for f in dict.fromkeys(faults))
+    if not scenes:
+        return notes
+    words = {
+        w: _text(told(code))
+        for w, code in {
+            "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
+            "time": "report.time", "play": "report.play", "reset": "report.reset",
+            "edges": "report.edges", "ghost": "report.ghost", "through": "report.see-through",
+            "help": "report.scene-help",
+        }.items()
+    }  # fmt: skip
+    options = "".join(
+        f"<option value={i}>{_text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
+    )
+    return notes + Template(_asset("viewer.html")).substitute(options=options, **words)

@@ -1,0 +1,337 @@
+"""Scenes of a report: what one sees of a VTK series, made small.
+
+The surface of the bodies, edges of their elements, the upper sides of joints; displacements and a
+few fields at some instants, in 16 bits of the largest value, as differences from one instant to the
+next, deflated. pyvista reads the series and finds the surface.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+
+FRAMES = 60
+LARGEST = 32767
+"""Of a number in 16 bits; the one below its negative says that there is none."""
+_UPPER = {9: (0, 1), 30: (0, 1), 3: (0, 1), 13: (0, 1, 2), 31: (0, 1, 2), 12: (0, 1, 2, 3)}
+"""Corners of the upper side of a joint, by VTK's type of its cell (`io/vtk/cells.py`)."""
+
+
+class SceneError(Exception):
+    """A series that cannot be shown: `code` of the catalogue and its data."""
+
+    def __init__(self, code: str, **data: object) -> None:
+        super().__init__(code)
+        self.code, self.data = code, data
+
+
+@dataclass(frozen=True)
+class _Steps:
+    """Instants of a series: their times, and what reads one."""
+
+    times: FloatArray
+    grid: Callable[[int], Any]
+
+
+def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
+    """What a page needs to know of a series, and its arrays as text of at most so many bytes.
+
+    Raises
+    ------
+    SceneError
+        If the series cannot be read, or holds nothing to see.
+    """
+    steps = _opened(path)
+    frames = FRAMES
+    while True:
+        told, text = _packed(path, steps, frames)
+        if len(text) <= most_bytes or frames == 1:
+            return told, text
+        frames = max(1, min(frames - 1, int(0.9 * frames * most_bytes / len(text))))
+
+
+def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
+    count = len(steps.times)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+    shape = _Shape(steps.grid(int(chosen[0])))
+    if not len(shape.points):
+        raise SceneError("report.nothing-to-see", name=path.name)
+    frames = [shape.fields(steps.grid(int(i))) for i in chosen]
+    arrays: dict[str, NDArray[Any]] = {
+        "points": shape.points.astype("<f4"),
+        "triangles": shape.triangles.astype("<u4"),
+        "lines": shape.lines.astype("<u4"),
+        "vertices": shape.vertices.astype("<u4"),
+        "edges": shape.edges.astype("<u4"),
+        "joint_points": shape.joint_points.astype("<u4"),
+        "joint_triangles": shape.joint_triangles.astype("<u4"),
+        "joint_lines": shape.joint_lines.astype("<u4"),
+    }
+    fields = []
+    for name in frames[0]:
+        values = np.stack([frame[name] for frame in frames])
+        numbers, scale = _quantised(values)
+        arrays[f"field:{name}"] = np.diff(numbers, axis=0, prepend=np.zeros_like(numbers[:1]))
+        kept = values[np.isfinite(values)]
+        low, high = (float(kept.min()), float(kept.max())) if kept.size else (0.0, 0.0)
+        fields.append({"name": name, "scale": scale, "low": low, "high": high})
+    blob, places = b"", {}
+    for name, array in arrays.items():
+        blob += b"\0" * (-len(blob) % 4)
+        places[name] = [len(blob), int(array.size)]
+        blob += array.tobytes()
+    told = {
+        "times": [float(f"{t:.7g}") for t in steps.times[chosen]],
+        "flat": shape.flat,
+        "arrays": places,
+        "fields": fields,
+    }
+    return told, base64.b64encode(zlib.compress(blob, 9)).decode()
+
+
+def _quantised(values: FloatArray) -> tuple[NDArray[np.int16], float]:
+    """Values in 16 bits, and what one of these is worth."""
+    there = np.isfinite(values)
+    largest = float(np.abs(values[there]).max(initial=0.0))
+    scale = largest / LARGEST if largest > 0.0 else 1.0
+    numbers = np.full(values.shape, -LARGEST - 1, "<i2")
+    numbers[there] = np.rint(values[there] / scale).astype("<i2")
+    return numbers, scale
+
+
+class _Shape:
+    """What one sees of a grid.
+
+    Attributes
+    ----------
+    points : array (n, 3)
+        Those of the surface, then those of joints.
+    triangles, lines, vertices, edges : arrays
+        Rows of points of the surface, of bars, of lone points, of the elements' edges.
+    joint_points : array (m,)
+        Rows of `points` that the corners of joints stand at, joint by joint.
+    joint_triangles, joint_lines : arrays
+        Places in `joint_points`.
+    """
+
+    def __init__(self, grid: Any) -> None:
+        self.joints = _joint_cells(grid)
+        self.bodies = np.flatnonzero(~self.joints)
+        grid.point_data["_row"] = np.arange(grid.n_points)
+        self.flat = bool(np.ptp(grid.points[:, 2]) == 0.0 if grid.n_points else True)
+        empty = np.zeros(0, np.int64)
+        self.triangles = self.lines = self.vertices = self.edges = empty
+        rows = empty
+        if len(self.bodies):
+            part = grid.extract_cells(self.bodies)
+            surface = part.extract_surface(
+                pass_pointid=False, pass_cellid=False, nonlinear_subdivision=0,
+                algorithm="dataset_surface",
+            )  # fmt: skip
+            rows = np.asarray(surface.point_data["_row"], np.int64)
+            faces = surface.triangulate()
+            self.triangles = faces.faces.reshape(-1, 4)[:, 1:].ravel()
+            self.lines = _pairs(surface.lines)
+            self.vertices = _singles(surface.verts)
+            self.edges = _edges_of(surface)
+        corners = list(_corners(grid, self.joints))
+        flat = np.array([p for c in corners for p in c], np.int64)
+        self.rows = np.concatenate([rows, np.setdiff1d(flat, rows)])
+        place = np.zeros(grid.n_points, np.int64)
+        place[self.rows] = np.arange(len(self.rows))
+        self.joint_points = place[flat]
+        self.points = np.asarray(grid.points, float)[self.rows]
+        self.sizes = np.array([len(c) for c in corners], np.int64)
+        starts = np.concatenate([[0], np.cumsum(self.sizes)])[:-1]
+        triangles: list[int] = []
+        lines: list[int] = []
+        for start, size in zip(starts.tolist(), self.sizes.tolist(), strict=True):
+            if size == 2:
+                lines += [start, start + 1]
+            for k in range(2, size):
+                triangles += [start, start + k - 1, start + k]
+        self.joint_triangles, self.joint_lines = np.array(triangles, int), np.array(lines, int)
+
+    def fields(self, grid: Any) -> dict[str, FloatArray]:
+        """Displacement (n 3,), and what points (n,) and joints (m,) have at an instant."""
+        size = grid.n_points
+        u = grid.point_data.get("displacement")
+        if u is None or len(u) != size:
+            u = np.zeros((size, 3))
+        found = {"displacement": np.nan_to_num(np.asarray(u, float))[self.rows].ravel()}
+        stress = grid.cell_data.get("stress")
+        if stress is not None and stress.ndim == 2 and stress.shape[1] == 6:
+            s = self._at_points(grid, np.asarray(stress, float))
+            found["stress_vertical"] = s[:, 1 if self.flat else 2]
+            found["stress_mises"] = _mises(s)
+        for name, array, sign in (("opening", "opening", 1.0), ("pressure", "traction", -1.0)):
+            values = grid.cell_data.get(array)
+            if values is not None and len(self.sizes):
+                normal = values[:, 0] if values.ndim == 2 else values
+                found[name] = np.repeat(sign * np.asarray(normal, float)[self.joints], self.sizes)
+        return found
+
+    def _at_points(self, grid: Any, values: FloatArray) -> FloatArray:
+        """Means of the cells around each point of the surface; nan where none has a value."""
+        offset, nodes = _cells_of(grid)
+        cell = np.repeat(np.arange(grid.n_cells), np.diff(offset))
+        whole = np.asarray(np.isfinite(values).all(axis=1))
+        there = whole[cell]
+        nodes, cell = nodes[there], cell[there]
+        count = np.bincount(nodes, minlength=grid.n_points)
+        columns = [np.bincount(nodes, c[cell], minlength=grid.n_points) for c in values.T]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean: FloatArray = (np.stack(columns, axis=1) / count[:, None])[self.rows]
+        return mean
+
+
+def _mises(s: FloatArray) -> FloatArray:
+    """Von Mises' stress of tensors (n, 6): XX YY ZZ XY YZ XZ."""
+    x, y, z, xy, yz, xz = s.T
+    found: FloatArray = np.sqrt(
+        0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3.0 * (xy**2 + yz**2 + xz**2)
+    )
+    return found
+
+
+def _joint_cells(grid: Any) -> BoolArray:
+    """Which cells (n,) are joints: those that have an opening or a traction."""
+    found = np.zeros(grid.n_cells, bool)
+    for name in ("opening", "traction"):
+        values = grid.cell_data.get(name)
+        if values is not None:
+            found |= np.isfinite(np.asarray(values, float).reshape(len(found), -1)).any(axis=1)
+    return found & np.isin(grid.celltypes, list(_UPPER))
+
+
+def _cells_of(grid: Any) -> tuple[IntArray, IntArray]:
+    """Where the points of each cell begin in the list of all, and that list."""
+    import pyvista
+
+    cells = grid.GetCells()
+    offset = pyvista.convert_array(cells.GetOffsetsArray())
+    return np.asarray(offset), np.asarray(pyvista.convert_array(cells.GetConnectivityArray()))
+
+
+def _corners(grid: Any, joints: BoolArray) -> Iterator[tuple[int, ...]]:
+    """Points of the upper side of each joint."""
+    offset, nodes = _cells_of(grid)
+    for cell in np.flatnonzero(joints).tolist():
+        local = nodes[offset[cell] : offset[cell + 1]]
+        yield tuple(int(local[k]) for k in _UPPER[int(grid.celltypes[cell])])
+
+
+def _edges_of(surface: Any) -> IntArray:
+    """Pairs of points that the sides of the faces join, each once."""
+    faces = surface.faces
+    pairs = []
+    at = 0
+    while at < len(faces):  # runs of faces with as many corners
+        size = int(faces[at])
+        step = size + 1
+        most = (len(faces) - at) // step
+        block = faces[at : at + most * step].reshape(most, step)
+        same = block[:, 0] == size
+        run = int(most if same.all() else np.argmin(same))
+        corners = block[:run, 1:]
+        pairs.append(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2))
+        at += run * step
+    if not pairs:
+        return np.zeros(0, np.int64)
+    every = np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
+    found: IntArray = every.ravel().astype(np.int64)
+    return found
+
+
+def _pairs(lines: IntArray) -> IntArray:
+    """Segments of polylines, as VTK lists these."""
+    found: list[int] = []
+    at = 0
+    while at < len(lines):
+        size = int(lines[at])
+        for a, b in pairwise(lines[at + 1 : at + 1 + size].tolist()):
+            found += [a, b]
+        at += size + 1
+    return np.array(found, np.int64)
+
+
+def _singles(verts: IntArray) -> IntArray:
+    found: list[int] = []
+    at = 0
+    while at < len(verts):
+        size = int(verts[at])
+        found += verts[at + 1 : at + 1 + size].tolist()
+        at += size + 1
+    return np.array(found, np.int64)
+
+
+# ---- reading -------------------------------------------------------------------------------------
+
+
+def _opened(path: Path) -> _Steps:
+    """A series to read."""
+    try:
+        import pyvista
+    except ImportError as missing:
+        raise SceneError("report.no-pyvista", problem=missing) from None
+    if not path.is_file():
+        raise SceneError("report.series-gone", name=path.name)
+    steps = (_of_hdf if path.suffix == ".vtkhdf" else _of_list)(path, pyvista)
+    if not len(steps.times):
+        raise SceneError("report.nothing-to-see", name=path.name)
+    return steps
+
+
+def _of_hdf(path: Path, pyvista: Any) -> _Steps:
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    reader = vtkHDFReader()
+    if not reader.CanReadFile(str(path)):
+        raise SceneError("report.series-damaged", name=path.name)
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    times = reader.GetOutputInformation(0).Get(key) or (0.0,)
+
+    def grid(step: int) -> Any:
+        reader.SetStep(step)
+        reader.Update()
+        return _one(pyvista.wrap(reader.GetOutputDataObject(0)))
+
+    return _Steps(np.array(times, float), grid)
+
+
+def _of_list(path: Path, pyvista: Any) -> _Steps:
+    from ssilang.io.errors import InputError, OutputError
+    from ssilang.io.vtk.pvd import read_pvd
+
+    try:
+        entries = read_pvd(path)
+    except (OSError, ValueError, InputError, OutputError):
+        raise SceneError("report.series-damaged", name=path.name) from None
+    files = [e for e in entries if (path.parent / e.file).is_file()]
+    times = sorted({e.time for e in files})
+
+    def grid(step: int) -> Any:
+        names = [path.parent / e.file for e in files if e.time == times[step]]
+        return _one(pyvista.MultiBlock([pyvista.read(n) for n in names]))
+
+    return _Steps(np.array(times, float), grid)
+
+
+def _one(data: Any) -> Any:
+    """One grid of what was read."""
+    if hasattr(data, "combine"):
+        return data.combine(merge_points=False)
+    return data.copy(deep=False)

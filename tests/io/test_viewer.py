@@ -1,0 +1,170 @@
+"""ssilang view: what is drawn of results, meshes and pictures; what is refused; the window."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+from ssilang.cli.main import main
+from ssilang.cli.run import run_text
+from ssilang.io.viewer import Series, Wish, chosen_file, draw
+
+BEAM = (
+    "OPTI DIME 3 ELEM SEG2 MODE TRID ; L = DROI 4 (0. 0. 0.) (4. 0. 0.) ; OPTI ELEM QUA4 ; "
+    "S = TRAN L 2 (0. 1. 0.) ; OPTI ELEM CUB8 ; V = S VOLU 'TRAN' 1 (0. 0. 1.) ; X = COOR 1 V ; "
+    "OPTI SORT 'beam' ; "
+    "REPE BT 3 ; U = NOMC 'UZ' ((0.001 * (&BT - 1)) * X * X) ; "
+    "SORT 'VTK ' V 'V' U '' X 'HEAT' FORM 'TEMP' (0.1 * &BT) ; FIN BT ; "
+)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a series of three instants in one file, and one with a list of files."""
+    root = tmp_path_factory.mktemp("results")
+    for name, form in (("one", "'VTKHDF'"), ("many", "")):
+        made = run_text(BEAM.replace("FORM", form), root / name)
+        assert made.exit_code == 0, made.message
+    return root
+
+
+def shown(path: Path, target: Path, **wish: object) -> np.ndarray:
+    """The picture without the colour bar and its words."""
+    draw(path, target, Wish(**wish))  # type: ignore[arg-type]
+    with Image.open(target) as image:
+        return np.asarray(image.convert("RGB"), dtype=float)[40:, :1000]
+
+
+def painted(image: np.ndarray) -> np.ndarray:
+    return (image < 200).any(axis=2)
+
+
+def test_a_folder_stands_for_its_results(results: Path) -> None:
+    assert chosen_file(results / "one").name == "beam.vtkhdf"
+    assert chosen_file(results / "many").name == "beam.pvd"
+    assert Series(chosen_file(results / "one")).times == pytest.approx([0.1, 0.2, 0.3])
+
+
+@pytest.mark.parametrize("kind", ["one", "many"])
+def test_displacements_are_shown_and_amplified(kind: str, results: Path, tmp_path: Path) -> None:
+    """The end goes up by 0.032 m, the box's diagonal is 4.2 m: ten times that is 8 % of it."""
+    usual, ten, none = (
+        shown(results / kind, tmp_path / "x.png", **wish)
+        for wish in ({}, {"scale": 10.0}, {"scale": 0.0})
+    )
+    assert np.array_equal(usual, ten)
+    high, low = (np.ptp(np.argwhere(painted(x[:700])), axis=0)[0] for x in (usual, none))
+    # its far end, which hangs low on the sheet, comes up
+    assert high < low - 10
+
+
+def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path) -> None:
+    heat = shown(results / "one", tmp_path / "heat.png", field="HEAT", scale=0.0)
+    columns = heat[painted(heat).any(axis=1)]
+    middle = columns[len(columns) // 2]
+    inked = np.flatnonzero((middle < 200).any(axis=1))
+    left, right = middle[inked[:60]].mean(axis=0), middle[inked[-260:-200]].mean(axis=0)
+    assert left[2] > left[1]  # violet, where HEAT is small
+    assert right[1] > right[2]  # green to yellow
+
+
+def test_a_gif_holds_all_instants(results: Path, tmp_path: Path) -> None:
+    draw(results / "one", tmp_path / "x.gif", Wish())
+    with Image.open(tmp_path / "x.gif") as movie:
+        frames = [np.asarray(f.convert("L"), dtype=float) for f in ImageSequence.Iterator(movie)]
+    assert len(frames) == 3
+    assert np.abs(frames[0] - frames[2]).max() > 60
+
+
+def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
+    points = np.array([(0.0, 0, 0), (4, 0, 0), (4, 1, 0), (0, 1, 0)])
+    mesh = meshio.Mesh(points, [("triangle", np.array([(0, 1, 2), (0, 2, 3)]))])
+    meshio.write(tmp_path / "plate.msh", mesh, file_format="gmsh")
+    draw(tmp_path / "plate.msh", tmp_path / "plate.png", Wish())
+    with Image.open(tmp_path / "plate.png") as made:
+        image = np.asarray(made.convert("RGB"), dtype=float)
+    rows, columns = np.ptp(np.argwhere(painted(image[100:700, :1040])), axis=0)
+    assert columns / rows == pytest.approx(4.0, rel=0.05)  # seen from above
+    draw(tmp_path / "plate.png", tmp_path / "again.png", Wish())
+    with Image.open(tmp_path / "again.png") as again:
+        assert (np.asarray(again.convert("L")) < 200).any()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["one", "-o", "x.png", "--field", "NO"], "no field 'NO', the file has"),
+        (["one", "-o", "x.png", "--field", "HEAT", "--step", "9"], "there are 3"),
+        (["one", "-o", "x.png", "--field", "U:9"], "no component '9'"),
+        (["one", "-o", "x.txt"], "no name of a picture"),
+        (["none", "-o", "x.png"], "no file or folder"),
+        (["empty", "-o", "x.png"], "holds nothing to show"),
+        (["bad.txt", "-o", "x.png"], "of no kind that can be shown"),
+        (["bad.vtu", "-o", "x.png"], "no points, or is damaged"),
+        (["bad.msh", "-o", "x.png"], "cannot be shown"),
+        (["one"], "ssilang view one -o picture.png"),
+        (["one", "--lang", "fr"], "il n'y a pas d'écran"),
+    ],
+)
+def test_what_cannot_be_shown_is_said(
+    words: list[str],
+    said: str,
+    results: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(results)
+    monkeypatch.setattr("ssilang.io.viewer.has_screen", lambda: False)
+    monkeypatch.setattr("ssilang.cli.main._silence", lambda: None)  # it would end pytest's stream
+    Path("empty").mkdir(exist_ok=True)
+    for name in ("bad.msh", "bad.vtu", "bad.txt"):
+        Path(name).write_text("nothing\n")
+    assert main(["view", *words]) == 2
+    assert said in capsys.readouterr().err
+    assert not list(results.glob("x.*"))
+
+
+@pytest.mark.skipif(shutil.which("Xvfb") is None, reason="no X server without a screen (xvfb)")
+def test_a_window_opens_with_a_slider_over_instants(results: Path) -> None:
+    """In a process of its own, on a screen in memory; the window is closed as soon as it stands."""
+    code = (
+        "import pyvista\n"
+        "from ssilang.io import viewer\n"
+        "kept = pyvista.Plotter.show\n"
+        "def show(self, **how):\n"
+        "    slider = self.slider_widgets[0].GetRepresentation()\n"
+        "    slider.SetValue(1.0); self.slider_widgets[0].InvokeEvent('EndInteractionEvent')\n"
+        "    kept(self, auto_close=False, interactive=False)\n"
+        "    print(type(self.render_window).__name__, self.text, len(self.slider_widgets))\n"
+        "pyvista.Plotter.show = show\n"
+        "viewer.show(__import__('pathlib').Path('one'), viewer.Wish())\n"
+    )
+    reader, writer = os.pipe()
+    screen = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1300x1000x24"],
+        pass_fds=[writer],
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(writer)
+    try:
+        number = os.read(reader, 16).decode().strip()
+        there = {**os.environ, "DISPLAY": f":{number}"}
+        there.pop("VTK_DEFAULT_OPENGL_WINDOW", None)
+        done = subprocess.run(
+            [sys.executable, "-c", code], cwd=results, env=there, capture_output=True, text=True,
+            check=False, timeout=120,
+        )  # fmt: skip
+    finally:
+        screen.terminate()
+        screen.wait()
+        os.close(reader)
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert "vtkXOpenGLRenderWindow" in done.stdout

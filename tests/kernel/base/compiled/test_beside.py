@@ -1,0 +1,162 @@
+"""The process that compiles beside a run: who compiles what, how it ends, what it is told ahead."""
+
+import os
+import pickle
+import subprocess
+import sys
+import time
+
+import pytest
+
+from ssilang.kernel.base.compiled import PLAIN, beside
+from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead
+from ssilang.kernel.solvers.cholesky import multifrontal
+from ssilang.kernel.stepping.rests.sparse import interleaved_loop
+from ssilang.kernel.stepping.run import integrate
+from tests.references.soil_block import soil_block
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
+
+
+class Living:
+    """A process that runs until it is stopped."""
+
+    def __init__(self, turns):
+        self.turns = turns
+
+    def poll(self):
+        self.turns -= 1
+        return None if self.turns > 0 else 0
+
+
+def pair(folder, turns=10**9):
+    """A run and the other process, that share a folder of names."""
+    run, other = Beside(), Beside()
+    run._claims = other._claims = folder
+    run._process, other.found = Living(turns), []
+    return run, other
+
+
+def test_alone_all_is_compiled_by_the_run():
+    with Beside().taking("f(int)") as mine:
+        assert mine
+
+
+def test_each_function_is_compiled_by_one_of_the_two(tmp_path):
+    run, other = pair(tmp_path)
+    with other.taking("f(int)") as mine:
+        assert mine
+    with run.taking("f(int)") as mine:
+        assert not mine
+    with run.taking("f(float)") as mine:
+        assert mine
+    with run.taking("f(float)") as mine:  # once more, another of the same name: no waiting
+        assert mine
+
+
+def test_what_the_other_fails_to_compile_is_not_waited_for(tmp_path):
+    run, other = pair(tmp_path)
+    with pytest.raises(TypeError), other.taking("f(int)"):
+        raise TypeError
+    with run.taking("f(int)") as mine:
+        assert not mine
+
+
+def test_the_run_goes_on_where_the_other_has_ended(tmp_path):
+    run, other = pair(tmp_path, turns=3)
+    with other.taking("f(int)"), run.taking("f(int)") as mine:
+        assert not mine
+
+
+def test_nothing_is_started_where_it_is_not_allowed(monkeypatch):
+    monkeypatch.setattr(beside, "ALLOWED", set())
+    run = Beside()
+    run.tell("f(int)", b"")
+    assert run._process is None
+
+
+PROGRAM = """
+from __future__ import annotations
+
+from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.compiler import compiled
+
+
+@apart
+@compiled
+def half(x: float) -> float:
+    return 0.5 * x
+
+
+@compiled
+def quarter(x: float) -> float:
+    return half(half(x))
+"""
+RUN = """
+import os, pickle, time
+from numba.core import types
+from ssilang.kernel.base import compiled
+from ssilang.kernel.base.compiled import beside
+import program
+
+beside.free_cores = lambda: 2
+compiled.ALLOWED.add("beside")
+task = "program", "half", (types.float64,)
+beside.BESIDE.tell(beside.title(*task), pickle.dumps(task))
+claims, limit = beside.BESIDE._claims, time.monotonic() + 120
+while not any(claims.glob("*.done")) and time.monotonic() < limit:
+    time.sleep(0.01)
+print(program.quarter(8.0), len(program.half.dispatcher.stats.cache_hits))
+print(beside.BESIDE._process.pid, flush=True)
+if {killed}:
+    os.kill(os.getpid(), 9)
+"""
+
+
+def gone(pid):
+    """Whether a process ends within a time."""
+    limit = time.monotonic() + 60
+    while time.monotonic() < limit:
+        try:
+            os.kill(pid, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.02)
+    return False
+
+
+@pytest.mark.skipif(PLAIN, reason="plain numba keeps no code for others")
+def test_a_run_loads_what_the_other_has_compiled_and_leaves_nobody_behind(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}
+    paths = os.pathsep.join([str(tmp_path), *sys.path])
+    given |= {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": paths, "TMPDIR": str(tmp_path)}
+    for killed in (False, True):
+        (tmp_path / "run.py").write_text(RUN.format(killed=killed))
+        made = subprocess.run(
+            [sys.executable, "run.py"], capture_output=True, text=True, cwd=tmp_path,
+            env=given, check=False,
+        )  # fmt: skip
+        assert made.returncode == (-9 if killed else 0), made.stderr
+        values, pid = made.stdout.splitlines()
+        assert values == "2.0 1"
+        assert gone(int(pid))
+    assert not list(tmp_path.glob("ssilang-compiling-*"))
+
+
+def test_types_that_are_told_ahead_are_those_of_a_run():
+    """Else the other process compiles in vain: make `ahead.txt` anew.
+
+    One line a function: its name, and base64 of zlib of the pickle of module, name and types.
+    """
+    integrate(soil_block(steps=5))
+    made = {
+        "run_interleaved": interleaved_loop.run_interleaved,
+        "_factorise": multifrontal._factorise,
+    }
+    tasks = tasks_ahead()
+    assert tasks.keys() == made.keys()
+    for name, function in made.items():
+        module, own, args = pickle.loads(tasks[name])
+        assert (module, own) == (function.__module__, name)
+        assert args in function.overloads
