@@ -380,6 +380,19 @@ MESSAGES: dict[str, Message] = {
         "write it flat, without parts, or each part into a file of its own",
         "écrivez-le à plat, sans pièces, ou chaque pièce dans son fichier",
     ),
+    "esm-without-step": Message(
+        "{name}: the head has no 'SAMPLING_INTERVAL_S: ...'",
+        "{name} : l'en-tête n'a pas de 'SAMPLING_INTERVAL_S: ...'",
+        "ESM and ITACA files begin with lines 'KEY: VALUE'; LIRE 'PEER' and 'CSV' read others",
+        "les fichiers ESM et ITACA commencent par des lignes 'CLE: VALEUR' ; LIRE 'PEER' et 'CSV' "
+        "lisent les autres",
+    ),
+    "esm-other-count": Message(
+        "{name}: NDATA says {count} {count:value|values}, the file holds {n_values}",
+        "{name} : NDATA annonce {count} {count:valeur|valeurs}, le fichier en contient {n_values}",
+        "the file is cut, or has further columns: fetch it again",
+        "le fichier est coupé, ou a d'autres colonnes : le reprendre",
+    ),
     "record-not-finite": Message(
         "{name} has values that are too large for a number",
         "{name} a des valeurs trop grandes pour un nombre",
