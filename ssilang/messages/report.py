@@ -83,6 +83,11 @@ MESSAGES: dict[str, Message] = {
         "Laissés de côté : {calculations} {calculations:autre calcul|autres calculs}, {drawings} "
         "{drawings:autre image|autres images} de courbes.",
     ),
+    "footings-left": Message(
+        "Left out: {count} smaller {count:footing|footings}.",
+        "{count:Laissée de côté|Laissées de côté} : {count} plus {count:petite|petites} "
+        "{count:semelle|semelles}.",
+    ),
     "unread": Message("Damaged, not shown: {names}", "Endommagé, pas montré : {names}"),
     "made": Message(
         "Made by ssilang. The file holds all that it shows; it asks for nothing elsewhere.",

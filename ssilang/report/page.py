@@ -248,6 +248,8 @@ def _notes(results: Results, told: Teller) -> list[str]:
     left = results.left_out
     if left.get("calculations") or left.get("drawings"):
         notes.append(told("report.left-out", **left))
+    if count := sum(c.footings_left for c in results.calculations):
+        notes.append(told("report.footings-left", count=count))
     if results.unread:
         notes.append(told("report.unread", names=results.unread))
     return notes

@@ -32,6 +32,7 @@ class Calculation:
     name: str
     columns: dict[str, FloatArray]
     footings: list[dict[str, Any]]
+    footings_left: int
     largest: list[dict[str, Any]]
     scene: Path | None
     whole: bool
@@ -178,7 +179,15 @@ def _contents(folder: Path, own: set[str], ended: bool, unread: list[str]) -> di
 
 
 _RECORDED = {
-    "calculations": ("procedure", "table", "scene", "whole", "footings", "largest"),
+    "calculations": (
+        "procedure",
+        "table",
+        "scene",
+        "whole",
+        "footings",
+        "footings_left",
+        "largest",
+    ),
     "drawings": ("title", "x", "y", "log", "files", "curves"),
     "shapes": ("name", "kind", "scene", "frequencies"),
 }
@@ -206,7 +215,13 @@ def _calculation(folder: Path, told: dict[str, Any], unread: list[str]) -> Calcu
         unread.append(f"{FOLDER}/{path.name}")
     scene = None if told["scene"] is None else folder / FOLDER / told["scene"]
     return Calculation(
-        told["procedure"], columns, told["footings"], told["largest"], scene, told["whole"]
+        told["procedure"],
+        columns,
+        told["footings"],
+        told["footings_left"],
+        told["largest"],
+        scene,
+        told["whole"],
     )
 
 

@@ -27,9 +27,12 @@ class FootingTrack(Track):
     footings : sequence of Footing
     kept : list of lists of Loads
         Of each footing, in order of time.
+    left_out : int
+        Smaller footings, which nobody follows.
     """
 
     footings: Sequence[Footing] = field(kw_only=True)
+    left_out: int = field(default=0, kw_only=True)
     kept: list[list[Loads]] = field(init=False)
     instants: list[FloatArray] = field(default_factory=list, init=False)
     keeps: ClassVar[bool] = False
@@ -83,6 +86,7 @@ def footing_track(problem: Problem, wanted: BoolArray) -> FootingTrack | None:
     """The observer of a problem's largest footings; None where it has no joints."""
     if problem.interface is None:
         return None
-    footings = footings_of(problem.interface, problem.numbering)[:MOST]
+    every = footings_of(problem.interface, problem.numbering)
+    footings, left = every[:MOST], len(every[MOST:])
     held = [np.zeros(0, np.int64), *(f.unknowns for f in footings)]
-    return FootingTrack(wanted, np.unique(np.concatenate(held)), footings=footings)
+    return FootingTrack(wanted, np.unique(np.concatenate(held)), footings=footings, left_out=left)

@@ -85,6 +85,7 @@ class CalculationRecord:
                 "scene": None if self.scene is None else self.scene.writer.base.name + ".vtkhdf",
                 "whole": history is not None,
                 "footings": footings,
+                "footings_left": 0 if track is None else track.left_out,
                 "largest": [] if extremes is None else _largest(extremes),
             }
         )
