@@ -48,12 +48,12 @@ _SAME_PLACE = 1e-6  # of the size of a part
 
 
 @contextmanager
-def _one_error() -> Iterator[None]:
+def _one_error(language: str) -> Iterator[None]:
     """What the kernel refuses, as the exception of all that is wrong."""
     try:
         yield
     except KernelError as problem:
-        raise Error([Notice.of(SsiError.of(problem, None))]) from problem
+        raise Error([Notice.of(SsiError.of(problem, None), language)]) from problem
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +66,13 @@ class Part:
         Node numbers from 0, (rows, columns) in the plane, (layers, rows, columns) in space.
     mesh : MeshView
         Its cells, or those of its one face.
+    language : 'en' or 'fr'
+        Of what it refuses.
     """
 
     ids: IntArray
     mesh: MeshView
+    language: str = "en"
 
     def nodes_of(self, side: str) -> IntArray:
         """Node numbers, from 0, of a side: left, right, bottom, top; front, back in space."""
@@ -80,7 +83,12 @@ class Part:
         if side not in ends:
             near = nearest(side, ends, SHORT_LIKE)
             raise refused(
-                "api.no-such-side", "en", MissingKey, side=side, near=near, known=list(ends)
+                "api.no-such-side",
+                self.language,
+                MissingKey,
+                side=side,
+                near=near,
+                known=list(ends),
             )
         axis, last = divmod(ends.index(side), 2)
         found: IntArray = np.take(self.ids, -1 if last else 0, axis=self.ids.ndim - 1 - axis)
@@ -112,6 +120,8 @@ class Builder:
         Plane strain, or space. The last axis is upwards.
     gravity : float
         m/s2, downwards; 0 for none.
+    language : 'en' or 'fr'
+        Of what is refused.
 
     Examples
     --------
@@ -132,6 +142,7 @@ class Builder:
 
     dimension: int = 2
     gravity: float = 9.81
+    language: str = "en"
     table: NodeTable = field(default_factory=NodeTable, init=False, repr=False)
     _zones: list[tuple[Zone, CellField]] = field(default_factory=list, init=False, repr=False)
     _joints: list[tuple[Zone, CellField]] = field(default_factory=list, init=False, repr=False)
@@ -146,7 +157,7 @@ class Builder:
 
     def __post_init__(self) -> None:
         if self.dimension not in _MODES:
-            raise refused("api.no-such-dimension", dimension=self.dimension)
+            raise refused("api.no-such-dimension", self.language, dimension=self.dimension)
         self.mode = _MODES[self.dimension]
         self.unknowns = translations(self.mode)
 
@@ -179,7 +190,9 @@ class Builder:
         lengths = np.ptp(ends, axis=0) if ends.shape == (2, self.dimension) else np.zeros(1)
         sizes = np.broadcast_to(np.asarray(size, dtype=float), lengths.shape)
         if not (lengths > 0.0).all() or not (sizes > 0.0).all():
-            raise refused("api.no-block", corner=corner, opposite=opposite, size=size)
+            raise refused(
+                "api.no-block", self.language, corner=corner, opposite=opposite, size=size
+            )
         counts = np.ceil(lengths / sizes * (1.0 - 1e-9)).astype(int) + 1
         low, high = ends.min(axis=0), ends.max(axis=0)
         axes = [np.linspace(low[i], high[i], n) for i, n in enumerate(counts.tolist())]
@@ -191,7 +204,7 @@ class Builder:
         element = elements.default_element(cell, self.mode)
         zone = Zone(cells, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), element, self.mode)
         self._zones.append((zone, self._material(zone, material)))
-        return Part(ids, MeshView(Mesh(self.table, (cells,))))
+        return Part(ids, MeshView(Mesh(self.table, (cells,)), self.language), self.language)
 
     def joint(
         self, upper: Part, lower: Part | None = None, law: str = "JOINT_SDM", **parameters: float
@@ -212,7 +225,7 @@ class Builder:
             lower = self._ground(upper)
         faces = self._face(upper._side("bottom")), self._face(lower._side("top"))
         extent = float(np.ptp(upper.mesh.points, axis=0).max())
-        with _one_error():
+        with _one_error(self.language):
             made = joint_mesh(*faces, tolerance=_SAME_PLACE * extent)
         (cells,) = made.blocks
         names = [n for n in JOINT_NAMES if elements.ELEMENTS[n].cell_type == cells.cell_type]
@@ -221,7 +234,7 @@ class Builder:
         return Joint(zone, upper, lower)
 
     def _add(self, x: FloatArray) -> IntArray:
-        with _one_error():
+        with _one_error(self.language):
             return self.table.add(x)
 
     def _ground(self, upper: Part) -> Part:
@@ -229,7 +242,7 @@ class Builder:
         under = upper._side("bottom")
         ids = self._add(self.table.coordinates[under.ravel()]).reshape(under.shape)
         self._held.append(blocked(self.table, ids.ravel(), self.unknowns))
-        return Part(ids[None], MeshView(self._face(ids)))
+        return Part(ids[None], MeshView(self._face(ids), self.language), self.language)
 
     def _face(self, ids: IntArray) -> Mesh:
         """Segments or quadrangles of a side; seen from above, their normal comes to the eye."""
@@ -239,16 +252,18 @@ class Builder:
 
     def _material(self, zone: Zone, given: Mapping[str, float]) -> CellField:
         """Constant parameters over the cells of a zone."""
-        with _one_error():
+        with _one_error(self.language):
             names = material_names(zone)
         for name in given:
             if name not in names.all:
                 near = nearest(name, names.all, SHORT_LIKE)
                 known = list(names.all)
-                raise refused("api.no-such-material", name=name, near=near, known=known)
+                raise refused(
+                    "api.no-such-material", self.language, name=name, near=near, known=known
+                )
         lost = [n for n in names.required if n not in given]
         if lost:
-            raise refused("api.material-missing", names=lost)
+            raise refused("api.material-missing", self.language, names=lost)
         n = len(zone.cells)
         values = {name: np.full((n, 1), float(value)) for name, value in given.items()}
         block = CellFieldBlock(zone.cells, values, "STRESSES", zone.element)
@@ -282,7 +297,9 @@ class Builder:
     def _known(self, names: Sequence[str] | Mapping[str, float]) -> tuple[str, ...]:
         for name in names:
             if name not in self.unknowns:
-                raise refused("api.no-such-unknown", name=name, known=list(self.unknowns))
+                raise refused(
+                    "api.no-such-unknown", self.language, name=name, known=list(self.unknowns)
+                )
         return tuple(names)
 
     # ---- the run -------------------------------------------------------------------------------
@@ -299,7 +316,7 @@ class Builder:
     def inputs(self, times: ArrayLike, start: str = "rest") -> Inputs:
         """The problem as the kernel takes it, to change what the builder does not know."""
         if start not in ("rest", "unloaded"):
-            raise refused("api.no-such-start", start=start)
+            raise refused("api.no-such-start", self.language, start=start)
         K, M = self.matrices()
         weight = self._force(M, np.eye(self.dimension)[-1] * -self.gravity)
         parts = [LoadPart("MECA", weight)] if self.gravity else []
@@ -328,7 +345,7 @@ class Builder:
         start : 'rest' or 'unloaded'
             At rest under the weight, or as built, with the weight coming on at once.
         """
-        with _one_error():
+        with _one_error(self.language):
             problem = make_problem(self.inputs(times, start))
             track = NodeTrack(np.ones(len(problem.times), dtype=bool), problem=problem)
             history = integrate(problem, [track])
@@ -361,7 +378,9 @@ class Builder:
 
     def mesh(self) -> MeshView:
         """All blocks."""
-        return MeshView(union(*(Mesh(self.table, (z.cells,)) for z, _ in self._zones)))
+        return MeshView(
+            union(*(Mesh(self.table, (z.cells,)) for z, _ in self._zones)), self.language
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -401,13 +420,13 @@ class Motion:
             The part: at a joint two nodes stand at one place.
         """
         if word not in FIELDS:
-            raise refused("api.no-such-word", word=word, known=list(FIELDS))
+            raise refused("api.no-such-word", self.builder.language, word=word, known=list(FIELDS))
         self.builder._known([component])
-        node = _nearest(self.builder.table, np.unique(of.ids), np.asarray(at, dtype=float))
+        node = _nearest(self.builder, np.unique(of.ids), np.asarray(at, dtype=float))
         values = self.track.history(FIELDS[word], component, node)
         assert values is not None
         part = CurvePart(self.times, values, "TEMP", component, component)
-        return CurveView(Curve((part,)))
+        return CurveView(Curve((part,)), self.builder.language)
 
     def opening(self, joint: Joint) -> FloatArray:
         """Normal jumps (n_times, n_points) of a joint, positive where it is open."""
@@ -433,18 +452,24 @@ class Motion:
             if cells.zone is joint.zone:
                 return cells, slice(first, last)
             first = last
-        raise refused("api.joint-of-another")
+        raise refused("api.joint-of-another", self.builder.language)
 
     def _at_points(self, name: str, joint: Joint) -> FloatArray:
         places = self._cells(joint)[1]
         return self.track.joints(name)[:, places]
 
 
-def _nearest(table: NodeTable, nodes: IntArray, at: FloatArray) -> int:
+def _nearest(builder: Builder, nodes: IntArray, at: FloatArray) -> int:
     """The node of some that stands at a place."""
+    table = builder.table
     x = table.coordinates[nodes]
     distance = np.linalg.norm(x - np.pad(at, (0, 3 - len(at))), axis=1)
     i = int(distance.argmin())
     if distance[i] > _SAME_PLACE * np.ptp(x, axis=0).max():
-        raise refused("api.no-node-there", nearest=table.told(int(nodes[i])), distance=distance[i])
+        raise refused(
+            "api.no-node-there",
+            builder.language,
+            nearest=table.told(int(nodes[i])),
+            distance=distance[i],
+        )
     return int(nodes[i])

@@ -25,6 +25,8 @@ class CurveView:
     ----------
     held : Curve
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
 
     Examples
     --------
@@ -42,11 +44,12 @@ class CurveView:
     """
 
     held: Curve
+    language: str = "en"
 
     @property
     def _only(self) -> CurvePart:
         if len(self.held.parts) != 1:
-            raise refused("api.which-curve", "en", count=len(self.held.parts))
+            raise refused("api.which-curve", self.language, count=len(self.held.parts))
         return self.held.parts[0]
 
     @property
@@ -74,7 +77,9 @@ class CurveView:
 
     def __getitem__(self, place: int) -> CurveView:
         """One of the curves."""
-        return CurveView(Curve((self.held.parts[place],), self.held.title, self.held.kind))
+        return CurveView(
+            Curve((self.held.parts[place],), self.held.title, self.held.kind), self.language
+        )
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> FloatArray:
         """Ordinates of its only curve."""
@@ -82,13 +87,13 @@ class CurveView:
 
     def series(self) -> pandas.Series[float]:
         """Its only curve as a Series over the abscissas."""
-        part, pd = self._only, library("pandas")
+        part, pd = self._only, library("pandas", self.language)
         index = pd.Index(part.abscissas, name=part.abscissa_name or None)
         return pd.Series(part.ordinates, index, name=_name(part))
 
     def frame(self) -> pandas.DataFrame:
         """All curves as columns over the abscissas; NaN where a curve has no such abscissa."""
-        pd = library("pandas")
+        pd = library("pandas", self.language)
         curves = [self[i].series() for i in range(len(self))]
         return pd.concat(curves, axis=1).sort_index() if curves else pd.DataFrame()
 

@@ -34,9 +34,12 @@ class PointView:
     ----------
     held : Point
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
     """
 
     held: Point
+    language: str = "en"
 
     @property
     def node(self) -> int:
@@ -63,6 +66,8 @@ class MeshView:
     ----------
     held : Mesh
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
 
     Examples
     --------
@@ -75,6 +80,7 @@ class MeshView:
     """
 
     held: Mesh
+    language: str = "en"
 
     @cached_property
     def nodes(self) -> IntArray:
@@ -111,15 +117,15 @@ class MeshView:
 
         nodal = {n: f.held for n, f in fields.items() if isinstance(f, FieldView)}
         inside = {n: f.held for n, f in fields.items() if isinstance(f, CellFieldView)}
-        return _grid(grid_of(self.held, nodal, inside))
+        return _grid(grid_of(self.held, nodal, inside), self.language)
 
     def __repr__(self) -> str:
         kinds = ", ".join(f"{len(b)} {b.cell_type}" for b in self.held.blocks)
         return f"<MAILLAGE {kinds or 'empty'}, {len(self.nodes)} nodes>"
 
 
-def _grid(made: Grid) -> pyvista.UnstructuredGrid:
-    pv = library("pyvista")
+def _grid(made: Grid, language: str) -> pyvista.UnstructuredGrid:
+    pv = library("pyvista", language)
     sizes = np.diff(made.offsets, prepend=0)
     starts = made.offsets - sizes
     cells = np.insert(made.connectivity, starts, sizes)
@@ -140,6 +146,8 @@ class FieldView:
     ----------
     held : NodeField
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
 
     Examples
     --------
@@ -156,6 +164,7 @@ class FieldView:
     """
 
     held: NodeField
+    language: str = "en"
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -175,7 +184,7 @@ class FieldView:
     def __getitem__(self, component: str) -> FloatArray:
         """Values of a component (n,) in the order of `nodes`, NaN where a node has none."""
         if component not in self.components:
-            raise _no_component(component, self.components)
+            raise _no_component(component, self.components, self.language)
         return self.held.values_at(component, self.nodes - 1, np.nan)
 
     def __len__(self) -> int:
@@ -190,12 +199,12 @@ class FieldView:
     def frame(self) -> pandas.DataFrame:
         """A DataFrame: a row a node, its number as index, coordinates and components as columns."""
         made = dict(zip(AXES, self.points.T, strict=True)) | {n: self[n] for n in self.components}
-        pd = library("pandas")
+        pd = library("pandas", self.language)
         return pd.DataFrame(made, index=pd.Index(self.nodes, name="node"))
 
     def xarray(self) -> xarray.Dataset:
         """A Dataset over `node`, with the coordinates x, y, z."""
-        return library("xarray").Dataset(
+        return library("xarray", self.language).Dataset(
             {name: ("node", self[name]) for name in self.components},
             coords={"node": self.nodes, **node_axes(self.points)},
         )
@@ -215,9 +224,12 @@ class CellFieldView:
     ----------
     held : CellField
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
     """
 
     held: CellField
+    language: str = "en"
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -232,10 +244,12 @@ class CellFieldView:
     def values(self, component: str, zone: int = 1) -> FloatArray:
         """Values (n_cells, n_points) of a component in a zone, counted from 1."""
         if not 1 <= zone <= self.zones:
-            raise refused("api.no-such-zone", "en", MissingKey, zone=zone, count=self.zones)
+            raise refused(
+                "api.no-such-zone", self.language, MissingKey, zone=zone, count=self.zones
+            )
         block = self.held.blocks[zone - 1]
         if component not in block.components:
-            raise _no_component(component, tuple(block.components))
+            raise _no_component(component, tuple(block.components), self.language)
         values = block.components[component]
         return np.broadcast_to(values, (len(block.cells), values.shape[-1])).copy()
 
@@ -243,9 +257,9 @@ class CellFieldView:
         """Values (n_cells, n_points) of the only zone that has the component."""
         having = [i for i, b in enumerate(self.held.blocks, 1) if component in b.components]
         if not having:
-            raise _no_component(component, self.components)
+            raise _no_component(component, self.components, self.language)
         if len(having) > 1:
-            raise refused("api.which-zone", "en", component=component, zones=having)
+            raise refused("api.which-zone", self.language, component=component, zones=having)
         return self.values(component, having[0])
 
     def points(self, zone: int = 1) -> FloatArray:
@@ -256,7 +270,7 @@ class CellFieldView:
 
     def frame(self) -> pandas.DataFrame:
         """A DataFrame: a row a point, by zone, cell and point; components that are numbers."""
-        pd = library("pandas")
+        pd = library("pandas", self.language)
         parts = []
         for zone, block in enumerate(self.held.blocks, 1):
             numbers = {n: v for n, v in block.components.items() if v.dtype != object}
@@ -272,7 +286,7 @@ class CellFieldView:
     def mesh(self) -> MeshView:
         """Its cells."""
         blocks = tuple({id(b.cells): b.cells for b in self.held.blocks}.values())
-        return MeshView(Mesh(blocks[0].nodes, blocks))
+        return MeshView(Mesh(blocks[0].nodes, blocks), self.language)
 
     def __repr__(self) -> str:
         cells = sum(len(b.cells) for b in self.held.blocks)
@@ -284,8 +298,8 @@ def node_axes(points: FloatArray) -> dict[str, tuple[str, FloatArray]]:
     return {axis: ("node", points[:, i]) for i, axis in enumerate(AXES)}
 
 
-def _no_component(name: str, known: Sequence[str]) -> Exception:
+def _no_component(name: str, known: Sequence[str], language: str) -> Exception:
     near = nearest(name, known, SHORT_LIKE)
     return refused(
-        "api.no-such-component", "en", MissingKey, name=name, near=near, known=list(known)
+        "api.no-such-component", language, MissingKey, name=name, near=near, known=list(known)
     )

@@ -20,7 +20,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.near import nearest
+from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.values import (
     ListChpo,
     ListEnti,
@@ -46,6 +46,8 @@ class TableView(Mapping[Any, Any]):
     ----------
     held : Table
         The language's own object.
+    language : 'en' or 'fr'
+        Of what it refuses.
 
     Examples
     --------
@@ -55,30 +57,30 @@ class TableView(Mapping[Any, Any]):
     (2.5, ['B', 1], np.float64(3.0))
     """
 
-    def __init__(self, held: Table) -> None:
-        self.held = held
+    def __init__(self, held: Table, language: str = "en") -> None:
+        self.held, self.language = held, language
 
     def __getitem__(self, index: Any) -> Any:
         key = held(index)
         if not self.held.has(key):
             raise self._missing(index)
-        return seen(self.held.get(key))
+        return seen(self.held.get(key), self.language)
 
     def __contains__(self, index: object) -> bool:
         return self.held.has(held(index))
 
     def __iter__(self) -> Iterator[Any]:
-        return (seen(index) for index in self.held.indices())
+        return (seen(index, self.language) for index in self.held.indices())
 
     def __len__(self) -> int:
         return len(self.held)
 
     def _missing(self, index: object) -> Exception:
         known = [i for i in self.held.indices() if isinstance(i, str | int | float)]
-        near = nearest(str(index), [k for k in known if isinstance(k, str)])
+        near = nearest(str(index), [k for k in known if isinstance(k, str)], SHORT_LIKE)
         shown = [repr(_plain(k)) for k in known[:_MOST_SHOWN]]
         return refused(
-            "api.no-such-index", "en", MissingKey,
+            "api.no-such-index", self.language, MissingKey,
             index=repr(index), near=repr(str(near)) if near else "", known=shown,
         )  # fmt: skip
 
@@ -89,7 +91,7 @@ class TableView(Mapping[Any, Any]):
             for i, v in self.held.items()
             if isinstance(v, ListReel | ListEnti | ListMots)
         }
-        return library("pandas").DataFrame(lists)
+        return library("pandas", self.language).DataFrame(lists)
 
     def xarray(self, word: str) -> xarray.DataArray:
         """All values in time of nodal fields of a table of results: (time, node, component).
@@ -101,7 +103,7 @@ class TableView(Mapping[Any, Any]):
         """
         from ssilang.api.histories import over_time
 
-        return over_time(self.held, word, "en")
+        return over_time(self.held, word, self.language)
 
     def _repr_html_(self) -> str:
         return html_of(self.held)
@@ -133,34 +135,38 @@ def _plain(value: object) -> object:
     return str(value) if isinstance(value, str) else value
 
 
-_SEEN: dict[type, Callable[[Any], Any]] = {
+_VALUES: dict[type, Callable[[Any], Any]] = {
     Mot: str,
     ListReel: lambda v: v.values.copy(),
     ListEnti: lambda v: v.values.copy(),
     ListMots: lambda v: [str(word) for word in v.values],
-    ListChpo: lambda v: [seen(part) for part in v.values],
-    ListObje: lambda v: [seen(part) for part in v.values],
+}
+"""What numbers and words are in Python, by the class of the list."""
+_VIEWS: dict[type, Callable[[Any, str], Any]] = {
+    ListChpo: lambda v, language: [seen(part, language) for part in v.values],
+    ListObje: lambda v, language: [seen(part, language) for part in v.values],
     Point: PointView,
     Mesh: MeshView,
     NodeField: FieldView,
     CellField: CellFieldView,
     Curve: CurveView,
 }
-"""What Python sees of an object, by its class."""
+"""How Python sees other objects, by their class."""
 _AS_THEY_ARE = (bool, int, float, str, np.ndarray)
 
 
-def seen(value: Any) -> Any:
-    """What Python sees of an object of the language."""
-    make = _SEEN.get(type(value))
-    if make is not None:
-        return make(value)
-    if isinstance(value, Table):
-        return TableView(value)
+def seen(value: Any, language: str = "en") -> Any:
+    """What Python sees of an object of the language; `language` is that of what it refuses."""
+    plain = _VALUES.get(type(value))
+    if plain is not None:
+        return plain(value)
+    view = TableView if isinstance(value, Table) else _VIEWS.get(type(value))
+    if view is not None:
+        return view(value, language)
     return value if isinstance(value, _AS_THEY_ARE) else OpaqueView(value)
 
 
-def held(value: Any) -> Any:
+def held(value: Any, language: str = "en") -> Any:
     """The language's object of something in Python: a view, a number, a word, a list, a curve.
 
     Raises
@@ -178,14 +184,14 @@ def held(value: Any) -> Any:
     if isinstance(value, str):
         return Mot(value)
     if isinstance(value, np.generic):
-        return held(value.item())
+        return held(value.item(), language)
     if hasattr(value, "__fspath__"):
         return Mot(value.__fspath__())
     if hasattr(value, "index") and hasattr(value, "to_numpy"):  # a Series
         return _curve(value.index, value.to_numpy(), str(getattr(value, "name", "") or ""))
     if isinstance(value, list | tuple | range | np.ndarray):
-        return _list(value)
-    raise refused("api.no-such-object", "en", kind=type(value).__name__)
+        return _list(value, language)
+    raise refused("api.no-such-object", language, kind=type(value).__name__)
 
 
 def _curve(x: Any, y: Any, name: str) -> Curve:
@@ -193,11 +199,11 @@ def _curve(x: Any, y: Any, name: str) -> Curve:
     return Curve((part,))
 
 
-def _list(value: Any) -> Any:
+def _list(value: Any, language: str) -> Any:
     """The list of numbers or words that a sequence is."""
     if len(value) and all(isinstance(v, str) for v in value):
         return ListMots([str(v) for v in value])
     array = np.asarray(value)
     if array.ndim != 1 or array.dtype.kind not in "iuf":
-        raise refused("api.no-such-object", "en", kind=type(value).__name__)
+        raise refused("api.no-such-object", language, kind=type(value).__name__)
     return ListEnti(array) if array.dtype.kind in "iu" else ListReel(array)

@@ -182,7 +182,7 @@ class Result(Mapping[str, Any]):
                 "api.no-such-name", self.language, MissingKey,
                 name=name, near=nearest(name, known, SHORT_LIKE), known=known,
             )  # fmt: skip
-        return seen(value)
+        return seen(value, self.language)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -217,8 +217,8 @@ class Result(Mapping[str, Any]):
         40.0
         """
         text = phrase if phrase.rstrip().endswith(";") else f"{phrase} ;"
-        found = self._evaluated(text, {n.upper(): held(v) for n, v in names.items()})
-        values = [seen(v) for v in found]
+        found = self._evaluated(text, {n.upper(): held(v, self.language) for n, v in names.items()})
+        values = [seen(v, self.language) for v in found]
         return values[0] if len(values) == 1 else tuple(values) or None
 
     def _evaluated(self, text: str, names: Mapping[str, Any]) -> list[Any]:
@@ -268,14 +268,14 @@ class Result(Mapping[str, Any]):
         if isinstance(place, Point):  # as a mesh: the curve gets the name that the script gave it
             place = poi1(place.nodes, np.array([place.node]))
         found = self._evaluated(text, {"RESULTS": results, "PLACE": place})
-        return CurveView(found[0])
+        return CurveView(found[0], self.language)
 
     def _results(self, table: Any) -> Table:
         """The table of results that is meant."""
         if isinstance(table, str):
             table = self[table]
         if table is not None:
-            value = held(table)
+            value = held(table, self.language)
             if not histories.is_results(value):
                 raise refused("api.no-results", self.language)
             return value  # type: ignore[no-any-return]

@@ -155,7 +155,7 @@ def _folder(out: Script | None) -> Path:
 
 
 def _given(name: str, value: Any, language: str) -> Any:
-    made = held(value)
+    made = held(value, language)
     kind = type_of(made)
     if kind in _OF_A_RUN:
         raise refused("api.other-run", language, name=name.upper(), kind=kind)

@@ -98,3 +98,14 @@ def test_what_makes_no_problem_is_refused_by_name(wrong, said):
     with pytest.raises(ssilang.Error, match="error") as caught:
         wrong(b, part)
     assert said in str(caught.value)
+
+
+def test_refusals_are_in_the_language_of_the_builder():
+    b = Builder(language="fr")
+    with pytest.raises(ssilang.Error, match="erreur : la loi demande NU"):
+        b.block((0, 0), (1, 1), size=1.0, YOUN=1e9)
+    part = b.block((0, 0), (1, 1), size=1.0, **STONE)
+    with pytest.raises(ssilang.Error, match="une partie n'a pas de côté 'haut'"):
+        b.fix(part, "haut")
+    with pytest.raises(ssilang.Error, match="erreur : "):
+        b.run([0.1, 0.0], start="unloaded")

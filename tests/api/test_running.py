@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import ssilang
+from ssilang.cli.main import main
 
 
 def test_parameters_take_the_place_of_first_assignments_with_their_types():
@@ -65,18 +66,15 @@ def test_objects_of_another_run_and_of_python_are_refused_by_name(swing):
         ssilang.run(3)
 
 
-def test_an_error_has_code_place_and_the_message_of_the_command_line(tmp_path):
+def test_an_error_has_code_place_and_the_message_of_the_command_line(tmp_path, monkeypatch, capsys):
     deck = tmp_path / "deck.ssi"
     deck.write_text("X = 2. ;\nMESS 'before' ;\nY = RACI X ;\n")
     with pytest.raises(ssilang.Error) as caught:
         ssilang.run(deck)
     error = caught.value
-    told = subprocess.run(
-        [sys.executable, "-m", "ssilang.cli.main", str(deck)],
-        capture_output=True, text=True, cwd=tmp_path, check=False,
-        env={**os.environ, "PYTHONPATH": str(Path(ssilang.__file__).parents[1])},
-    )  # fmt: skip
-    assert told.stderr.startswith(str(error) + "\n")
+    monkeypatch.chdir(tmp_path)
+    main([str(deck)])
+    assert capsys.readouterr().err.startswith(str(error) + "\n")
     assert (error.code, error.line, error.column) == ("unknown-operator", 3, 5)
     assert error.file == str(deck)
     assert error.result["X"] == 2.0
@@ -86,6 +84,9 @@ def test_an_error_has_code_place_and_the_message_of_the_command_line(tmp_path):
 def test_messages_are_in_the_language_that_is_asked_for():
     with pytest.raises(ssilang.Error, match="erreur : le jeu de données n'a pas de ABC"):
         ssilang.run("X = 1 ;", language="fr")["ABC"]
+    table = ssilang.run("T = TABL ; T . 'ABC' = PROG 1. ;", language="fr")["T"]
+    with pytest.raises(ssilang.Error, match="vouliez-vous dire 'ABC'"):
+        table["ABD"]
     with pytest.raises(ssilang.Error, match="erreur : "):
         ssilang.run("LIST (ABC + 1) ;", language="fr")
 

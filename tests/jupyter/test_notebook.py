@@ -32,11 +32,22 @@ CELLS = {
 }
 
 
-def notebook(cells):
+FIRST = nbformat.read(Path(__file__).resolve().parents[2] / "docs/first_uplift.ipynb", as_version=4)
+"""The manual's notebook, whose cells run before the others."""
+LESSONS = [cell for cell in FIRST.cells if cell.cell_type == "code"]
+
+
+def notebook():
     made = nbformat.v4.new_notebook()
-    made.cells = [nbformat.v4.new_code_cell(text) for text in cells]
+    texts = [cell.source for cell in LESSONS] + list(CELLS.values())
+    made.cells = [nbformat.v4.new_code_cell(text) for text in texts]
     made.metadata["kernelspec"] = {"name": "gibiane", "display_name": "Gibiane"}
     return made
+
+
+def place_of(name):
+    """The number of a cell."""
+    return len(LESSONS) + list(CELLS).index(name) + 1
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +60,7 @@ def ran(tmp_path_factory):
     os.environ["JUPYTER_RUNTIME_DIR"] = str(folder / "runtime")
     os.environ["PYTHONPATH"] = str(Path(ssilang.__file__).parents[1])
     client = nbclient.NotebookClient(
-        notebook(CELLS.values()), timeout=60, allow_errors=True, kernel_name="gibiane",
+        notebook(), timeout=60, allow_errors=True, kernel_name="gibiane",
         resources={"metadata": {"path": str(folder)}},
     )  # fmt: skip
     try:
@@ -62,11 +73,12 @@ def ran(tmp_path_factory):
 async def answers(client):
     """Run the cells one by one; ask for help; interrupt the endless one."""
     found = {}
+    names = [*range(len(LESSONS)), *CELLS]
     async with client.async_setup_kernel():
-        for place, (name, cell) in enumerate(zip(CELLS, client.nb.cells, strict=True)):
+        for place, (name, cell) in enumerate(zip(names, client.nb.cells, strict=True)):
             running = asyncio.ensure_future(client.async_execute_cell(cell, place))
             if name == "loops":
-                await asyncio.sleep(3.0)
+                await asyncio.sleep(0.8)
                 await client.km.interrupt_kernel()
             await running
             found[name] = cell.outputs
@@ -86,6 +98,13 @@ async def answers(client):
     return found
 
 
+def shown(outputs):
+    """Texts of a cell's outputs, and the kinds of its data; nothing of what said progress."""
+    errors = ["\n".join(o["traceback"]) for o in outputs if o["output_type"] == "error"]
+    data = [d for d in data_of(outputs) if d != {"text/plain": ""}]
+    return text_of(outputs), errors, [(sorted(d), d["text/plain"]) for d in data]
+
+
 def text_of(outputs):
     """What streams say."""
     return "".join(o["text"] for o in outputs if o["output_type"] == "stream")
@@ -93,6 +112,13 @@ def text_of(outputs):
 
 def data_of(outputs):
     return [o["data"] for o in outputs if o["output_type"] == "display_data"]
+
+
+def test_the_first_uplift_of_the_manual_shows_what_it_holds(ran):
+    found, _ = ran
+    for place, cell in enumerate(LESSONS):
+        assert shown(found[place]) == shown(cell.outputs)
+    assert sum(len(shown(cell.outputs)[1]) for cell in LESSONS) == 1  # the one that it shows
 
 
 def test_cells_share_one_session_and_show_what_they_give(ran):
@@ -126,17 +152,16 @@ def test_errors_have_their_place_in_the_cell_and_the_session_goes_on(ran):
     found, _ = ran
     (error,) = found["fails"]
     assert error["ename"] == "no-rule"
-    assert "--> cell 7:2:" in error["traceback"][0]
+    assert f"--> cell {place_of('fails')}:2:" in error["traceback"][0]
     assert found["unread"][0]["ename"] == "unclosed-paren"
     assert text_of(found["goes on"]).split() == ["1.00000E+00", "3.00000E+00"]
 
 
 def test_an_interruption_leaves_the_session_alive(ran):
     found, _ = ran
-    progress, error = found["loops"]
-    assert progress["data"] == {"text/plain": ""}  # what the loop said of itself is gone
+    (error,) = found["loops"]
     assert error["ename"] == "interrupted"
-    assert "--> cell 11:1:" in error["traceback"][0]
+    assert f"--> cell {place_of('loops')}:1:" in error["traceback"][0]
     assert text_of(found["survives"]) == "alive\n"
 
 

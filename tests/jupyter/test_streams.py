@@ -1,6 +1,8 @@
 """What a session in a notebook prints: few messages, and one line of progress."""
 
-from ssilang.cli.loop_progress import LoopProgress
+import pytest
+
+from ssilang.cli.terminal.loop_progress import LoopProgress
 from ssilang.jupyter.streams import SentProgress, SentText
 from ssilang.messages.message import teller
 from ssilang.operators.session.progress import ProgressLine
@@ -29,8 +31,8 @@ def test_progress_is_one_line_that_goes_away(monkeypatch):
 
 
 def test_loops_too(monkeypatch):
-    monkeypatch.setattr("ssilang.cli.loop_progress.PATIENCE", 0.0)
-    monkeypatch.setattr("ssilang.cli.loop_progress.REFRESH", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.PATIENCE", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.REFRESH", 0.0)
     shown = []
     loops = LoopProgress(SentProgress(shown.append), teller("en"))
     loops.enter("B", 3)
@@ -38,3 +40,26 @@ def test_loops_too(monkeypatch):
     loops.turn(2)
     loops.leave()
     assert [text.split(",")[0] for text in shown] == ["B 1/3", "", "B 2/3", ""]
+
+
+def test_a_cell_has_one_display_of_progress_that_is_written_anew():
+    pytest.importorskip("ipykernel")
+    from ssilang.jupyter.kernel import GibianeKernel
+
+    class Kernel(GibianeKernel):
+        """Its messages, without a notebook."""
+
+        def __init__(self):
+            self.sent = []
+            self._silent, self._progress_in, self.execution_count = False, -1, 4
+
+        def send_response(self, stream, kind, content):
+            self.sent.append((kind, content["transient"]["display_id"], content["data"]))
+
+    kernel = Kernel()
+    for line in ("", "DYNAMIC 1/4", "", "DYNAMIC 2/4", ""):
+        kernel._show_progress(line)
+    kinds, names, data = zip(*kernel.sent, strict=True)
+    assert kinds == ("display_data", *["update_display_data"] * 3)
+    assert set(names) == {"progress-4"}
+    assert [d["text/plain"] for d in data] == ["DYNAMIC 1/4", "", "DYNAMIC 2/4", ""]
