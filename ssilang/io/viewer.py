@@ -20,7 +20,7 @@ from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.plots.animation import save_animation
 from ssilang.io.plots.palette import shade
-from ssilang.io.plots.stage import choose_window, light_up
+from ssilang.io.plots.stage import hidden_plotter, light_up
 from ssilang.io.plots.view import DEFAULT_DIRECTION
 from ssilang.kernel.fields.deformed import round_down
 
@@ -186,11 +186,9 @@ def show(path: Path, wish: Wish) -> None:
     import pyvista
 
     series = Series(found)
-    scene = _Scene(
-        pyvista.Plotter(window_size=list(_SIZE), title=str(series.path), lighting="none"),
-        series,
-        wish,
-    )
+    plotter = pyvista.Plotter(window_size=list(_SIZE), title=str(series.path), lighting="none")
+    light_up(plotter)
+    scene = _Scene(plotter, series, wish)
     scene.draw(scene.last)
     if len(series.times) > 1:
         scene.plotter.add_slider_widget(
@@ -219,12 +217,7 @@ def draw(path: Path, target: Path, wish: Wish) -> Path:
     if ending not in DRAWN:
         raise OutputError("io.not-drawn-kind", path=target, known=DRAWN)
     series = Series(chosen_file(path))
-    choose_window()
-    import pyvista
-
-    scene = _Scene(
-        pyvista.Plotter(off_screen=True, window_size=list(_SIZE), lighting="none"), series, wish
-    )
+    scene = _Scene(hidden_plotter(_SIZE), series, wish)
     try:
         if ending == "gif":
             return save_animation(list(scene.frames()), target, False)
@@ -247,7 +240,6 @@ class _Scene:
         self.last = step - 1
         self._scale = wish.scale
         self._range: tuple[float, float] | None = None
-        light_up(plotter)
 
     def picture(self, row: int, form: str = "PNG") -> bytes:
         """A picture of an instant as a file."""

@@ -27,6 +27,7 @@ _AMBIENT = {
     "tinted": 0.75,
 }  # of light that comes from everywhere; the rest is a lamp's
 _LAMP = (-0.3, 0.55, 1.6)  # over the eye's left shoulder
+_CHOSEN = "VTK_DEFAULT_OPENGL_WINDOW"  # what VTK opens
 _STAND_BACK = 1.0, 1.0  # faces, of the lines that lie in them
 
 
@@ -192,14 +193,35 @@ class _Sheet:
 
 
 def _open() -> Any:
-    choose_window()
-    import pyvista
-
-    plotter: Any = pyvista.Plotter(off_screen=True, lighting="none")
-    light_up(plotter)
+    plotter = hidden_plotter()
     plotter.render_window.SetMultiSamples(0)  # pictures are drawn larger and made small
     plotter.enable_parallel_projection()
     plotter.camera.parallel_scale = 1.0
+    return plotter
+
+
+def hidden_plotter(size: tuple[int, int] | None = None) -> Any:
+    """A plotter of pyvista that needs no screen.
+
+    The kind of its window is asked for by the environment while it is made, and no longer: windows
+    of a program that draws its own are theirs to choose.
+
+    Raises
+    ------
+    NoGraphicsError
+        If this system has nothing that draws in space.
+    """
+    kind = _window_kind()
+    import pyvista
+
+    if kind:
+        os.environ[_CHOSEN] = kind
+    try:
+        plotter: Any = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
+    finally:
+        if kind:
+            del os.environ[_CHOSEN]
+    light_up(plotter)
     return plotter
 
 
@@ -212,8 +234,8 @@ def light_up(plotter: Any) -> None:
 
 
 @lru_cache(maxsize=1)
-def choose_window() -> None:
-    """Have VTK open the kind of window that works on this system without a screen.
+def _window_kind() -> str:
+    """The kind of VTK's windows that works on this system without a screen, '' for VTK's choice.
 
     Left to itself VTK asks for an X server first and says so when there is none, and dies where
     it finds no OSMesa.
@@ -229,15 +251,14 @@ def choose_window() -> None:
         from vtkmodules.vtkCommonCore import vtkLogger
     except ImportError as problem:  # a library that its wheels want of the system
         raise NoGraphicsError("io.no-drawing-in-space", reason=str(problem)) from problem
-    if not sys.platform.startswith("linux") or "VTK_DEFAULT_OPENGL_WINDOW" in os.environ:
-        return
+    if not sys.platform.startswith("linux") or _CHOSEN in os.environ:
+        return ""
     before = vtkLogger.GetCurrentVerbosityCutoff()
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
         for kind in _window_kinds():
             if getattr(vtkRenderingOpenGL2, kind)().SupportsOpenGL():
-                os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = kind
-                return
+                return kind
     finally:
         vtkLogger.SetStderrVerbosity(before)
     raise NoGraphicsError("io.no-drawing-in-space", reason="libEGL, libOSMesa")

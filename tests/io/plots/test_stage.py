@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -144,6 +145,16 @@ def test_arrows_behind_a_face_are_hidden(stage: Stage) -> None:
     assert 0 < redness(hidden=True) < 0.85 * redness()
 
 
+def test_windows_of_others_stay_theirs(stage: Stage) -> None:
+    """How a scene's window is chosen is gone when it stands: a program may open its own."""
+    before = dict(os.environ)
+    other = Stage()
+    painted = photograph(other, _CORNER, (_LINES[None], (1.0, 0, 0, 1), (1.0, 0, 0, 1), 0, ""))
+    other.close()
+    assert inks(painted.image)
+    assert dict(os.environ) == before
+
+
 def test_coordinates_far_from_the_origin_are_drawn_alike(stage: Stage) -> None:
     """As those of a map: a block of one metre at 10 000 km."""
     image = {}
@@ -192,9 +203,9 @@ def test_a_system_that_cannot_draw_keeps_the_run(
     else:  # as where a wheel finds no libXrender
         monkeypatch.setitem(sys.modules, "pyvista", None)
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
-    stages.choose_window.cache_clear()
+    stages._window_kind.cache_clear()
     said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path)
-    stages.choose_window.cache_clear()
+    stages._window_kind.cache_clear()
     assert said.exit_code == 0, said.message
     assert said.session.root.find("A") == 1
     (warning,) = said.session.warnings
