@@ -9,7 +9,7 @@ from typing import TextIO
 
 from ssilang import __version__
 from ssilang.cli.colour import coloured
-from ssilang.cli.completion import completions
+from ssilang.cli.editor.completion import completions
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.line_editor import Ask, line_editor
 from ssilang.cli.loop_progress import follow_loops
