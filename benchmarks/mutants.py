@@ -51,7 +51,8 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("kernel/stepping/problem", "kernel/stepping/run.py",
          "kernel/stepping/rests/conserving.py"),
         ("kernel/stepping/test_newmark.py", "kernel/stepping/test_uplift_motion.py",
-         "kernel/stepping/problem", "kernel/contact/test_conserving.py"),
+         "kernel/stepping/problem", "kernel/contact/test_conserving.py",
+         "kernel/stepping/rests/sparse/test_interleaved.py", "operators/test_friction.py"),
     ),
     "joint laws": (("kernel/interface/laws",), ("kernel/interface/laws",)),
     "joints": (

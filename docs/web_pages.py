@@ -59,7 +59,7 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
         ("The language", "docs/language.md"), ("Uplift", "docs/uplift.md"),
         ("Meshes of others", "docs/meshes.md"), ("Sweeps", "docs/sweep.md"),
         ("Editor", "docs/editor.md"), ("Python", "docs/python.md"),
-        ("Notebooks", "docs/jupyter.md"), ("PETSc", "docs/petsc.md"),
+        ("Notebooks", "docs/jupyter.md"), ("Report", "docs/report.md"), ("PETSc", "docs/petsc.md"),
     )),
     ("Questions", (("Questions", "docs/faq.md"),)),
     ("Physics", (

@@ -7,8 +7,8 @@ from typing import TextIO
 
 from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.walk import Checker
-from ssilang.cli.colour import coloured
 from ssilang.cli.run import RunOptions, make_session
+from ssilang.cli.terminal.colour import coloured
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source

@@ -166,7 +166,7 @@ def _run(options: argparse.Namespace) -> int:
     run_options.summary = options.file != "-" or options.out is not None
     result = run_source(source, run_options, sys.stdout, sys.stderr)
     if options.interactive:
-        from ssilang.cli.repl import interact
+        from ssilang.cli.terminal.repl import interact
 
         return interact(result.session)
     return result.exit_code
@@ -343,7 +343,7 @@ def _help(options: argparse.Namespace) -> int:
 
 
 def _repl(options: argparse.Namespace) -> int:
-    from ssilang.cli.repl import start
+    from ssilang.cli.terminal.repl import start
 
     return start(_run_options(options))
 

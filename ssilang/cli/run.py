@@ -15,9 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ssilang.cli.colour import coloured
-from ssilang.cli.loop_progress import follow_loops
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
+from ssilang.cli.terminal.colour import coloured
+from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun

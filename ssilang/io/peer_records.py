@@ -21,7 +21,11 @@ _SIZES = (  # the fourth line, as files of different years have it
     re.compile(r"^\s*(\d+)\s+([\d.EeDd+-]+)\s*(?:NPTS|$)", re.IGNORECASE),
 )
 _UNIT = re.compile(r"UNITS?\s*(?:OF|IN|=|:)?\s*([A-Z][A-Z0-9/*^]*)", re.IGNORECASE)
-_IN_SI = {"G": 9.81, **dict.fromkeys(("GAL", "CM/S", "CM", "CM/S2", "CM/S/S", "CM/S**2"), 0.01)}
+_IN_SI = {
+    "G": 9.81,
+    **dict.fromkeys(("GAL", "CM/S", "CM", "CM/S2", "CM/S/S", "CM/S**2", "CM/S^2"), 0.01),
+}
+_SI = frozenset(("M/S2", "M/S/S", "M/S**2", "M/S^2", "M/S", "M"))
 _QUANTITIES = {"ACC": "ACCE", "VEL": "VITE", "DIS": "DEPL"}
 
 
@@ -42,6 +46,11 @@ class PeerRecord:
     def in_si(self) -> float:
         """Factor that makes SI of its unit, 1 for those not known."""
         return _IN_SI.get(self.unit, 1.0)
+
+    @property
+    def has_unit(self) -> bool:
+        """Whether the file names a unit that is known."""
+        return self.unit in _IN_SI or self.unit in _SI
 
     @property
     def times(self) -> FloatArray:

@@ -304,10 +304,11 @@ MESSAGES: dict[str, Message] = {
         "{name} n'est pas un fichier UNV lisible : {error}",
     ),
     "no-readable-mesh-file": Message(
-        "{name} cannot be read as {kind}: {error}",
-        "{name} ne se lit pas comme {kind} : {error}",
-        "the file is damaged, or of another format or version",
-        "le fichier est abîmé, ou d'un autre format ou d'une autre version",
+        "{name} cannot be read as {kind}{error:?: {error}}",
+        "{name} ne se lit pas comme {kind}{error:? : {error}}",
+        "the file is damaged, of another format or version, or has cells that are not read",
+        "le fichier est abîmé, d'un autre format ou d'une autre version, ou a des éléments qui ne "
+        "se lisent pas",
     ),
     "mesh-file-empty": Message(
         "{name} holds no nodes that are read as {kind}",
@@ -378,6 +379,19 @@ MESSAGES: dict[str, Message] = {
         "{name} a plusieurs *PART, dont les numéros désignent des noeuds différents",
         "write it flat, without parts, or each part into a file of its own",
         "écrivez-le à plat, sans pièces, ou chaque pièce dans son fichier",
+    ),
+    "esm-without-step": Message(
+        "{name}: the head has no 'SAMPLING_INTERVAL_S: ...'",
+        "{name} : l'en-tête n'a pas de 'SAMPLING_INTERVAL_S: ...'",
+        "ESM and ITACA files begin with lines 'KEY: VALUE'; LIRE 'PEER' and 'CSV' read others",
+        "les fichiers ESM et ITACA commencent par des lignes 'CLE: VALEUR' ; LIRE 'PEER' et 'CSV' "
+        "lisent les autres",
+    ),
+    "esm-other-count": Message(
+        "{name}: NDATA says {count} {count:value|values}, the file holds {n_values}",
+        "{name} : NDATA annonce {count} {count:valeur|valeurs}, le fichier en contient {n_values}",
+        "the file is cut, or has further columns: fetch it again",
+        "le fichier est coupé, ou a d'autres colonnes : le reprendre",
     ),
     "record-not-finite": Message(
         "{name} has values that are too large for a number",

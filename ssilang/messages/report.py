@@ -34,6 +34,12 @@ MESSAGES: dict[str, Message] = {
     ),
     "series-gone": Message("{name} is gone: no scene", "{name} a disparu : pas de scène"),
     "series-damaged": Message("{name} is damaged: no scene", "{name} est endommagé : pas de scène"),
+    "instants-left": Message(
+        "{name}: {count} {count:instant is|instants are} damaged or have another mesh, and left "
+        "out",
+        "{name} : {count} {count:instant endommagé ou d'un autre maillage laissé|instants "
+        "endommagés ou d'un autre maillage laissés} de côté",
+    ),
     "nothing-to-see": Message("{name} holds nothing to see", "{name} ne contient rien à montrer"),
     "written": Message("report: {path} ({size:.1f} MB)", "rapport : {path} ({size:.1f} Mo)"),
     # head

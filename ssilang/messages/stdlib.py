@@ -276,6 +276,38 @@ MESSAGES: dict[str, Message] = {
         "@REPERE: sizes come by {1}, in one to three groups; {2} were given",
         "@REPERE : les tailles se donnent par {1}, en un à trois groupes ; {2} sont données",
     ),
+    "seisme-gravity": Message(
+        "@SEISME: g must be above zero, it is {1}",
+        "@SEISME : g doit être positif, il vaut {1}",
+    ),
+    "seisme-points": Message(
+        "@SEISME: a record has two points at least, this one has {1}",
+        "@SEISME : un signal a au moins deux points, celui-ci en a {1}",
+    ),
+    "seisme-zero": Message(
+        "@SEISME: the record is zero everywhere",
+        "@SEISME : le signal est nul partout",
+    ),
+    "seisme-large": Message(
+        "@SEISME: the largest acceleration is {1} m/s2, more than 10 g: in cm/s2?",
+        "@SEISME : la plus grande accélération vaut {1} m/s2, plus de 10 g : en cm/s2 ?",
+        severity="warning",
+    ),
+    "seisme-drifts": Message(
+        "@SEISME: the record ends at a velocity of {1} m/s and a displacement of {2} m",
+        "@SEISME : le signal finit à une vitesse de {1} m/s et un déplacement de {2} m",
+        "COSI corrects it, as little as possible",
+        "COSI le corrige, le moins possible",
+        severity="warning",
+    ),
+    "seisme-peaks": Message(
+        "PGA {1} m/s2 at {2} s, PGV {3} m/s, PGD {4} m",
+        "PGA {1} m/s2 à {2} s, PGV {3} m/s, PGD {4} m",
+    ),
+    "seisme-energy": Message(
+        "Arias {1} m/s, CAV {2} m/s, durations 5-75 % {3} s, 5-95 % {4} s",
+        "Arias {1} m/s, CAV {2} m/s, durées 5-75 % {3} s, 5-95 % {4} s",
+    ),
     "solvmec-table-no": Message(
         "@SOLVMEC: the table has no {1}",
         "@SOLVMEC : la table n'a pas {1}",

@@ -450,6 +450,9 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
             faults.append(told(problem.code, **problem.data))
             continue
         shown = name or told("report.mesh")
+        if scene["left_out"]:
+            count = scene["left_out"]
+            faults.append(told("report.instants-left", name=path.name, count=count))
         made.append(({"name": shown, "kind": kind, "frequencies": frequencies, **scene}, text))
     if len(wanted) > MOST_SCENES:
         faults.append(told("report.scenes-left", count=len(wanted) - MOST_SCENES))

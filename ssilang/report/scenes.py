@@ -10,6 +10,7 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -35,6 +36,22 @@ class SceneError(Exception):
         self.code, self.data = code, data
 
 
+@contextmanager
+def _silent() -> Iterator[None]:
+    """VTK prints nothing of damaged files: what is wrong is told by the report."""
+    try:
+        from vtkmodules.vtkCommonCore import vtkObject
+    except ImportError:  # told by who needs it
+        yield
+        return
+    before = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.SetGlobalWarningDisplay(0)
+    try:
+        yield
+    finally:
+        vtkObject.SetGlobalWarningDisplay(before)
+
+
 @dataclass(frozen=True)
 class _Steps:
     """Instants of a series: their times, and what reads one."""
@@ -51,22 +68,28 @@ def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
     SceneError
         If the series cannot be read, or holds nothing to see.
     """
-    steps = _opened(path)
-    frames = FRAMES
-    while True:
-        told, text = _packed(path, steps, frames)
-        if len(text) <= most_bytes or frames == 1:
-            return told, text
-        frames = max(1, min(frames - 1, int(0.9 * frames * most_bytes / len(text))))
+    with _silent():
+        steps = _opened(path)
+        frames = FRAMES
+        while True:
+            told, text = _packed(path, steps, frames)
+            if len(text) <= most_bytes or frames == 1:
+                return told, text
+            frames = max(1, min(frames - 1, int(0.9 * frames * most_bytes / len(text))))
 
 
 def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
     count = len(steps.times)
-    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
-    shape = _Shape(steps.grid(int(chosen[0])))
-    if not len(shape.points):
+    wanted = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+    first = next((g for i in wanted if (g := steps.grid(int(i))).n_cells), None)
+    if first is None:
         raise SceneError("report.nothing-to-see", name=path.name)
-    frames = [shape.fields(steps.grid(int(i))) for i in chosen]
+    shape, frames, chosen = _Shape(first), [], []
+    for i in wanted.tolist():
+        grid = steps.grid(i)
+        if shape.has_mesh_of(grid):  # one that is damaged, or has another mesh, is left out
+            frames.append(shape.fields(grid))
+            chosen.append(i)
     arrays: dict[str, NDArray[Any]] = {
         "points": shape.points.astype("<f4"),
         "triangles": shape.triangles.astype("<u4"),
@@ -78,7 +101,7 @@ def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
         "joint_lines": shape.joint_lines.astype("<u4"),
     }
     fields = []
-    for name in frames[0]:
+    for name in [n for n in frames[0] if all(n in frame for frame in frames)]:
         values = np.stack([frame[name] for frame in frames])
         numbers, scale = _quantised(values)
         arrays[f"field:{name}"] = np.diff(numbers, axis=0, prepend=np.zeros_like(numbers[:1]))
@@ -93,6 +116,7 @@ def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
     told = {
         "times": [float(f"{t:.7g}") for t in steps.times[chosen]],
         "flat": shape.flat,
+        "left_out": len(wanted) - len(chosen),
         "arrays": places,
         "fields": fields,
     }
@@ -125,6 +149,7 @@ class _Shape:
     """
 
     def __init__(self, grid: Any) -> None:
+        self._size, self._types = grid.n_points, np.asarray(grid.celltypes).copy()
         self.joints = _joint_cells(grid)
         self.bodies = np.flatnonzero(~self.joints)
         grid.point_data["_row"] = np.arange(grid.n_points)
@@ -161,6 +186,10 @@ class _Shape:
             for k in range(2, size):
                 triangles += [start, start + k - 1, start + k]
         self.joint_triangles, self.joint_lines = np.array(triangles, int), np.array(lines, int)
+
+    def has_mesh_of(self, grid: Any) -> bool:
+        """Whether a grid has the cells of the first one."""
+        return grid.n_points == self._size and np.array_equal(grid.celltypes, self._types)
 
     def fields(self, grid: Any) -> dict[str, FloatArray]:
         """Displacement (n 3,), and what points (n,) and joints (m,) have at an instant."""
@@ -332,6 +361,16 @@ def _of_list(path: Path, pyvista: Any) -> _Steps:
 
 def _one(data: Any) -> Any:
     """One grid of what was read."""
-    if hasattr(data, "combine"):
+    if not hasattr(data, "combine"):
+        return data.copy(deep=False)
+    blocks = [b for b in data if b is not None and b.n_cells]
+    if not blocks:
         return data.combine(merge_points=False)
-    return data.copy(deep=False)
+    for kind in ("point_data", "cell_data"):  # what one part lacks the others would lose
+        widths = {n: getattr(b, kind)[n].shape[1:] for b in blocks for n in getattr(b, kind)}
+        for block in blocks:
+            arrays, size = getattr(block, kind), getattr(block, "n_" + kind[:-5] + "s")
+            for name, width in widths.items():
+                if name not in arrays:
+                    arrays[name] = np.full((size, *width), np.nan)
+    return type(data)(blocks).combine(merge_points=False)

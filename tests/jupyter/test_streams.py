@@ -2,7 +2,7 @@
 
 import pytest
 
-from ssilang.cli.loop_progress import LoopProgress
+from ssilang.cli.terminal.loop_progress import LoopProgress
 from ssilang.jupyter.streams import SentProgress, SentText
 from ssilang.messages.message import teller
 from ssilang.operators.session.progress import ProgressLine
@@ -31,8 +31,8 @@ def test_progress_is_one_line_that_goes_away(monkeypatch):
 
 
 def test_loops_too(monkeypatch):
-    monkeypatch.setattr("ssilang.cli.loop_progress.PATIENCE", 0.0)
-    monkeypatch.setattr("ssilang.cli.loop_progress.REFRESH", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.PATIENCE", 0.0)
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.REFRESH", 0.0)
     shown = []
     loops = LoopProgress(SentProgress(shown.append), teller("en"))
     loops.enter("B", 3)

@@ -62,6 +62,9 @@ def test_only_one_format_on_demand_named_after_the_file(tmp_path: Path) -> None:
     assert sorted(p.name for p in tmp_path.iterdir()) == ["0001_fig.svg", "0002_fig.svg"]
 
 
+PORTION = "T = TABL ; T . '{0}' = TABL ; T . '{0}' . 1 = {1} ; "
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -71,6 +74,12 @@ def test_only_one_format_on_demand_named_after_the_file(tmp_path: Path) -> None:
         ("T = TABL ; T . 1 = 'MARQ BALL' ; DESS E T ;", "'BALL' is no marker"),
         ("T = TABL ; T . 'INITIAL' = TABL ; T . 'INITIAL' . 1 = 1.5 ; DESS E T ;", "whole numbers"),
         ("DESS E 'XFMT' '(Q3)' ;", "no number format"),
+        ("DESS E 'LEGE' 'NO' 'LEGE' 'SE' ;", "'LEGE' stands twice"),
+        (PORTION.format("INITIAL", "4") + "DESS E T ;", "points 1 to 3"),
+        (PORTION.format("FINAL", "0") + "DESS E T ;", "say 1 to 0"),
+        (PORTION.format("LIGNE_VARIABLE", "3") + "DESS E T ;", "curve 1 has ENTIER"),
+        (PORTION.format("LIGNE_VARIABLE", "LECT 1") + "DESS E T ;", "1 dash for the 2 segments"),
+        (PORTION.format("LIGNE_VARIABLE", "LECT 0 6") + "DESS E T ;", "holds 6"),
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:

@@ -434,6 +434,63 @@ Mesh.ElementOrder = 2;
 """
 
 
+@pytest.fixture
+def gmsh():
+    module = pytest.importorskip("gmsh", reason="gmsh is not installed")
+    module.initialize([], interruptible=False)
+    module.option.setNumber("General.Terminal", 0)
+    yield module
+    module.finalize()
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_what_gmsh_itself_writes_is_read(gmsh, order: int, tmp_path: Path) -> None:
+    gmsh.model.occ.addBox(0, 0, 0, 1, 1, 3)
+    gmsh.model.occ.synchronize()
+    gmsh.model.addPhysicalGroup(3, [1], name="body")
+    gmsh.model.addPhysicalGroup(2, [5], name="base")
+    gmsh.option.setNumber("Mesh.MeshSizeMin", 1.0)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 1.0)
+    gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.setOrder(order)
+    text, cell = "OPTI DIME 3 ;", {1: "@TET4", 2: "@TE10"}[order]
+    endings = [e for e in ("msh", "inp", "bdf", "vtk", "unv", "med", "mesh")
+               if (e != "med" or there("h5py")) and (e != "mesh" or order == 1)]  # fmt: skip
+    for ending in endings:
+        gmsh.write(str(tmp_path / f"m.{ending}"))
+        text += f"T{ending} = LIRE 'm.{ending}' ; V{ending} = MESU (T{ending} . '{cell}') ;"
+        if ending in ("msh", "inp", "unv", "med"):
+            text += (
+                f"B{ending} = MESU (T{ending} . 'base') ; W{ending} = MESU (T{ending} . 'body') ;"
+            )
+    result = run(text, tmp_path)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert [find(f"V{e}".upper()) for e in endings] == pytest.approx([3.0] * len(endings))
+    named = [e for e in endings if e in ("msh", "inp", "unv", "med")]
+    assert [find(f"B{e}".upper()) for e in named] == pytest.approx([1.0] * len(named))
+    assert [find(f"W{e}".upper()) for e in named] == pytest.approx([3.0] * len(named))
+
+
+@pytest.mark.parametrize("ending", ["msh", "med"])
+def test_gmsh_reads_what_is_written(gmsh, ending: str, tmp_path: Path) -> None:
+    if ending == "med" and not there("h5py"):
+        pytest.skip("h5py is not installed")
+    text = (
+        "OPTI DIME 3 ELEM CU20 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
+        f"V = S VOLU 1 'TRAN' (0. 0. 3.) ; OPTI SORT 'm.{ending}' ; SORT 'MESH' V ;"
+    )
+    assert run(text, tmp_path).exit_code == 0
+    gmsh.open(str(tmp_path / f"m.{ending}"))
+    groups = {(d, gmsh.model.getPhysicalName(d, t)) for d, t in gmsh.model.getPhysicalGroups()}
+    assert groups == {(2, "S"), (3, "V")}
+    (kind,), (cells,), _ = gmsh.model.mesh.getElements(3)
+    assert gmsh.model.mesh.getElementProperties(kind)[0] == "Hexahedron 20"
+    # the scaled Jacobian of an upright brick is 1; turned inside out, or with middles astray, less
+    assert gmsh.model.mesh.getElementQualities(cells, "minSJ") == pytest.approx(1.0)
+    assert sum(gmsh.model.mesh.getElementQualities(cells, "volume")) == pytest.approx(3.0)
+
+
 @pytest.mark.skipif(not there("gmsh"), reason="gmsh is not installed")
 def test_mailler_has_gmsh_mesh_a_script(tmp_path: Path) -> None:
     (tmp_path / "box.geo").write_text(GEO)

@@ -154,3 +154,55 @@ def test_a_broken_record_says_where(tmp_path: Path, content: str, told: str) -> 
     assert result.exit_code == 1
     assert told in result.message
     assert "Traceback" not in result.message
+
+
+ASC = """EVENT_NAME: SOMEWHERE
+EVENT_DATE_YYYYMMDD: 20200102
+STATION_CODE: ABC
+STREAM: HNE
+SAMPLING_INTERVAL_S: 0.005
+NDATA: {count}
+UNITS: {unit}
+DATA_TYPE: ACCELERATION
+USER5:
+1.5
+-20.25
+3.0E1
+"""
+
+
+def test_a_record_of_esm_in_metres(tmp_path: Path) -> None:
+    content = ASC.format(count=3, unit="cm/s^2")
+    result = run("E = LIRE 'ESM' 'a.ASC' 0.01 ;", tmp_path, a_ASC=content)
+    (curve,) = values(result, "E")
+    assert isinstance(curve, Curve)
+    (part,) = curve.parts
+    assert list(part.abscissas) == pytest.approx([0.0, 0.005, 0.01])
+    assert list(part.ordinates) == pytest.approx([0.015, -0.2025, 0.3])
+    assert (part.ordinate_name, curve.title) == ("ACCE", "SOMEWHERE ABC HNE")
+    assert result.session.warnings == []
+
+
+@pytest.mark.parametrize(
+    ("unit", "code"),
+    [("cm/s^2", ["record-not-in-si"]), ("", ["record-without-unit"]), ("m/s^2", [])],
+)
+def test_units_of_a_record_of_esm_are_told(tmp_path: Path, unit: str, code: list[str]) -> None:
+    content = ASC.format(count=3, unit=unit)
+    result = run("E = LIRE 'ESM' 'a.ASC' ;", tmp_path, a_ASC=content)
+    assert [w.code.rpartition(".")[2] for w in result.session.warnings] == code
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (ASC.format(count=4, unit="g"), "NDATA says 4 values, the file holds 3"),
+        (ASC.format(count=3, unit="g") + "end", "line 13: 'end' is no number"),
+        ("1.5\n2.5\n", "the head has no 'SAMPLING_INTERVAL_S: ...'"),
+        (ASC.format(count=3, unit="g").replace("0.005", "soon"), "the head has no"),
+    ],
+)
+def test_a_broken_record_of_esm_says_where(tmp_path: Path, content: str, told: str) -> None:
+    result = run("E = LIRE 'ESM' 'a.ASC' ;", tmp_path, a_ASC=content)
+    assert result.exit_code == 1
+    assert told in result.message

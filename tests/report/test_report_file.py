@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+import pyvista
 
 from ssilang.cli.main import main
-from ssilang.cli.run import RunOptions, run_file, write_report
+from ssilang.cli.run import RunOptions, run_file, run_text, write_report
 from ssilang.report.results import read_results
-from ssilang.report.scenes import LARGEST, packed_scene
+from ssilang.report.scenes import LARGEST, SceneError, packed_scene
 
 STRIP = Path(__file__).parents[2] / "cases" / "footing" / "strip_uplift.ssi"
 WIDTH, MODULUS, FORCE = 4.0, 2e7, 6e5
@@ -135,6 +136,48 @@ def test_a_scene_keeps_displacements_to_sixteen_bits(rocking: Path) -> None:
     np.testing.assert_allclose(here[kept], drift[kept], atol=field["high"] / LARGEST)
 
 
+def test_instants_that_are_damaged_or_have_another_mesh_are_left_out(
+    rocking: Path, modes: Path, tmp_path: Path, capfd: Any
+) -> None:
+    for path in (*rocking.glob("*.vtu"), *rocking.glob("*.pvd")):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    files = sorted(tmp_path.glob("*.vtu"))
+    whole, _ = packed_scene(next(tmp_path.glob("*.pvd")), 10**7)
+    assert len(whole["times"]) == len(files) == 6
+    files[0].write_bytes(files[0].read_bytes()[:500])
+    short = pyvista.read(files[2])
+    short.extract_cells(range(20)).save(files[2])
+    found, _ = packed_scene(next(tmp_path.glob("*.pvd")), 10**7)
+    assert found["times"] == [t for i, t in enumerate(whole["times"]) if i not in (0, 2)]
+    assert found["left_out"] == 2
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize("part", [0.02, 0.4, 0.9, 0.999])
+def test_half_a_series_in_one_file_is_told(rocking: Path, tmp_path: Path, part: float) -> None:
+    data = (rocking / "report" / "scene_1.vtkhdf").read_bytes()
+    (tmp_path / "a.vtkhdf").write_bytes(data[: int(part * len(data))])
+    with pytest.raises(SceneError) as told:
+        packed_scene(tmp_path / "a.vtkhdf", 10**7)
+    assert told.value.code == "report.series-damaged"
+
+
+def test_joints_in_a_part_of_their_own_are_found(tmp_path: Path) -> None:
+    """A table in MAILLAGE_VTK: the parts are blocks, and only one has openings."""
+    from tests.report.conftest import ROCKING
+
+    parts = ROCKING.replace(
+        "'MAILLAGE_VTK' = (T . 'TOTAL') ET (T . 'JOINT') ;",
+        "'MAILLAGE_VTK' = TABL ; T1 . 'MAILLAGE_VTK' . 'A' = T . 'TOTAL' ; "
+        "T1 . 'MAILLAGE_VTK' . 'J' = T . 'JOINT' ; T1 . 'FORMAT_VTK' = 'VTKHDF' ;",
+    )
+    run_text(parts, tmp_path)
+    told, _ = packed_scene(tmp_path / "dynamic.vtkhdf", 10**7)
+    opening = next(f for f in told["fields"] if f["name"] == "opening")
+    assert opening["high"] > 1e-3
+    assert told["arrays"]["joint_lines"][1] == 2 * 4  # four cells under the footing
+
+
 def test_a_scene_fits_into_few_bytes(rocking: Path) -> None:
     series = rocking / "report" / "scene_1.vtkhdf"
     whole, text = packed_scene(series, 10**7)
@@ -209,6 +252,22 @@ def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_p
     assert "scene_1.vtkhdf is damaged" in Sections(text).text["scene"]
     share = next(c for c in data(text, "charts") if c["title"] == "share in contact")
     assert len(share["lines"][0]["x"]) == 200  # the last line is cut
+
+
+def test_axes_have_the_units_of_the_deck(rocking: Path, tmp_path: Path) -> None:
+    summary = json.loads((rocking / "summary.json").read_text())
+    summary["units"] = {"system": "KN-M", "length": "m", "force": "kN"}
+    (tmp_path / "summary.json").write_text(json.dumps(summary))
+    (tmp_path / "report").mkdir()
+    for name in ("contents.json", "calculation_1.csv"):
+        (tmp_path / "report" / name).write_bytes((rocking / "report" / name).read_bytes())
+    write_report(tmp_path, "en")
+    axes = {c["title"]: (c["x"], c["y"]) for c in data(page(tmp_path), "charts")}
+    assert axes["toe pressure (largest)"] == ("time (s)", "toe pressure (largest) (kPa)")
+    assert axes["moment against rotation"] == ("rotation (rad)", "moment (kN.m)")
+    assert axes["energies"] == ("time (s)", "energy (kJ)")
+    assert "units KN-M: m, kN" in Sections(page(tmp_path)).text["header"]
+    assert "scene_1.vtkhdf is gone" in Sections(page(tmp_path)).text["scene"]
 
 
 def test_a_damaged_record_is_named(rocking: Path, tmp_path: Path) -> None:

@@ -111,10 +111,11 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
 
 
 def _first_line(error: Exception) -> str:
-    """What an error says, or else its kind."""
+    """What an error says, with its kind where that is little; '' if meshio just gives up."""
     text = str(error).strip().splitlines()
     shown = text[0][:120] if text else ""
-    return f"{type(error).__name__} {shown}".strip() if len(shown) < 12 else shown
+    kind = type(error).__name__
+    return shown if len(shown) >= 12 or (not shown and kind == "ReadError") else f"{kind} {shown}"
 
 
 def _remarks(text: str) -> tuple[str, ...]:

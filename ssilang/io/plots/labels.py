@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.mesh import Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 # where a tag stands, seen from its point, and how its text is then aligned
 PLACES: dict[str, tuple[float, float]] = {
@@ -58,20 +59,23 @@ class Annotation:
         return Annotation(self.categories + other.categories, self.tags + other.tags)
 
 
-def draw_annotation(axes: Axes, view: View, annotation: Annotation, size: float) -> None:
-    """Write the tags, and the categories as a legend on the right."""
+def draw_tags(axes: Axes, view: View, annotation: Annotation, size: float) -> None:
+    """Write the tags of a panel."""
     for tag in annotation.tags:
         _draw_tag(axes, view, tag, size)
-    if annotation.categories:
-        from matplotlib.patches import Patch
 
-        axes.legend(
+
+def draw_categories(figure: Figure, annotation: Annotation) -> None:
+    """Write the categories as a legend on the right of a picture."""
+    from matplotlib.patches import Patch
+
+    if annotation.categories:
+        figure.legend(
             handles=[
                 Patch(facecolor=shade(c.colour), label=to_mathtext(c.text))
                 for c in annotation.categories
             ],
-            loc="upper left",
-            bbox_to_anchor=(1.01, 1.0),
+            loc="outside right upper",
             frameon=False,
         )
 

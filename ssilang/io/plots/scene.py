@@ -26,7 +26,7 @@ from ssilang.io.plots.faces import (
     band_values,
 )
 from ssilang.io.plots.figure import drawing, head
-from ssilang.io.plots.labels import draw_annotation
+from ssilang.io.plots.labels import draw_categories, draw_tags
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
@@ -83,6 +83,8 @@ def draw_scene(
             if component and len(panels) > 1:
                 axes.set_title(component, fontsize=10.5)
         _caption(figure, options)
+        if options.annotation is not None:
+            draw_categories(figure, options.annotation)
         if any(view.solid for view in views):
             # photographs are taken pixel by pixel, so that places must be known
             figure.draw_without_rendering()
@@ -203,7 +205,7 @@ class _Panel:
         labels.write(self.axes, photograph, self.bounds)
         notes.mark_extremes(self.axes, self.view, self._marks(), photograph, self.bounds)
         if self.options.annotation is not None:
-            draw_annotation(self.axes, self.view, self.options.annotation, size)
+            draw_tags(self.axes, self.view, self.options.annotation, size)
 
     def _marks(self) -> Ends:
         """Where the extremes are marked: not on a section, which shows other values."""

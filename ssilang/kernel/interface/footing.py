@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro
@@ -182,16 +183,13 @@ def _is_face(joints: JointCells) -> bool:
 
 def _hanging_together(joints: list[JointCells]) -> list[list[IntArray]]:
     """Cells of each zone, for each group of cells that share nodes of their upper side."""
-    from scipy.sparse.csgraph import connected_components
-
     if not joints:
         return []
     nodes = [j.zone.cells.nodes.resolve(j.upper) for j in joints]
     size = max(int(x.max()) for x in nodes) + 1
     first = np.concatenate([np.repeat(x[:, 0], x.shape[1]) for x in nodes])
     other = np.concatenate([x.ravel() for x in nodes])
-    graph = sp.csr_array((np.ones(len(first)), (first, other)), shape=(size, size))
-    labels = connected_components(graph, directed=False)[1]
+    labels = parts_of(size, (first, other))
     of_cells = [labels[x[:, 0]] for x in nodes]
     groups = np.unique(np.concatenate(of_cells))
     return [[np.flatnonzero(x == g) for x in of_cells] for g in groups]

@@ -30,9 +30,12 @@ MULTIGRID = "multigrid"
 PETSC = "PETSC"
 DISSECTED = 8_000  # unknowns of a static problem from which nested dissection pays
 LARGE = 20_000  # unknowns from which a threaded solver pays for its start
-ONCE, OFTEN = 8e8, 4e9
+ONCE = 8e8
 """Bytes of a factor by dissection from which multigrid has solved before it is made (some 80 000
-unknowns of a solid), and from which a hundred steps have been made (some 300 000)."""
+unknowns of a solid)."""
+FACTOR, ITERATED = 3e-13, 4.5e-6
+"""Seconds of a factor, for its bytes to the power 1.5, and what a solve by multigrid takes
+more than one by a factor, for each unknown. Measured on solids of 10^5 to 10^6 unknowns."""
 DISTRIBUTED = 1_000_000  # unknowns from which several machines are used where a run has them
 
 
@@ -275,16 +278,16 @@ def _by_multigrid(
     return MultigridFactor(A, positive, ordering.rigid, ordering.nodes, asked.tolerance)
 
 
-def factor_is_large(A: sp.csr_array, ordering: Ordering) -> bool:
-    """Whether multigrid makes a hundred steps while a positive A (n, n) is factorised."""
+def factor_pays(A: sp.csr_array, ordering: Ordering, solves: int) -> bool:
+    """Whether a positive A (n, n) that is solved so often is better factorised than iterated on."""
     if not dissection_pays(A.shape[0]):
-        return False
+        return True
     from ssilang.kernel.base.memory import fits
     from ssilang.kernel.solvers.cholesky.dissection import dissection
     from ssilang.kernel.solvers.cholesky.multifrontal import factor_bytes
 
     needed = factor_bytes(A, dissection(A, ordering.points, ordering.last))
-    return needed > OFTEN or not fits(needed)
+    return fits(needed) and FACTOR * needed**1.5 < ITERATED * A.shape[0] * solves
 
 
 def _dissected(A: sp.csr_array, ordering: Ordering, asked: Solver) -> Factor:

@@ -309,7 +309,7 @@ RULES = (
     ),
     Rule(
         "multigrid", "multigrid",
-        "multigrid is asked for, or a factor would take gigabytes",
+        "multigrid is asked for, or makes few steps sooner than a factor, or memory holds none",
         "kernel.stepping.loop-multigrid",
         lambda c: c.iterated,
         _iterated, renewable=True, inside=True,

@@ -27,6 +27,32 @@ MESSAGES: dict[str, Message] = {
         "INITIAL and FINAL hold whole numbers, curve {n} has {value!r}",
         "INITIAL et FINAL contiennent des entiers, la courbe {n} a {value!r}",
     ),
+    "portion": Message(
+        "curve {n} has points 1 to {n_points}: INITIAL and FINAL say {first} to {last}",
+        "la courbe {n} a les points 1 à {n_points} : INITIAL et FINAL disent {first} à {last}",
+    ),
+    "dashes-list": Message(
+        "LIGNE_VARIABLE holds a LISTENTI for each curve, curve {n} has {found}",
+        "LIGNE_VARIABLE contient un LISTENTI par courbe, la courbe {n} a {found}",
+    ),
+    "dashes-count": Message(
+        "LIGNE_VARIABLE gives {count} {count:dash|dashes} for the {wanted} "
+        "{wanted:segment|segments} of curve {n}",
+        "LIGNE_VARIABLE donne {count} {count:tiret|tirets} pour {wanted} "
+        "{wanted:segment|segments} de la courbe {n}",
+        "one for each segment, of the whole curve: its points less one",
+        "un par segment, de la courbe entière : ses points moins un",
+    ),
+    "dashes-code": Message(
+        "LIGNE_VARIABLE of curve {n} holds {code}",
+        "LIGNE_VARIABLE de la courbe {n} contient {code}",
+        "0 to {last}: full, TIRR, TIRC, TIRL, TIRM, POIN",
+        "0 à {last} : continue, TIRR, TIRC, TIRL, TIRM, POIN",
+    ),
+    "word-beside-another": Message(
+        "'{said}' stands twice, or beside another word that excludes it",
+        "'{said}' figure deux fois, ou à côté d'un autre mot qui l'exclut",
+    ),
     "component-missing": Message(
         "the field has none of {columns:words}",
         "le champ n'a aucune de ces composantes : {columns:words}",

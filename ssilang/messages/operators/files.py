@@ -37,13 +37,20 @@ MESSAGES: dict[str, Message] = {
         "look for what was divided by zero, or grew without bound",
         "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
     ),
+    "record-without-unit": Message(
+        "the record names no unit that is known: its values are read as they are",
+        "l'enregistrement ne nomme pas d'unité connue : ses valeurs sont lues telles quelles",
+        "LIRE '{kind}' '{file}' 9.81 if it is in g, 0.01 in cm/s2, 1. in m/s2",
+        "LIRE '{kind}' '{file}' 9.81 s'il est en g, 0.01 en cm/s2, 1. en m/s2",
+        severity="warning",
+    ),
     "record-not-in-si": Message(
         "the record is in {unit}, and no factor makes metres and seconds of it: its values are "
         "read as they are",
         "l'enregistrement est en {unit}, et aucun facteur n'en fait des mètres et des secondes : "
         "ses valeurs sont lues telles quelles",
-        "LIRE 'PEER' '{file}' {factor:g}; LIRE 'PEER' '{file}' 1. to have it so",
-        "LIRE 'PEER' '{file}' {factor:g} ; LIRE 'PEER' '{file}' 1. pour l'avoir ainsi",
+        "LIRE '{kind}' '{file}' {factor:g}; LIRE '{kind}' '{file}' 1. to have it so",
+        "LIRE '{kind}' '{file}' {factor:g} ; LIRE '{kind}' '{file}' 1. pour l'avoir ainsi",
     ),
     "no-such-format": Message(
         "'{word}' is no format that LIRE reads{near:?; did you mean '{near}'?}",

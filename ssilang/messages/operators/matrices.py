@@ -226,4 +226,14 @@ MESSAGES: dict[str, Message] = {
         "Super-élément : {masters} {masters:inconnue maître|inconnues maîtres}, {inner} à "
         "l'intérieur",
     ),
+    "product-of-other-names": Message(
+        "the product is zero: the field has {names:words}, and the unknowns of the matrix are "
+        "{known:words}",
+        "le produit est nul : le champ a {names:words}, et les inconnues de la matrice sont "
+        "{known:words}",
+        "a field is multiplied by the names of displacements (UX ...), and forces (FX ...) result",
+        "un champ se multiplie sous les noms des déplacements (UX ...), et donne des forces "
+        "(FX ...)",
+        severity="warning",
+    ),
 }

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.curves.curve import Curve
 from ssilang.language.registry import (
     Chosen,
@@ -24,7 +25,7 @@ from ssilang.language.registry import (
     words_in,
 )
 from ssilang.language.run.call import Call, Operand
-from ssilang.language.values import Table
+from ssilang.language.values import ListEnti, Table, type_of
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -154,6 +155,9 @@ _OPTIONS: tuple[Entry, ...] = (
         "('LEGE' (PLACE)) (TAB1) ;",
         examples=(
             "EV = EVOL 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; DESS EV 'GRIL' 'MIMA' ;",
+            "E1 = EVOL 'MANU' 'LEGE' 'exact' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ;\n"
+            "E2 = EVOL 'MANU' 'LEGE' 'found' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3.5 1.) ;\n"
+            "DESS (E1 ET E2) 'ECAR' ;",
             (
                 "E = EVOL 'MANU' (PROG -1. 0. 2.) (PROG -3. 9. 1.) ;\n"
                 "DESS E 'AXES' 'POSX' 'CENT' 'POSY' 'EXCE' 'LEGE' 'NE' ;"
@@ -172,7 +176,7 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
         if name in found and found[name][0] == found[name][1]:
             raise call.error("operators.drawing.equal-bounds", low=found[name][0])
     if table is not None:
-        found |= _styles(call, table)
+        found |= _styles(call, table, [len(part.abscissas) for part in parts])
     # the title of the evolution, else the one in force
     if "title" not in found and not curve.title.strip():
         found["title"] = workspace(call.session).title
@@ -235,11 +239,12 @@ def _settings(
     return found
 
 
+_DASHES = len(DASHES) - 1  # last code of LIGNE_VARIABLE: 0 full, 1 to 5 TIRR TIRC TIRL TIRM POIN
 _IDLE = frozenset({"logo", "no_click"})  # of other programs' windows
 
 
-def _styles(call: Call, table: Table) -> dict[str, Any]:
-    """Styles, names, spans and dashes of the curves, from DESS's table."""
+def _styles(call: Call, table: Table, sizes: list[int]) -> dict[str, Any]:
+    """Styles, names, spans and dashes of curves of so many points, from DESS's table."""
     styles: dict[int, LineStyle] = {}
     for index, value in table.items():
         if isinstance(index, int) and isinstance(value, str):
@@ -249,15 +254,36 @@ def _styles(call: Call, table: Table) -> dict[str, Any]:
         for n, value in spans.items():
             if not isinstance(value, int):
                 raise call.error("operators.drawing.whole-number-wanted", n=n, value=value)
+    for n in {*first, *last} & {*range(1, len(sizes) + 1)}:
+        start, end = first.get(n, 1), last.get(n, sizes[n - 1])
+        if not 1 <= start <= end <= sizes[n - 1]:
+            raise call.error(
+                "operators.drawing.portion", n=n, first=start, last=end, n_points=sizes[n - 1]
+            )
     return {
         "styles": styles,
         "names": {n: str(text) for n, text in _by_number(table, "TITRE").items()},
         "spans": {n: (first.get(n), last.get(n)) for n in {*first, *last}},
         "dash_codes": {
-            n: getattr(codes, "values", codes)
+            n: _dashes(call, n, codes, sizes)
             for n, codes in _by_number(table, "LIGNE_VARIABLE").items()
+            if 1 <= n <= len(sizes)
         },
     }
+
+
+def _dashes(call: Call, n: int, codes: Any, sizes: list[int]) -> IntArray:
+    """Dashes of all segments of curve n, of which the table must give each."""
+    if not isinstance(codes, ListEnti):
+        raise call.error("operators.drawing.dashes-list", n=n, found=type_of(codes))
+    if len(codes.values) != sizes[n - 1] - 1:
+        raise call.error(
+            "operators.drawing.dashes-count", n=n, count=len(codes.values), wanted=sizes[n - 1] - 1
+        )
+    wrong = codes.values[(codes.values < 0) | (codes.values > _DASHES)]
+    if len(wrong):
+        raise call.error("operators.drawing.dashes-code", n=n, code=int(wrong[0]), last=_DASHES)
+    return codes.values
 
 
 def _by_number(table: Table, name: str) -> dict[int, Any]:

@@ -49,6 +49,8 @@ def refuse_rest(call: Call, words: Iterable[str]) -> None:
     left, known = call.operands[0], tuple(dict.fromkeys(words))
     call.used.append(left)
     if isinstance(left.value, str):
+        if str(left.value).rstrip().upper()[:4] in known:
+            raise call.error("operators.drawing.word-beside-another", left.value, said=left.value)
         near = nearest(str(left.value), known)
         raise call.error(
             "operators.drawing.unknown-word", left.value, said=left.value, near=near, words=known

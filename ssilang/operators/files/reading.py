@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.csv_tables import as_columns, read_csv
+from ssilang.io.esm_records import read_esm
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.peer_records import read_peer
+from ssilang.io.peer_records import PeerRecord, read_peer
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
@@ -214,14 +215,40 @@ def _stl(call: Call, file: str) -> Mesh:
     "temps, multipliée par FLOT1 (9.81 fait des m/s2 de g).",
 )
 def _peer(call: Call, file: str, factor: float | None) -> Curve:
-    record = read_peer(_file(call, str(file), ".AT2"))
+    return _record(call, "PEER", file, read_peer(_file(call, str(file), ".AT2")), factor)
+
+
+@LIRE.form(
+    said("ESM"),
+    _FILE,
+    opt("factor", "FLOTTANT", en="factor of the values", fr="facteur des valeurs"),
+    syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1) ;",
+    en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC), times FLOT1 "
+    "(0.01 makes m/s2 of cm/s2).",
+    fr="ESM : un accélérogramme au format texte des bases ESM et ITACA (.ASC), multiplié par FLOT1 "
+    "(0.01 fait des m/s2 de cm/s2).",
+    examples=(
+        "OPTI SORT 'quake.asc' ;\n"
+        "SORT 'CHAI' 'SAMPLING_INTERVAL_S: 0.01' ; SORT 'CHAI' 'NDATA: 3' ;\n"
+        "SORT 'CHAI' 'UNITS: cm/s^2' ; SORT 'CHAI' '0.' ; SORT 'CHAI' '12.' ;\n"
+        "SORT 'CHAI' '-7.' ; E = LIRE 'ESM' 'quake.asc' 0.01 ; LIST E ;",
+    ),
+)
+def _esm(call: Call, file: str, factor: float | None) -> Curve:
+    return _record(call, "ESM", file, read_esm(_file(call, str(file), ".ASC")), factor)
+
+
+def _record(call: Call, kind: str, file: str, record: PeerRecord, factor: float | None) -> Curve:
+    """The curve of a record; a unit that is not SI, or that the file does not name, is told."""
     if factor is None:
         factor = 1.0
         if record.in_si != 1.0:
             call.warn(
                 "operators.files.record-not-in-si", file=file, unit=record.unit.lower(),
-                factor=record.in_si,
+                factor=record.in_si, kind=kind,
             )  # fmt: skip
+        elif not record.has_unit:
+            call.warn("operators.files.record-without-unit", file=file, kind=kind)
     part = CurvePart(
         record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
     )

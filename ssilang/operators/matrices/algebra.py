@@ -34,7 +34,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, REDU, listing, union
-from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.tables.soundness import flaw_of
 
 # --- signs -----------------------------------------------------------------------------------
@@ -68,17 +68,33 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
     return Matrix(matrix.table, tuple(made), matrix.relations, matrix.kind)
 
 
-@rule("*", "RIGIDITE", "CHPOINT")
-def _times_field(_sign: str, matrix: Matrix, field: NodeField) -> NodeField:
+@rule_with_call("*", "RIGIDITE", "CHPOINT")
+def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> NodeField:
+    _warn_of_other_names(call, matrix, field)
     made = product(matrix, field)
     if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
         raise OverflowError
     return made
 
 
-@rule("*", "CHPOINT", "RIGIDITE")
-def _field_times(sign: str, field: NodeField, matrix: Matrix) -> NodeField:
-    return _times_field(sign, matrix, field)
+@rule_with_call("*", "CHPOINT", "RIGIDITE")
+def _field_times(call: Call, sign: str, field: NodeField, matrix: Matrix) -> NodeField:
+    return _times_field(call, sign, matrix, field)
+
+
+def _warn_of_other_names(call: Call, matrix: Matrix, field: NodeField) -> None:
+    """Warn of a product that is zero since no component bears the name of an unknown."""
+    known = {name for block in matrix.blocks for name in block.unknowns}
+    names = {name for name, part in field.components.items() if part.values.any()}
+    if matrix.blocks and names and names.isdisjoint({*known, *_MULTIPLIERS}):
+        call.warn(
+            "operators.matrices.product-of-other-names",
+            names=sorted(names),
+            known=sorted(known),
+        )
+
+
+_MULTIPLIERS = ("LX", "FLX")
 
 
 @rule("+", "RIGIDITE", "RIGIDITE")

@@ -110,7 +110,9 @@ function build() {
   bodies.actor.getProperty().setLineWidth(3);
   edges.actor.getProperty().setLineWidth(1);
   joints.actor.getProperty().setLineWidth(5);
-  edges.mapper.setResolveCoincidentTopologyToPolygonOffset();
+  /* edges and joints lie on faces: these are drawn a little behind */
+  for (const body of [bodies, edges, joints]) body.mapper.setResolveCoincidentTopologyToPolygonOffset();
+  joints.mapper.setRelativeCoincidentTopologyPolygonOffsetParameters(-4, -4);
   ghost.where.set(v.points);
   ghost.changed();
   for (const body of [ghost, bodies, edges, joints]) renderer.addActor(body.actor);
@@ -285,7 +287,9 @@ async function choose(number) {
 function switches() {
   edges.actor.setVisibility(get("scene-edges").checked);
   ghost.actor.setVisibility(get("scene-ghost").checked);
-  bodies.actor.getProperty().setOpacity(get("scene-through").checked ? 0.25 : 1);
+  /* in space bodies hide the joints between them */
+  const hidden = !scene.flat && OF_JOINTS.includes(get("scene-colour").value);
+  bodies.actor.getProperty().setOpacity(hidden || get("scene-through").checked ? 0.25 : 1);
 }
 
 /* ---- playing --------------------------------------------------------------------------------- */
@@ -320,7 +324,7 @@ get("scene-play").addEventListener("click", () => { if (playing) { pause(); move
 get("scene-time").addEventListener("input", e => { pause(); frame = +e.target.value; move(); });
 get("scene-warp").addEventListener("input", e => { factor = fromSlider(+e.target.value); move(); });
 get("scene-choice").addEventListener("change", e => choose(+e.target.value));
-get("scene-colour").addEventListener("change", () => { colour(); move(); });
+get("scene-colour").addEventListener("change", () => { colour(); switches(); move(); });
 for (const id of ["scene-edges", "scene-ghost", "scene-through"])
   get(id).addEventListener("change", () => { switches(); render(); });
 get("scene-reset").addEventListener("click", reset);

@@ -13,6 +13,7 @@ from PIL import Image
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import behind, section_of
+from ssilang.io.plots.labels import Annotation, Category
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
@@ -205,6 +206,22 @@ def test_colours_of_several_shapes_are_named() -> None:
     assert made.notes == ()
     twice = DeformedPart(mesh, u, 10.0, 2)  # one colour for two amplifications says nothing
     assert not compose(Subjects(deformed=Deformed((*parts, twice)))).legend.categories
+
+
+def test_the_legend_of_colours_leaves_room_for_all_that_is_written() -> None:
+    mesh = grid(4)
+    told = Annotation((Category(1, "amplification 0"), Category(2, "amplification 600")))
+    figure = draw_scene((Layer(mesh),), (), PictureOptions(annotation=told))
+    (legend,) = figure.legends
+    assert [t.get_text() for t in legend.get_texts()] == ["amplification 0", "amplification 600"]
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    low, high = axes.get_ylim()
+    marks = [m for m in axes.get_yticklabels() if low <= m.get_position()[1] <= high]
+    assert len(marks) > 3
+    assert min(m.get_window_extent().x0 for m in marks) >= 0
+    boxes = axes.get_window_extent(), legend.get_window_extent()
+    assert boxes[0].x1 < boxes[1].x0 < boxes[1].x1 <= figure.bbox.x1
 
 
 def test_multipliers_have_no_panel() -> None:

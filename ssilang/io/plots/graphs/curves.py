@@ -175,6 +175,7 @@ def _colours(given: list[int]) -> list[str]:
 def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> Line:
     first, last = options.spans.get(number, (None, None))
     cut = slice(None if first is None else first - 1, last)
+    codes = options.dash_codes.get(number)
     return Line(
         number,
         np.asarray(part.abscissas, dtype=float)[cut],
@@ -183,7 +184,7 @@ def _line(part: CurvePart, number: int, colour: str, width: float, options: Curv
         options.names.get(number, part.legend).strip(),
         options.styles.get(number, LineStyle()),
         width,
-        options.dash_codes.get(number),
+        None if codes is None else codes[cut.start :],
         part.kind,
     )
 

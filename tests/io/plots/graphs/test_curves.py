@@ -114,6 +114,16 @@ def test_only_the_span_is_drawn() -> None:
     assert np.allclose(axes.lines[0].get_xdata(), [0.4, 0.6, 0.8])
 
 
+def test_dashes_are_those_of_the_curve_s_segments_whatever_part_is_drawn() -> None:
+    """Eleven points, ten dashes; of points 3 to 5 the segments are the third and the fourth."""
+    options = CurveOptions(spans={1: (3, 5)}, dash_codes={1: [1, 1, 0, 3, *[1] * 6]})
+    (axes,) = draw_curves(curve(0), options).axes
+    (whole,) = draw_curves(curve(0), CurveOptions(dash_codes={1: [*[0] * 3, *[3] * 7]})).axes
+    (drawn,), (both,) = axes.collections, whole.collections
+    assert [len(p.vertices) for p in drawn.get_paths()] == [2, 2]
+    assert drawn.get_linestyle() == both.get_linestyle()  # full, then TIRL
+
+
 def test_extremes_are_written() -> None:
     (axes,) = draw_curves(curve(0, 0), CurveOptions(extremes=True)).axes
     assert axes.get_title(loc="right") == "min 0    max 4"

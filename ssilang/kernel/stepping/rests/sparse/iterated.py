@@ -25,7 +25,7 @@ from ssilang.kernel.interface.response import (
     local_jumps,
     new_trial,
 )
-from ssilang.kernel.solvers.backends import MULTIGRID, factor_is_large, goes_to_petsc
+from ssilang.kernel.solvers.backends import MULTIGRID, factor_pays
 from ssilang.kernel.solvers.cholesky.inverse import unit_diagonal
 from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients, minimal_residuals
 from ssilang.kernel.solvers.multigrid.multigrid import MOST_TURNS, MultigridFactor
@@ -221,11 +221,12 @@ class IteratedSolver:
 
 
 def pays(problem: Problem, A: sp.csr_array) -> bool:
-    """Whether steps go by multigrid: asked for, or their factor would be too large."""
+    """Whether steps go by multigrid: asked for, or their factor would take too much."""
     T, solver = problem.constraints.T, problem.solver
     if problem.contact is not None or not problem.constraints.associated:
         return False
-    if solver.name is not None or T.shape[1] < MANY or goes_to_petsc(solver, T.shape[1]):
-        return solver.name == MULTIGRID
+    if solver.name is not None or T.shape[1] < MANY or solver.petsc is not None:
+        return solver.name == MULTIGRID  # PETSc takes what memory does not hold
     order = ordering_of(problem, sp.csc_array((T.shape[1], 0)))
-    return order is not None and factor_is_large(sp.csr_array(T.T @ A @ T), order)
+    steps = len(problem.times) - 1
+    return order is not None and not factor_pays(sp.csr_array(T.T @ A @ T), order, steps)

@@ -105,15 +105,22 @@ def test_a_coarser_tolerance_takes_fewer_turns_and_is_met(monkeypatch):
     assert 0.0 < np.abs(coarse - fine).max() < 1e-4 * np.abs(fine).max()
 
 
-def test_large_factors_give_way_and_small_ones_do_not(monkeypatch):
-    problem = soil_block(steps=2)
-    case = choose.Case(problem, None, float(problem.times[1]))
-    assert choose.rule_of(case).name == "dissection"
+def test_multigrid_makes_a_few_steps_of_a_large_model_and_a_factor_many(monkeypatch):
+    problem = soil_block(steps=200)
+    dt, few = float(problem.times[1]), replace(problem, times=problem.times[:3])
+
+    def name_of(problem):
+        return choose.rule_of(choose.Case(problem, None, dt)).name
+
+    assert name_of(problem) == name_of(few) == "dissection"
     monkeypatch.setattr(iterated, "MANY", 100)
     monkeypatch.setattr("ssilang.kernel.solvers.backends.DISSECTED", 100)
-    assert not choose.Case(problem, None, case.dt).iterated
-    monkeypatch.setattr("ssilang.kernel.solvers.backends.OFTEN", 1e4)
-    assert choose.rule_of(choose.Case(problem, None, case.dt)).name == "multigrid"
+    monkeypatch.setattr("ssilang.kernel.solvers.backends.FACTOR", 1e-9)
+    assert (name_of(few), name_of(problem)) == ("multigrid", "dissection")
+    monkeypatch.setattr("ssilang.kernel.base.memory.available_bytes", lambda: 1e4)
+    assert name_of(problem) == "multigrid"
+    server = Solver(None, petsc=object())  # it takes what memory does not hold
+    assert not choose.Case(replace(problem, solver=server), None, dt).iterated
 
 
 def test_an_iteration_that_ends_nowhere_says_its_residual(monkeypatch):

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TextIO
 
 from ssilang import __version__
-from ssilang.cli.colour import coloured
 from ssilang.cli.editor.completion import completions
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
-from ssilang.cli.line_editor import Ask, line_editor
-from ssilang.cli.loop_progress import follow_loops
-from ssilang.cli.paging import show
 from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.terminal.colour import coloured
+from ssilang.cli.terminal.line_editor import Ask, line_editor
+from ssilang.cli.terminal.loop_progress import follow_loops
+from ssilang.cli.terminal.paging import show
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.diagnostics import render

@@ -9,7 +9,7 @@ import pytest
 if sys.platform == "win32":
     pytest.skip("pseudo-terminals are POSIX", allow_module_level=True)
 
-from tests.cli.terminal import Terminal
+from tests.cli.pseudo_terminal import Terminal
 
 PROMPT = r"ssi>\s*"
 

@@ -6,8 +6,8 @@ import io
 
 import pytest
 
-from ssilang.cli.repl import Repl
 from ssilang.cli.run import RunOptions, make_session
+from ssilang.cli.terminal.repl import Repl
 from ssilang.language.text.source import Source
 
 

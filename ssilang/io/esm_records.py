@@ -1,0 +1,68 @@
+"""Ground motions in the text format of the ESM and ITACA databases (files .ASC)."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.io.peer_records import PeerRecord
+
+_QUANTITIES = {"ACCELERATION": "ACCE", "VELOCITY": "VITE", "DISPLACEMENT": "DEPL"}
+
+
+def read_esm(path: Path) -> PeerRecord:
+    """Read a record: lines 'KEY: VALUE', then a value a line.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, its head has no SAMPLING_INTERVAL_S, a value is no number, or
+        it holds fewer values than NDATA says.
+    """
+    try:
+        lines = path.read_text(encoding="latin-1").splitlines()
+    except OSError as error:
+        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+    begin = next((i for i, line in enumerate(lines) if _is_number(line)), len(lines))
+    head = {k.strip().upper(): v.strip() for k, _, v in (x.partition(":") for x in lines[:begin])}
+    try:
+        dt = float(head["SAMPLING_INTERVAL_S"])
+    except (KeyError, ValueError):
+        dt = math.nan
+    if not 0.0 < dt < math.inf:
+        raise InputError("io.esm-without-step", name=path.name)
+    values = _values(path, lines, begin)
+    if (said := head.get("NDATA", "")).isdigit() and int(said) != len(values):
+        raise InputError(
+            "io.esm-other-count", name=path.name, count=int(said), n_values=len(values)
+        )
+    quantity = _QUANTITIES.get(head.get("DATA_TYPE", "").upper(), "ACCE")
+    event = " ".join(head[k] for k in ("EVENT_NAME", "STATION_CODE", "STREAM") if head.get(k))
+    return PeerRecord(values, dt, event, quantity, head.get("UNITS", "").upper())
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _values(
+    path: Path, lines: list[str], begin: int
+) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    found = []
+    for number, line in enumerate(lines[begin:], start=begin + 1):
+        if not (text := line.strip()):
+            continue
+        if not _is_number(text):
+            raise InputError("io.line-no-number-2", name=path.name, number=number, rest=text[:20])
+        found.append(float(text))
+    values = np.array(found)
+    if not np.isfinite(values).all():
+        raise InputError("io.record-not-finite", name=path.name)
+    return values
