@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TextIO
 
 from ssilang import __version__
-from ssilang.cli.completion import completions
+from ssilang.cli.editor.completion import completions
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.cli.terminal.colour import coloured

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ssilang.cli.completion import completions
+from ssilang.cli.editor.completion import completions
 from ssilang.cli.run import run_text
 
 
