@@ -22,6 +22,7 @@ _REASONS = {
     errno.EMFILE: "io.reason-many-files-open",
     errno.ENFILE: "io.reason-many-files-open",
     errno.EIO: "io.reason-device",
+    errno.EBADF: "io.reason-stream-closed",
 }
 
 

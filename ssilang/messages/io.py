@@ -423,6 +423,7 @@ MESSAGES: dict[str, Message] = {
     "reason-file-too-large": Message("the file is too large", "le fichier est trop gros"),
     "reason-many-files-open": Message("too many files are open", "trop de fichiers sont ouverts"),
     "reason-device": Message("the device failed", "le périphérique a échoué"),
+    "reason-stream-closed": Message("the stream is closed", "le flux est fermé"),
     "reason-nought-in-a-name": Message(
         "the sign of code 0 stands in no name", "le signe de code 0 n'entre dans aucun nom"
     ),

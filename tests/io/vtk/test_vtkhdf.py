@@ -303,7 +303,7 @@ def test_a_full_disk_is_told_and_leaves_the_steps_before(
         for i in range(1, 20):
             series.write(float(i), mesh, {"": moving(mesh, i)})
 
-    with pytest.raises(OutputError, match="No space left") as refused:
+    with pytest.raises(OutputError, match="no space is left") as refused:
         go_on()
     assert refused.value.code == "io.cannot-written"
     series.close()
