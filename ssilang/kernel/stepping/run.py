@@ -53,6 +53,8 @@ if TYPE_CHECKING:
 CHUNK_VALUES = 4_000_000  # saved values held at once
 LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
+GRID = 64  # steps at whose multiples chunks begin
+EVEN = 50_000  # unknowns; larger problems may begin a chunk anywhere, else Ctrl-C waits for minutes
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -247,7 +249,9 @@ class Integration:
 
     def _run_by_time(self, history: History) -> None:
         times, done = self.problem.times, 0
-        longest = 4096 if self.problem.small else 64
+        longest = 4096 if self.problem.small else GRID
+        # loops begin anew at multiples of GRID: the clock must not say where, or last digits change
+        least = GRID if self.problem.numbering.size <= EVEN else 1
         while done < len(times) - 1:
             before = time.perf_counter()
             run = self._chunk(done, longest, history)
@@ -257,7 +261,7 @@ class Integration:
                 faster = int(CHUNK_SECONDS / 2 / max(spent, 1e-4))
                 longest = min(max(2, faster) * longest, LONGEST_CHUNK)
             elif spent > 2 * CHUNK_SECONDS:
-                longest = max(longest // 2, 1)
+                longest = max(longest // 2 // least, 1) * least
 
     def _steps(self, run: Run, history: History) -> None:
         first = run.first
@@ -356,7 +360,8 @@ class Integration:
         last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
         most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
         values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
-        return within(self.taps.wanted, values // (3 * most), first, last)
+        end = within(self.taps.wanted, values // (3 * most), first, last)
+        return end if end == last or end - first < GRID else end - (end - first) % GRID
 
     def _choice(self, dt: float) -> Choice:
         dt = next((known for known in self._choices if abs(known - dt) <= SAME * known), dt)

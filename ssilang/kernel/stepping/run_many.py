@@ -23,7 +23,15 @@ from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.problem.sharing import grouped
 from ssilang.kernel.stepping.rests.modal.batch import springs_batch
 from ssilang.kernel.stepping.rests.sparse.interleaved_batch import interleaved_batch
-from ssilang.kernel.stepping.run import CHUNK_SECONDS, CHUNK_VALUES, History, Integration, Progress
+from ssilang.kernel.stepping.run import (
+    CHUNK_SECONDS,
+    CHUNK_VALUES,
+    EVEN,
+    GRID,
+    History,
+    Integration,
+    Progress,
+)
 from ssilang.kernel.stepping.snapshot import Instants, Observer
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Tap, rows_of
 from ssilang.kernel.stepping.times import SAME, runs_of
@@ -174,7 +182,8 @@ def _run_group(group: Group) -> None:
     """All steps, in chunks that report progress."""
     first_problem = group.lanes[0].integration.problem
     times, done = first_problem.times, 0
-    longest = 4096 if first_problem.small else 64
+    longest = 4096 if first_problem.small else GRID
+    least = GRID if first_problem.numbering.size <= EVEN else 1  # as runs of their own
     while done < len(times) - 1 and any(lane.alive for lane in group.lanes):
         run = next(runs_of(times[done : done + longest + 1], longest))
         last = _within_memory(group, done, done + run.last)
@@ -184,7 +193,7 @@ def _run_group(group: Group) -> None:
         if spent < CHUNK_SECONDS / 2 and last - done == longest:
             longest = min(2 * longest, 1 << 16)
         elif spent > 2 * CHUNK_SECONDS:
-            longest = max(longest // 2, 1)
+            longest = max(longest // 2 // least, 1) * least
         done = last
         for lane in group.lanes:
             if lane.alive and lane.integration.progress is not None:
