@@ -210,7 +210,8 @@ def test_stresses_of_a_shell_without_thickness_have_no_principal_values(tmp_path
     assert code_of(text.format("0.1"), tmp_path) == ""
 
 
-def test_a_mesh_that_would_be_refined_without_end_is_told(tmp_path):
+def test_a_mesh_that_would_be_refined_without_end_is_told(tmp_path, monkeypatch):
+    monkeypatch.setattr("ssilang.kernel.mesh.changes.local_refinement._MOST_CELLS", 20_000)
     text = (
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 ({} 1.) ;"
         "T = RAFF S (0.6 + (COOR 1 S)) ; MESS (NBEL T) ;"

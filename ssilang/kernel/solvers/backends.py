@@ -195,8 +195,11 @@ def keep_factors(count: int) -> None:
         _kept.popitem(last=False)
 
 
-def _content(A: sp.csr_array, name: str, positive: bool, ordering: Ordering | None) -> bytes:
-    digest = hashlib.blake2b(f"{name}{positive}{A.shape}".encode())
+def _content(
+    A: sp.csr_array, name: str, positive: bool, ordering: Ordering | None, tolerance: object
+) -> bytes:
+    once = ordering is not None and ordering.once
+    digest = hashlib.blake2b(f"{name} {positive} {A.shape} {once} {tolerance}".encode())
     parts = (A.indptr, A.indices, A.data)
     for part in parts if ordering is None else (*parts, ordering.points, ordering.last):
         digest.update(np.ascontiguousarray(part).tobytes())
@@ -252,7 +255,7 @@ def factorise(
 
     if not _keeping:
         return make()
-    key = _content(A, name, positive, ordering)
+    key = _content(A, name, positive, ordering, asked.tolerance)
     if key not in _kept:
         _kept[key] = make()
     _kept.move_to_end(key)

@@ -157,7 +157,8 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         problem, 0.5 * (old + motion.reaction), 0.5 * (pushed + motion.contact), outcome.du, dd,
         factors[1] - factors[0],
     )  # fmt: skip
-    if contact is None:  # loads that start out of balance grow, in the first step, from nothing
+    # loads that start out of balance grow, in the first step, from nothing
+    if contact is None and problem.constraints.associated:
         motion.energies[EXTERNAL] += 0.5 * old @ own
     motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
     if contact is not None and problem.contact_options.method == "PENALITE":

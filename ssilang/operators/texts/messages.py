@@ -90,6 +90,7 @@ ERRE = shared(
         examples=(
             "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
             "ERRE -21 ; MESS 'goes on' ;",
+            "ERRE 'stdlib.impedsol-no-radiation' 'VERTICAL' 'DISQUE' ; MESS 'goes on' ;",
         ),
     ),
     full_name="ERREUR",

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from ssilang.kernel.solvers.backends import factorise, keep_factors
+from ssilang.kernel.solvers.backends import MULTIGRID, factorise, keep_factors
+from ssilang.kernel.solvers.factor import Solver
 
 
 @pytest.fixture
@@ -31,6 +32,14 @@ def test_another_matrix_gets_its_own_and_the_oldest_is_dropped(keeping):
     assert second is not first
     factorise(matrix(3), True)
     assert factorise(matrix(1), True) is not first
+
+
+def test_a_factor_of_another_tolerance_is_not_taken(keeping):
+    fine, coarse = (
+        factorise(matrix(1), True, Solver(MULTIGRID, tolerance=t)) for t in (1e-12, 1e-4)
+    )
+    assert fine is not coarse
+    assert factorise(matrix(1), True, Solver(MULTIGRID, tolerance=1e-4)) is coarse
 
 
 def test_nothing_is_kept_unless_asked():

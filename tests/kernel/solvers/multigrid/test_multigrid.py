@@ -23,6 +23,12 @@ from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 
+@pytest.fixture(autouse=True)
+def nothing_kept():
+    """Factors that runs before this one have kept are not taken."""
+    backends.keep_factors(0)
+
+
 def bar(long=24, wide=4, held=True):
     """Stiffness of a slender block of bricks, held at one end or free, points, rigid motions."""
     table, n = NodeTable(), np.array([long, wide, wide])
