@@ -46,8 +46,11 @@ def formatted(source: Source) -> str:
     end = end_of_run(source) or len(source.text)
     text = _laid_out(source, end) + source.text[end:]
     text = text.rstrip("\n") + "\n" if text.strip() else ""
-    made = parse(Source(source.name, text, source.path))
-    # what no rule above foresees stays as it is written
+    # what no rule above foresees stays as it is written: a star that would begin a comment
+    try:
+        made = parse(Source(source.name, text, source.path))
+    except (SeveralErrors, SsiError):
+        return source.text
     return text if same_tree(tree.body, made.body) else source.text
 
 

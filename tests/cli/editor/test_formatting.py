@@ -109,6 +109,11 @@ def test_whatever_is_sound_keeps_its_meaning(pieces):
     assert_kept(text)
 
 
+@pytest.mark.parametrize("text", [";\n   *\nSI A ;", "; B C\n* note\n   *\nSI A ;"])
+def test_a_star_that_would_begin_a_comment_stays(text):
+    assert_kept(text)
+
+
 def test_the_command_writes_checks_and_shows(process, tmp_path):
     deck = tmp_path / "case.ssi"
     deck.write_bytes("X=1;\r\n* caf\u00e9\r\nMESS   X;\r\n".encode("latin-1"))
