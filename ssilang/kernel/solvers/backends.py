@@ -8,7 +8,6 @@ too large for the others.
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 from collections import OrderedDict
 from collections.abc import Callable
@@ -198,6 +197,8 @@ def keep_factors(count: int) -> None:
 def _content(
     A: sp.csr_array, name: str, positive: bool, ordering: Ordering | None, tolerance: object
 ) -> bytes:
+    import hashlib
+
     once = ordering is not None and ordering.once
     digest = hashlib.blake2b(f"{name} {positive} {A.shape} {once} {tolerance}".encode())
     parts = (A.indptr, A.indices, A.data)
