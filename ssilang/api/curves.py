@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from ssilang.api.errors import refused
 from ssilang.api.html import picture_of
 from ssilang.api.libraries import library
+from ssilang.api.view import View
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 
@@ -17,16 +17,8 @@ if TYPE_CHECKING:
     import pandas
 
 
-@dataclass(frozen=True, eq=False)
-class CurveView:
+class CurveView(View[Curve]):
     """An EVOLUTION of one or several curves.
-
-    Attributes
-    ----------
-    held : Curve
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
 
     Examples
     --------
@@ -42,9 +34,6 @@ class CurveView:
     2.0    1.0
     Name: U, dtype: float64
     """
-
-    held: Curve
-    language: str = "en"
 
     @property
     def _only(self) -> CurvePart:

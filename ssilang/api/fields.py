@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from ssilang.api.errors import MissingKey, refused
 from ssilang.api.html import AXES, components_shown, html_of, nodes_shown
 from ssilang.api.libraries import library
+from ssilang.api.view import View
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -26,20 +26,8 @@ if TYPE_CHECKING:
     from ssilang.io.vtk.grid import Grid
 
 
-@dataclass(frozen=True, eq=False)
-class PointView:
-    """A POINT.
-
-    Attributes
-    ----------
-    held : Point
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
-    """
-
-    held: Point
-    language: str = "en"
+class PointView(View[Point]):
+    """A POINT."""
 
     @property
     def node(self) -> int:
@@ -58,16 +46,8 @@ class PointView:
         return f"<POINT {self.held.nodes.told(self.held.node)}>"
 
 
-@dataclass(frozen=True, eq=False)
-class MeshView:
+class MeshView(View[Mesh]):
     """A MAILLAGE.
-
-    Attributes
-    ----------
-    held : Mesh
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
 
     Examples
     --------
@@ -78,9 +58,6 @@ class MeshView:
     >>> r["M"].points[:, :2].max(axis=0), r["M"].cells["QUA4"].shape
     (array([2., 1.]), (2, 4))
     """
-
-    held: Mesh
-    language: str = "en"
 
     @cached_property
     def nodes(self) -> IntArray:
@@ -136,18 +113,10 @@ def _grid(made: Grid, language: str) -> pyvista.UnstructuredGrid:
     return grid
 
 
-@dataclass(frozen=True, eq=False)
-class FieldView:
+class FieldView(View[NodeField]):
     """A CHPOINT: values at nodes, by component.
 
     Multipliers LX of conditions, which stand on nodes of their own, are left out beside others.
-
-    Attributes
-    ----------
-    held : NodeField
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
 
     Examples
     --------
@@ -162,9 +131,6 @@ class FieldView:
     ssilang.api.errors.MissingKey: error: the field has no component 'SCAK'
       = did you mean 'SCAL'?
     """
-
-    held: NodeField
-    language: str = "en"
 
     @property
     def components(self) -> tuple[str, ...]:
@@ -216,20 +182,8 @@ class FieldView:
         return f"<CHPOINT {' '.join(self.components)}, {len(self)} nodes>"
 
 
-@dataclass(frozen=True, eq=False)
-class CellFieldView:
-    """A MCHAML: values at points of cells, zone by zone.
-
-    Attributes
-    ----------
-    held : CellField
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
-    """
-
-    held: CellField
-    language: str = "en"
+class CellFieldView(View[CellField]):
+    """A MCHAML: values at points of cells, zone by zone."""
 
     @property
     def components(self) -> tuple[str, ...]:

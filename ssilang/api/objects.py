@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import CellFieldView, FieldView, MeshView, PointView
 from ssilang.api.html import html_of
 from ssilang.api.libraries import library
+from ssilang.api.view import View
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -39,15 +39,8 @@ if TYPE_CHECKING:
 _MOST_SHOWN = 20
 
 
-class TableView(Mapping[Any, Any]):
+class TableView(View[Table], Mapping[Any, Any]):
     """A TABLE. What a calculation saved is made when it is asked for, not before.
-
-    Parameters
-    ----------
-    held : Table
-        The language's own object.
-    language : 'en' or 'fr'
-        Of what it refuses.
 
     Examples
     --------
@@ -56,9 +49,6 @@ class TableView(Mapping[Any, Any]):
     >>> r["T"]["B"], list(r["T"]), r["T"][1].sum()
     (2.5, ['B', 1], np.float64(3.0))
     """
-
-    def __init__(self, held: Table, language: str = "en") -> None:
-        self.held, self.language = held, language
 
     def __getitem__(self, index: Any) -> Any:
         key = held(index)
@@ -115,17 +105,8 @@ class TableView(Mapping[Any, Any]):
         return f"<TABLE {subtype}{len(self)}: {', '.join(shown)}{more}>"
 
 
-@dataclass(frozen=True, eq=False)
-class OpaqueView:
-    """What has no form of its own in Python: RIGIDITE, MMODEL, CHARGEMENT, PROCEDUR ...
-
-    Attributes
-    ----------
-    held : object
-        The kernel's own object.
-    """
-
-    held: Any = field(repr=False)
+class OpaqueView(View[Any]):
+    """What has no form of its own in Python: RIGIDITE, MMODEL, CHARGEMENT, PROCEDUR ..."""
 
     def __repr__(self) -> str:
         return f"<{type_of(self.held)}>"
@@ -174,10 +155,7 @@ def held(value: Any, language: str = "en") -> Any:
     Error
         For what the language has no object for.
     """
-    if isinstance(
-        value,
-        TableView | PointView | MeshView | FieldView | CellFieldView | CurveView | OpaqueView,
-    ):
+    if isinstance(value, View):
         return value.held
     if isinstance(value, bool | int | float):
         return value
