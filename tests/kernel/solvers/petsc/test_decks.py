@@ -93,6 +93,7 @@ def test_a_block_that_lifts_off_moves_alike_on_petsc(tmp_path, full):
     petsc, summary = run(HEAD + ASKED + script, tmp_path / "petsc")
     solvers = {s["solver"] for s in summary["statistics"]["systems"]}
     assert solvers == {"PETSc MUMPS"}
+    assert petsc.exit_code == 0, petsc.message
     (motion,) = summary["statistics"]["calculations"]
     assert motion["solver"] == ("PETSC" if full == "VRAI" else "PETSc MUMPS")
     for here, there_ in zip(
