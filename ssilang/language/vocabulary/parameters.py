@@ -268,6 +268,14 @@ _PLASTIC = (
        ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
     _p("MU", "deg", "Dilatancy angle of the joint", "Angle de dilatance du joint",
        ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
+    _p("GGAM", None, "Curve of G/Gmax over the shear strain gamma (no percentage), from G/Gmax = 1",
+       "Courbe de G/Gmax en fonction de la distorsion gamma (sans pourcent), depuis G/Gmax = 1"),
+    _p("GAMR", "", "Shear strain at which G is half of Gmax: G/Gmax = 1 / (1 + gamma / GAMR), in "
+       "the place of GGAM", "Distorsion à laquelle G vaut la moitié de Gmax : G/Gmax = 1 / (1 + "
+       "gamma / GAMR), au lieu de GGAM", range=POSITIVE, usual=between(1e-6, 1e-2)),
+    _p("PREF", "Pa", "Mean pressure (compression positive) at which the curve of G/Gmax holds",
+       "Pression moyenne (positive en compression) à laquelle vaut la courbe de G/Gmax",
+       range=POSITIVE, usual=between(1e2, 1e8)),
     _p("AF1", None, "Factor of the creep strain; its unit depends on AF2 and AF3",
        "Facteur de la déformation de fluage ; son unité dépend d'AF2 et AF3",
        range=NOT_NEGATIVE),

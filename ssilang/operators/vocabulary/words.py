@@ -39,6 +39,8 @@ from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
 
+INSTEAD = {"ECRO": "TRAC", "GGAM": "GAMR"}
+"""Parameters, and what MATE takes in their place."""
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
 _LINES = 12  # of meanings in a hint
@@ -120,9 +122,10 @@ def parameter(name: str, zone: Zone) -> Quantity | None:
 
 
 def law_names(zone: Zone) -> Names:
-    """Parameters of a zone's law, TRAC besides ECRO included."""
+    """Parameters of a zone's law, with those that MATE takes in the place of others."""
     names = material_names(zone)
-    return Names(names.required, (*names.optional, *(("TRAC",) if "ECRO" in names.all else ())))
+    others = tuple(other for name, other in INSTEAD.items() if name in names.all)
+    return Names(names.required, (*names.optional, *others))
 
 
 @dataclass(frozen=True, slots=True)
