@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
-from tests.references.masing import Masing, polygon
-from tests.references.soil_column import Column, bundle
+from references.masing import Masing, polygon
+from references.soil_column import Column, bundle
 
 SQUARE = (
     "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; "
