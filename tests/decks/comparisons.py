@@ -208,7 +208,7 @@ def soil_column(result: RunResult) -> None:
     fine = np.arange(0.0, given[0][-1] + 1e-9, step)
     u, strain, stress = column.shaken(np.interp(fine, *given), step)
     whole = round((given[0][1] - given[0][0]) / step)
-    # average acceleration at 200 steps a second; with half the step a fourth of these errors is left
+    # average acceleration at 200 steps a second; half the step leaves a fourth of these errors
     for name, wanted, share in (
         ("LTOP", u[:, -1], 5e-3), ("LGLO", strain[:, 0], 0.025), ("LSLO", stress[:, 0], 0.025),
         ("LGMI", strain[:, 10], 0.01), ("LSMI", stress[:, 10], 0.02),
