@@ -17,17 +17,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
-
-STRIPES = 64
-"""Places across a footing in the plane.
-
-Where the edge of contact lies between two of them, the force errs by up to
-`k theta B^2/(8 STRIPES^2)`: 5e-4 of the capacity at a rotation of 16 q/(k B), nothing while
-the ground is elastic.
-"""
-
-ACROSS = 16
-"""Places along each side of a rectangle, and twice the rings of a disc, in space."""
+from ssilang.kernel.interface.laws.places import n_places, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,13 +90,12 @@ def yields(table: FloatArray) -> bool:
     return bool(table[Parameter.COHE] > 0.0)
 
 
-def bed_of(code: int, table: FloatArray, dimension: int, owner: int, first: int) -> Bed:
+def bed_of(code: LawCode, table: FloatArray, dimension: int, owner: int, first: int) -> Bed:
     """The places of a macro-element.
 
     Parameters
     ----------
-    code : int
-        Its law.
+    code : LawCode
     table : array (N_PARAMETERS,)
         Its parameters as given, KN and KS1 those of the whole footing.
 
@@ -117,22 +106,23 @@ def bed_of(code: int, table: FloatArray, dimension: int, owner: int, first: int)
     """
     if dimension == 3 and table[Parameter.KS1] != table[Parameter.KS2]:
         raise MaterialError("kernel.interface.bed-one-shear-stiffness")
-    arms, areas, factor = _PLACES[code, dimension](table)
+    found = np.array([place(code, dimension, i, table) for i in range(n_places(dimension))])
+    arms, areas = found[:, : dimension - 1], found[:, 2]
     p = np.zeros(N_PARAMETERS)
     p[Parameter.COHE], p[Parameter.FROT] = table[Parameter.COHE], table[Parameter.FROT]
-    p[Parameter.QULT] = table[Parameter.QULT] or factor * table[Parameter.COHE]
+    p[Parameter.QULT] = table[Parameter.QULT] or bearing_factor(code, table) * table[Parameter.COHE]
     p[Parameter.BED_KN] = table[Parameter.KN] / areas.sum()
     p[Parameter.BED_KS] = table[Parameter.KS1] / areas.sum()
     return Bed(owner, first, arms, areas, p)
 
 
-def twisting_stiffness(code: int, table: FloatArray) -> float:
+def twisting_stiffness(code: LawCode, table: FloatArray) -> float:
     """Stiffness against twist of the places of a macro-element in space."""
     bed = bed_of(code, table, 3, 0, 0)
     return float(bed.parameters[Parameter.BED_KS] * (bed.areas @ (bed.arms**2).sum(axis=1)))
 
 
-# --- where the places are --------------------------------------------------------------------
+# --- what they bear --------------------------------------------------------------------------
 
 PRANDTL = 2.0 + np.pi
 """Bearing pressure of a strip on clay over its cohesion (Prandtl 1920)."""
@@ -143,61 +133,15 @@ DISC = 6.05
 SHAPE = 0.2
 """A rectangle bears 1 + SHAPE B/L times what a strip does (Skempton 1951; Eurocode 7)."""
 
-_Places = tuple[FloatArray, FloatArray, float]
 
-
-def _rectangle_factor(width: float, length: float) -> float:
-    return PRANDTL * (1.0 + SHAPE * min(width, length) / max(width, length))
-
-
-def _strip(table: FloatArray) -> _Places:
-    """Stripes of a strip of unit length, or of a rectangle LONG out of the plane."""
+def bearing_factor(code: LawCode, table: FloatArray) -> float:
+    """Pressure that clay bears under a footing, over its cohesion."""
+    if code == LawCode.DISC:
+        return DISC
     width, length = table[Parameter.LARG], table[Parameter.LONG]
-    s = width * ((np.arange(STRIPES) + 0.5) / STRIPES - 0.5)
-    factor = _rectangle_factor(width, length) if length > 0.0 else PRANDTL
-    areas = np.full(STRIPES, width * (length or 1.0) / STRIPES)
-    return s[:, None], areas, factor
-
-
-def _stripes_of_disc(table: FloatArray) -> _Places:
-    """Stripes of equal width, each at its centre of area."""
-    r = table[Parameter.RAYO]
-    x = np.linspace(-1.0, 1.0, STRIPES + 1)
-    rest = np.sqrt(np.maximum(1.0 - x**2, 0.0))
-    areas = np.diff(np.arcsin(x) + x * rest)
-    moments = np.diff(-2.0 / 3.0 * rest**3)
-    return (r * moments / areas)[:, None], r**2 * areas, DISC
-
-
-def _rectangle(table: FloatArray) -> _Places:
-    width, length = table[Parameter.LARG], table[Parameter.LONG]
-    x = (np.arange(ACROSS) + 0.5) / ACROSS - 0.5
-    s1, s2 = np.meshgrid(width * x, length * x, indexing="ij")
-    areas = np.full(ACROSS**2, width * length / ACROSS**2)
-    factor = _rectangle_factor(width, length)
-    return np.column_stack([s1.ravel(), s2.ravel()]), areas, factor
-
-
-def _disc(table: FloatArray) -> _Places:
-    """Rings of equal width cut into parts of one area, each at its centre of area."""
-    r, rings = table[Parameter.RAYO], ACROSS // 2
-    arms = []
-    for i in range(rings):
-        n = 4 * (2 * i + 1)
-        half, inner, outer = np.pi / n, r * i / rings, r * (i + 1) / rings
-        middle = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2) * np.sin(half) / half
-        angle = (2.0 * np.arange(n) + 1.0) * half
-        arms.append(middle * np.column_stack([np.cos(angle), np.sin(angle)]))
-    places = np.concatenate(arms)
-    return places, np.full(len(places), np.pi * r**2 / len(places)), DISC
-
-
-_PLACES = {
-    (LawCode.STRIP, 2): _strip,
-    (LawCode.STRIP, 3): _rectangle,
-    (LawCode.DISC, 2): _stripes_of_disc,
-    (LawCode.DISC, 3): _disc,
-}
+    if not length > 0.0:
+        return PRANDTL
+    return float(PRANDTL * (1.0 + SHAPE * min(width, length) / max(width, length)))
 
 
 def beds_of(joints: list[JointCells], tables: list[FloatArray]) -> tuple[Bed, ...]:

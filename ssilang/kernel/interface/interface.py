@@ -7,6 +7,7 @@ delta, whose size is that of the interface and not of the model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -100,6 +101,11 @@ class Interface:
         """Number of points of the joints themselves, without places of beds."""
         return self.n_points - sum(len(bed.areas) for bed in self.beds)
 
+    def cell_of(self, bed: Bed) -> tuple[JointCells, int]:
+        """The zone and the cell of a bed's macro-element."""
+        zone, cell = _at(self.joints, bed.owner)
+        return self.joints[zone], cell
+
     @property
     def pressing(self) -> IntArray:
         """Points whose tractions are those of one joint: no places, no owners of beds."""
@@ -130,6 +136,13 @@ class Interface:
         found = np.zeros((self.size, self.size))
         np.add.at(found, (places[:, :, None], places[:, None, :]), blocks)
         return found
+
+
+def _at(joints: Sequence[JointCells], point: int) -> tuple[int, int]:
+    """The number of the zone and the cell of a point of joints of two points."""
+    starts = np.cumsum([0, *(j.weights.size for j in joints)])
+    zone = int(np.searchsorted(starts, point, side="right")) - 1
+    return zone, point - int(starts[zone])
 
 
 def joint_zones(model: Model) -> tuple[Zone, ...]:
@@ -166,6 +179,9 @@ def interface_of(
     d = joints[0].element.dimension
     beds = beds_of(joints, given_tables)
     J, places, B = _jumps(joints, numbering, beds)
+    for bed in beds:  # the closed form above knows what its ground bears
+        zone, cell = _at(joints, bed.owner)
+        tables[zone][cell, Parameter.QULT] = bed.parameters[Parameter.QULT]
     tables += [np.tile(bed.parameters, (len(bed.areas), 1)) for bed in beds]
     codes += [np.full(len(bed.areas), LawCode.BED, dtype=np.int64) for bed in beds]
     return Interface(
@@ -259,11 +275,10 @@ def sliding_jumps(
 ) -> sp.csr_array:
     """Motions along the base, d rows a bed: the second pair of its places."""
     d = joints[0].element.dimension
-    starts = np.cumsum([0, *(j.weights.size for j in joints)])
     matrix = sp.lil_array((len(beds) * d, numbering.size))
     for i, bed in enumerate(beds):
-        zone = int(np.searchsorted(starts, bed.owner, side="right")) - 1
-        j, cell = joints[zone], bed.owner - int(starts[zone])
+        at, cell = _at(joints, bed.owner)
+        j = joints[at]
         frame, resolve = j.frames[cell, 0], j.zone.cells.nodes.resolve
         for side, sign in ((j.upper, 1.0), (j.lower, -1.0)):
             node = int(resolve(side[cell]).ravel()[0])
@@ -548,11 +563,9 @@ def state_from_field(interface: Interface, field: CellField) -> FloatArray:
     ]
     places = np.zeros((interface.n_points - interface.n_shown, N_STATE))
     found = np.concatenate([*parts, places])
-    starts = np.cumsum([0, *(j.weights.size for j in interface.joints)])
     for bed in interface.beds:
-        zone = int(np.searchsorted(starts, bed.owner, side="right")) - 1
-        given = zone_field(interface.joints[zone].zone, field)
-        places_from(given, bed.owner - int(starts[zone]), found[bed.points])
+        j, cell = interface.cell_of(bed)
+        places_from(zone_field(j.zone, field), cell, found[bed.points])
     return found
 
 

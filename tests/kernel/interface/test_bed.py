@@ -146,11 +146,11 @@ def test_inclined_loads_of_a_strip_meet_green(ratio):
 def test_eccentric_loads_meet_the_effective_width(part):
     """A strip in contact over `part` of its width: N = part N_0, M = N B/2 (1 - N/N_0)."""
     footing, q = made("strip", COHE=C), FACTORS["strip"] * C
-    theta = 40.0 * q / 8e7
+    theta = 400.0 * q / 8e7
     _, N, M = footing.move([0.0, theta * (0.5 - part) * B, theta])
     found = -N / (q * B)
     assert found == pytest.approx(part, abs=0.02)  # the edge of contact is still elastic
-    assert abs(M) == pytest.approx(-N * B / 2 * (1 - found), rel=1e-2)
+    assert abs(M) == pytest.approx(-N * B / 2 * (1 - found), rel=2e-3)
 
 
 @pytest.mark.parametrize("name", SHAPES)
