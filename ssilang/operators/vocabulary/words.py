@@ -225,10 +225,11 @@ def known_components() -> tuple[str, ...]:
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
     from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
+    from ssilang.kernel.interface.bed_results import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
-    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES]
+    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES]
     for element in ELEMENTS:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]
