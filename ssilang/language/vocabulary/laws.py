@@ -127,6 +127,18 @@ WORDS = (
         "Fibre de béton : sans traction, parabole et rectangle en compression jusqu'à FC",
     ),
     _law(
+        "plastic", "ACIER_UNI",
+        "Steel of fibres and bars in cycles: curves of Menegotto and Pinto, buckling if wanted",
+        "Acier de fibres et de barres en cycles : courbes de Menegotto et Pinto, flambage au "
+        "besoin",
+    ),
+    _law(
+        "plastic", "BETON_UNI",
+        "Concrete of fibres and bars: Hognestad's parabola, softening, confinement, cracks",
+        "Béton de fibres et de barres : parabole de Hognestad, adoucissement, confinement, "
+        "fissures",
+    ),
+    _law(
         "plastic", "SECTION",
         "Behind PLASTIQUE in a beam TIMO: the fibres of its section yield by their own laws",
         "Derrière PLASTIQUE dans une poutre TIMO : les fibres de la section ont leurs lois",

@@ -8,6 +8,7 @@ are the laws' own.
 
 from __future__ import annotations
 
+from ssilang.language.vocabulary import law_parameters
 from ssilang.language.vocabulary.terms import (
     ANY_NUMBER,
     NOT_NEGATIVE,
@@ -17,21 +18,12 @@ from ssilang.language.vocabulary.terms import (
     Range,
     between,
 )
-
-
-def _p(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
-    default: float | None = None,
-) -> Quantity:
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
+from ssilang.language.vocabulary.terms import (
+    parameter as _p,
+)
+from ssilang.language.vocabulary.terms import (
+    unused_parameter as _unused,
+)
 
 _MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
 _YIELDING = ("MACRO_SEMELLE", "MACRO_DISQUE")
@@ -43,12 +35,6 @@ _POISSON = (
     "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
     "Coefficient de Poisson, environ 0.3 pour les sols et l'acier, 0.2 pour le béton",
 )
-
-
-def _unused(name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 _ELASTIC = (
@@ -408,4 +394,13 @@ _SECTIONS = (
        "Facteur de la pression dans la contrainte équivalente"),
 )  # fmt: skip
 
-WORDS = (*_ELASTIC, *_ORTHOTROPIC, *_JOINTS, *_PLASTIC, *_CONTACT, *_POINTS, *_SECTIONS)
+WORDS = (
+    *_ELASTIC,
+    *_ORTHOTROPIC,
+    *_JOINTS,
+    *_PLASTIC,
+    *_CONTACT,
+    *_POINTS,
+    *_SECTIONS,
+    *law_parameters.WORDS,
+)

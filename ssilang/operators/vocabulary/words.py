@@ -26,6 +26,7 @@ from ssilang.kernel.materials.behaviours import (
     FIBRE_LAWS,
     LAYER_LAWS,
     PLASTIC_FAMILIES,
+    UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
 from ssilang.kernel.materials.model import Mode, Zone
@@ -278,6 +279,7 @@ def _plastic(family: str) -> tuple[str, ...]:
     if family not in PLASTIC_FAMILIES:
         return ("SECTION",) if family == "timoshenko" else ()
     bodies = tuple(n for n in PLASTIC_LAWS if n not in (*UNIAXIAL_LAWS, "SECTION"))
+    bodies += UNIAXIAL_LAWS if family in UNIAXIAL_FAMILIES else ()
     return {"fibre": FIBRE_LAWS, "plate": LAYER_LAWS}.get(family, bodies)
 
 

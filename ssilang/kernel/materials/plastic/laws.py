@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from ssilang.kernel.base.arrays import FloatArray
@@ -11,7 +11,9 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
     creep,
     drucker_prager,
+    hognestad,
     iwan,
+    menegotto_pinto,
     rounded_coulomb,
     uniaxial,
     von_mises,
@@ -45,6 +47,8 @@ class PlasticLaw:
         A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
+    defaults : mapping of str to float
+        Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
     locked : callable or None
@@ -64,6 +68,7 @@ class PlasticLaw:
     symmetric: bool = True
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
+    defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
@@ -126,6 +131,25 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
     ),
     "BETON_BAEL": PlasticLaw(
         uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
+    "ACIER_UNI": PlasticLaw(
+        menegotto_pinto.respond,
+        menegotto_pinto.REQUIRED,
+        menegotto_pinto.VARIABLES,
+        positive=("STSY",),
+        check=menegotto_pinto.check,
+        uniaxial=True,
+        defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
+    ),
+    "BETON_UNI": PlasticLaw(
+        hognestad.respond,
+        hognestad.REQUIRED,
+        hognestad.VARIABLES,
+        positive=("STFC", "EZER"),
+        check=hognestad.check,
+        uniaxial=True,
+        optional=hognestad.UNUSED,
+        defaults=hognestad.DEFAULTS,
     ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
