@@ -7,6 +7,7 @@ back needs zeros before and after the record, 1.5 n / f of its low corner.
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 
@@ -55,7 +56,9 @@ def butterworth(
         raise FieldError("kernel.records.filter-corners-cross", low=low, high=high)
     size = 0 if causal else min(math.ceil(_PAD * order / min(corners) / step), _MOST)
     found = np.concatenate([np.zeros(size), values, np.zeros(size)])
-    for kind, corner in (("highpass", low), ("lowpass", high)):
+    kept: tuple[tuple[Literal["highpass", "lowpass"], float | None], ...]
+    kept = (("highpass", low), ("lowpass", high))
+    for kind, corner in kept:
         if corner is None:
             continue
         sections = butter(order, corner, kind, fs=1.0 / step, output="sos")
