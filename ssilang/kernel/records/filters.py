@@ -56,9 +56,9 @@ def butterworth(
         raise FieldError("kernel.records.filter-corners-cross", low=low, high=high)
     size = 0 if causal else min(math.ceil(_PAD * order / min(corners) / step), _MOST)
     found = np.concatenate([np.zeros(size), values, np.zeros(size)])
-    kept: tuple[tuple[Literal["highpass", "lowpass"], float | None], ...]
-    kept = (("highpass", low), ("lowpass", high))
-    for kind, corner in kept:
+    kinds: tuple[tuple[Literal["highpass", "lowpass"], float | None], ...]
+    kinds = (("highpass", low), ("lowpass", high))
+    for kind, corner in kinds:
         if corner is None:
             continue
         sections = butter(order, corner, kind, fs=1.0 / step, output="sos")

@@ -151,6 +151,19 @@ MESSAGES: dict[str, Message] = {
         "a percentile is from 0 to 100, not {percentile:g}",
         "un centile est entre 0 et 100, pas {percentile:g}",
     ),
+    "target-not-positive": Message(
+        "a target spectrum is above zero at all frequencies",
+        "un spectre visé est positif à toutes les fréquences",
+    ),
+    "target-too-fast": Message(
+        "the target goes to {frequency:g} Hz, the record's step says nothing above {most:g} Hz",
+        "le spectre visé va jusqu'à {frequency:g} Hz, le pas du signal ne dit rien au-delà de "
+        "{most:g} Hz",
+    ),
+    "record-zero": Message(
+        "the record is zero everywhere",
+        "le signal est nul partout",
+    ),
     "record-no-whole-shock": Message(
         "the record has no whole shock",
         "l'enregistrement n'a pas de choc entier",

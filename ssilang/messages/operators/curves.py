@@ -15,6 +15,10 @@ MESSAGES: dict[str, Message] = {
         "IPOL brings one to the instants of the other",
         "IPOL porte l'une aux instants de l'autre",
     ),
+    "tolerance-not-positive": Message(
+        "the largest misfit must be above zero, not {tolerance:g}",
+        "le plus grand écart doit être positif, pas {tolerance:g}",
+    ),
     "rotd-incomplete": Message(
         "'ROTD' takes two components, percentiles and the signal's own times",
         "'ROTD' prend deux composantes, des centiles et les instants du signal",

@@ -1,4 +1,4 @@
-"""FILT of a record, TOUR of two components."""
+"""FILT of a record, TOUR of two components, ZOND: a record matched to a spectrum."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import dataclasses
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.directions import turned
 from ssilang.kernel.records.filters import butterworth
+from ssilang.kernel.records.matching import matched
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import arg, flag, key
+from ssilang.language.registry import Help, arg, flag, key, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import CURVE, check_together, one_part
@@ -78,3 +79,42 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
         Curve((dataclasses.replace(x, ordinates=a),), first.title),
         Curve((dataclasses.replace(y, ordinates=b),), second.title),
     )
+
+
+@operator(
+    "ZOND",
+    arg("record", "EVOLUTIO", en="acceleration", fr="accélération"),
+    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz", fr="pseudo-accélérations en Hz"),
+    key("damping", "AMOR", arg("xi", "FLOTTANT"), default=0.05, en="damping", fr="amortissement"),
+    key("tolerance", "TOLE", arg("x", "FLOTTANT"), default=0.05,
+        en="largest misfit, 0.05 without it", fr="plus grand écart, 0.05 sans elle"),
+    family="signals",
+    gives=("EVOLUTIO", "FLOTTANT"),
+    help=Help(
+        en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
+        "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
+        "part of the target.",
+        fr="Le signal proche d'un autre dont le spectre est celui visé à ses fréquences, par ajout "
+        "d'ondelettes dans le temps (Al Atik et Abrahamson 2010), pour @ACCORD ; et le plus grand "
+        "écart, en part du spectre visé.",
+        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
+        examples=(
+            "T = PROG 0. PAS 0.02 8. ; B = SIN (22.5 * T) ;\n"
+            "A = EVOL 'MANU' 'TEMP' T 'ACCE' (B * (SIN (T * 700.))) ;\n"
+            "C = EVOL 'MANU' 'FREQ' (PROG 1. 2. 4.) 'ACCE' (PROG 2. 3. 2.) ;\n"
+            "D X = ZOND A C ; LIST (X < 0.05) ;",
+        ),
+    ),
+)  # fmt: skip
+def zond(
+    call: Call, record: Curve, target: Curve, damping: float, tolerance: float
+) -> tuple[Curve, float]:
+    """Match a record."""
+    part, wanted = one_part(call, record), one_part(call, target)
+    if not tolerance > 0.0:
+        raise call.error("operators.curves.tolerance-not-positive", tolerance, tolerance=tolerance)
+    found = matched(
+        part.abscissas, part.ordinates, wanted.abscissas, wanted.ordinates, damping, tolerance
+    )
+    made = dataclasses.replace(part, ordinates=found.values)
+    return Curve((made,), record.title), found.misfit
