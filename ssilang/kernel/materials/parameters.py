@@ -115,7 +115,7 @@ def material_names(zone: Zone) -> Names:
     plastic = plastic_law(zone.behaviour)
     if plastic is not None:
         elastic = _ELASTIC[kind]
-        optional = (*elastic.optional, *plastic.optional)
+        optional = (*elastic.optional, *plastic.defaults, *plastic.optional)
         return Names((*elastic.required, *plastic.required), optional)
     return _ELASTIC[kind]
 

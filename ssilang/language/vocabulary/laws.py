@@ -104,6 +104,19 @@ WORDS = (
         "Critère de Mohr et Coulomb pour les sols, à arêtes arrondies : cohésion COHE, angle PHI",
     ),
     _law(
+        "plastic", "IWAN",
+        "Soil under cyclic shear by nested surfaces (Iwan, Mroz, Prevost) through a curve of "
+        "G/Gmax: GGAM, or a hyperbola by GAMR",
+        "Sol sous cisaillement cyclique par surfaces emboîtées (Iwan, Mroz, Prevost) suivant une "
+        "courbe de G/Gmax : GGAM, ou une hyperbole par GAMR",
+    ),
+    _law(
+        "plastic", "IWAN_PRESSION",
+        "As IWAN, strengths in proportion to the pressure: GGAM or GAMR hold at PREF; for sand",
+        "Comme IWAN, résistances proportionnelles à la pression : GGAM ou GAMR valent à PREF ; "
+        "pour un sable",
+    ),
+    _law(
         "plastic", "PARFAIT_UNI",
         "Yielding along a fibre of a section, such as a steel bar in concrete: SIGY and H",
         "Plasticité le long d'une fibre de section, comme une armature : SIGY et H",
@@ -112,6 +125,18 @@ WORDS = (
         "plastic", "BETON_BAEL",
         "Fibre of concrete: no tension, parabola and rectangle in compression up to FC",
         "Fibre de béton : sans traction, parabole et rectangle en compression jusqu'à FC",
+    ),
+    _law(
+        "plastic", "ACIER_UNI",
+        "Steel of fibres and bars in cycles: curves of Menegotto and Pinto, buckling if wanted",
+        "Acier de fibres et de barres en cycles : courbes de Menegotto et Pinto, flambage au "
+        "besoin",
+    ),
+    _law(
+        "plastic", "BETON_UNI",
+        "Concrete of fibres and bars: Hognestad's parabola, softening, confinement, cracks",
+        "Béton de fibres et de barres : parabole de Hognestad, adoucissement, confinement, "
+        "fissures",
     ),
     _law(
         "plastic", "SECTION",

@@ -17,6 +17,7 @@ class LawCode(IntEnum):
     STRIP = 3  # macro-elements: a whole footing at one point
     DISC = 4
     SPRINGS = 5
+    BED = 6  # a place under a macro-element whose ground yields
 
 
 class Parameter(IntEnum):
@@ -42,12 +43,15 @@ class Parameter(IntEnum):
     LONG = 17  # its other width
     RAYO = 18  # its radius
     SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
+    QULT = 20  # pressure that the ground bears under a footing, Pa
+    BED_KN = 21  # elastic stiffness of the bed at a place under a footing, Pa/m
+    BED_KS = 22  # its shear stiffness
 
 
 class Variable(IntEnum):
     """Columns of the state of a point, its internal variables."""
 
-    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint
+    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint or a bed
     SLIP1 = 1  # along t1
     SLIP2 = 2  # along t2
     DAMAGE = 3  # share of the shear stiffness lost; plastic compression of a Mohr-Coulomb joint
