@@ -28,6 +28,8 @@ PICTURES = {
     "footing/embedded_disc": {2: "disc_impedance"},
     "footing/onset_of_uplift": {1: "onset_of_uplift"},
     "footing/macro_element": {2: "macro_rocking"},
+    "footing/macro_plastic": {1: "macro_plastic", 2: "macro_settlement"},
+    "footing/macro_against_soil": {1: "macro_against_soil"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
     "footing/raft_3d": {1: "raft_3d"},

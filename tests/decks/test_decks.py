@@ -38,6 +38,8 @@ SPOILT = [
     ("footing/disc_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.1 * K0) 'KS'"),
     ("footing/embedded_disc.ssi", "'YOUN' (2. * G0", "'YOUN' (2.1 * G0"),
     ("footing/macro_element.ssi", "'KS' 1.E8 'RAYO' R0", "'KS' 1.E8 'RAYO' (1.001 * R0)"),
+    ("footing/macro_plastic.ssi", "'LARG' B0 'COHE' C0 ;", "'LARG' B0 'COHE' (1.02 * C0) ;"),
+    ("footing/macro_against_soil.ssi", "'LARG' B0 'COHE' C0", "'LARG' B0 'COHE' (0.9 * C0)"),
     ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("published/unilateral_plate.ssi", "KTOT = 1.E4", "KTOT = 1.001E4"),
