@@ -17,6 +17,8 @@ class LawCode(IntEnum):
     STRIP = 3  # macro-elements: a whole footing at one point
     DISC = 4
     SPRINGS = 5
+    LEAD = 6  # bearings of isolated structures
+    PENDULUM = 7
 
 
 class Parameter(IntEnum):
@@ -40,8 +42,12 @@ class Parameter(IntEnum):
     QT = 15  # its tangent stiffness then
     LARG = 16  # width of a footing (macro-elements), along t1 in 3D
     LONG = 17  # its other width
-    RAYO = 18  # its radius
+    RAYO = 18  # its radius; of a pendulum's bowl
     SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
+    QD = 20  # force of a lead core at no displacement
+    KPOS = 21  # shear stiffness once it yields
+    ETA = 22  # how sharply it does
+    BETA = 23  # share of the hysteresis that unloads as it loads
 
 
 class Variable(IntEnum):
@@ -57,6 +63,8 @@ class Variable(IntEnum):
     STATUS = 7  # of a Mohr-Coulomb joint: untouched (0), IS_OPEN or IN_CONTACT
     OPENING = 8  # of an open Mohr-Coulomb joint
     CUMULATED = 9  # length of its plastic jump
+    HYSTERETIC1 = 8  # of a lead core, along t1: shares of its force
+    HYSTERETIC2 = 9
 
 
 N_PARAMETERS = len(Parameter)
