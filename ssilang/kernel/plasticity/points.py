@@ -119,6 +119,14 @@ class PlasticPoints:
             given = PointParameters({**given.values, DURATION: steps}, given.curves)
         return respond_held(self.law, given, stress, strain, variables, self.held)
 
+    def stored(self, state: PointState) -> float:
+        """Elastic energy, with what a law locks in."""
+        strain = np.einsum("mij,mj->mi", self.parameters.compliance, state.stress)
+        density = 0.5 * np.einsum("mi,mi->m", strain, state.stress)
+        if self.law.locked is not None:
+            density = density + self.law.locked(self.parameters, state.stress, state.variables)
+        return float(density @ self.weights.ravel())
+
     def forces(self, stress: FloatArray) -> FloatArray:
         """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""
         n, s, p, rows = self.B.shape

@@ -10,12 +10,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
+from ssilang.kernel.stepping.problem.capacity import overloads
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.iterated import (
@@ -251,8 +253,37 @@ def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, 
             observer.receive(snapshot)
 
 
+def _ground_gives_way(
+    problem: Problem, joints: Interface, motion: Motion, step: int
+) -> ConvergenceError:
+    """No equilibrium over ground that yields: too much weight, or too far out."""
+    at = {"step": step, "time": problem.times[step]}
+    told = problem.numbering.table.told
+    for found in overloads(problem, problem.loading.at(problem.times)[step]):
+        return ConvergenceError(
+            "kernel.statics.footing-overloaded",
+            **at,
+            node=told(found.node),
+            pressing=found.pressing,
+            capacity=found.capacity,
+        )
+    carried = joints.carried(motion.t)
+    used = [-carried[bed.owner, -1] / bed.capacity for bed in joints.beds]
+    bed = joints.beds[int(np.argmax(used))]
+    j, cell = joints.cell_of(bed)
+    return ConvergenceError(
+        "kernel.statics.footing-gives-way",
+        **at,
+        node=told(int(j.zone.cells.nodes.resolve(j.upper[cell]).ravel()[0])),
+        used=100.0 * max(used),
+        share=100.0 * float(bed.in_contact(motion.w[bed.points], motion.t[bed.points])),
+    )
+
+
 def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
     joints = problem.interface
+    if joints is not None and joints.beds:
+        return _ground_gives_way(problem, joints, motion, step)
     if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
         open_points = int((motion.w[:, -1] > 0).sum())

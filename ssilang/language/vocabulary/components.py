@@ -243,6 +243,16 @@ _VARIABLES = (
        "Glissement d'un joint suivant sa première tangente"),
     _c("GLI2", "variable", "m", "Slip of a joint along its second tangent",
        "Glissement d'un joint suivant sa deuxième tangente"),
+    _c("TASS", "variable", "m", "Mean settlement of the ground below a footing that yields",
+       "Tassement moyen du sol plastique sous une fondation"),
+    _c("PART", "variable", "", "Share of a footing's area that presses",
+       "Part de l'aire d'une fondation qui presse"),
+    _c("TASP", "variable", "m", "Settlement at the places below a footing whose ground yields",
+       "Tassement aux points sous une fondation au sol plastique"),
+    _c("GLP1", "variable", "m", "Slip along the first tangent at these places",
+       "Glissement suivant la première tangente à ces points"),
+    _c("GLP2", "variable", "m", "Slip along the second tangent at these places",
+       "Glissement suivant la deuxième tangente à ces points"),
     *(
         _c(f"HYS{i}", "variable", "", f"Share of its force that a lead core has along t{i}",
            f"Part de son effort qu'un noyau de plomb a suivant t{i}")

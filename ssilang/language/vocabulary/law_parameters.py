@@ -97,7 +97,8 @@ _BEARINGS = (
        ("APPUI_PENDULE",), range=POSITIVE, usual=between(0.1, 100.0)),
     # the law itself refuses a slider without FROT, or below 0
     _p("FROT", "", "Coulomb's coefficient of friction of the slider",
-       "Coefficient de frottement de Coulomb du patin", ("APPUI_PENDULE",), usual=between(0.0, 0.5)),
+       "Coefficient de frottement de Coulomb du patin", ("APPUI_PENDULE",),
+       usual=between(0.0, 0.5)),
 )  # fmt: skip
 
 WORDS = (*_STEEL, *_CONCRETE, *_BEARINGS)

@@ -104,6 +104,19 @@ WORDS = (
         "Critère de Mohr et Coulomb pour les sols, à arêtes arrondies : cohésion COHE, angle PHI",
     ),
     _law(
+        "plastic", "IWAN",
+        "Soil under cyclic shear by nested surfaces (Iwan, Mroz, Prevost) through a curve of "
+        "G/Gmax: GGAM, or a hyperbola by GAMR",
+        "Sol sous cisaillement cyclique par surfaces emboîtées (Iwan, Mroz, Prevost) suivant une "
+        "courbe de G/Gmax : GGAM, ou une hyperbole par GAMR",
+    ),
+    _law(
+        "plastic", "IWAN_PRESSION",
+        "As IWAN, strengths in proportion to the pressure: GGAM or GAMR hold at PREF; for sand",
+        "Comme IWAN, résistances proportionnelles à la pression : GGAM ou GAMR valent à PREF ; "
+        "pour un sable",
+    ),
+    _law(
         "plastic", "PARFAIT_UNI",
         "Yielding along a fibre of a section, such as a steel bar in concrete: SIGY and H",
         "Plasticité le long d'une fibre de section, comme une armature : SIGY et H",

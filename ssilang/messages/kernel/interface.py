@@ -65,6 +65,24 @@ MESSAGES: dict[str, Message] = {
         "MACRO_SEMELLE needs LONG, the second width, in three dimensions",
         "MACRO_SEMELLE demande LONG, la seconde largeur, en dimension 3",
     ),
+    "macro-needs-cohe": Message(
+        "{name} of a macro-element says nothing without COHE, the strength of the ground",
+        "{name} d'un macro-élément ne dit rien sans COHE, la résistance du sol",
+        "give COHE (Pa), or leave {name} out",
+        "donnez COHE (Pa), ou omettez {name}",
+    ),
+    "bed-one-shear-stiffness": Message(
+        "a macro-element whose ground yields has one shear stiffness: KS1 and KS2 differ",
+        "un macro-élément au sol plastique a une seule raideur tangente : KS1 et KS2 diffèrent",
+        "give KS alone",
+        "donnez KS seule",
+    ),
+    "bed-has-its-own-twist": Message(
+        "QN cannot be given with COHE: ground that yields resists twist by KS all over the base",
+        "QN ne va pas avec COHE : un sol plastique résiste à la torsion par KS sur toute la base",
+        "leave QN out",
+        "omettez QN",
+    ),
     "joint-needs-node-matrices": Message(
         "a joint needs {missing} at node {node}, which the matrices lack",
         "un joint demande {missing} au noeud {node}, que les matrices n'ont pas",

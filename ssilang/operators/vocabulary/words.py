@@ -40,6 +40,8 @@ from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
 
+INSTEAD = {"ECRO": "TRAC", "GGAM": "GAMR"}
+"""Parameters, and what MATE takes in their place."""
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
 _LINES = 12  # of meanings in a hint
@@ -122,9 +124,10 @@ def parameter(name: str, zone: Zone) -> Quantity | None:
 
 
 def law_names(zone: Zone) -> Names:
-    """Parameters of a zone's law, TRAC besides ECRO included."""
+    """Parameters of a zone's law, with those that MATE takes in the place of others."""
     names = material_names(zone)
-    return Names(names.required, (*names.optional, *(("TRAC",) if "ECRO" in names.all else ())))
+    others = tuple(other for name, other in INSTEAD.items() if name in names.all)
+    return Names(names.required, (*names.optional, *others))
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,10 +227,11 @@ def known_components() -> tuple[str, ...]:
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
     from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
+    from ssilang.kernel.interface.bed_results import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
-    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES]
+    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES]
     for element in ELEMENTS:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]

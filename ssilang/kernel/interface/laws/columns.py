@@ -17,8 +17,9 @@ class LawCode(IntEnum):
     STRIP = 3  # macro-elements: a whole footing at one point
     DISC = 4
     SPRINGS = 5
-    LEAD = 6  # bearings of isolated structures
-    PENDULUM = 7
+    BED = 6  # a place under a macro-element whose ground yields
+    LEAD = 7  # bearings of isolated structures
+    PENDULUM = 8
 
 
 class Parameter(IntEnum):
@@ -44,16 +45,19 @@ class Parameter(IntEnum):
     LONG = 17  # its other width
     RAYO = 18  # its radius; of a pendulum's bowl
     SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
-    QD = 20  # force of a lead core at no displacement
-    KPOS = 21  # shear stiffness once it yields
-    ETA = 22  # how sharply it does
-    BETA = 23  # share of the hysteresis that unloads as it loads
+    QULT = 20  # pressure that the ground bears under a footing, Pa
+    BED_KN = 21  # elastic stiffness of the bed at a place under a footing, Pa/m
+    BED_KS = 22  # its shear stiffness
+    QD = 23  # force of a lead core at no displacement
+    KPOS = 24  # shear stiffness once it yields
+    ETA = 25  # how sharply it does
+    BETA = 26  # share of the hysteresis that unloads as it loads
 
 
 class Variable(IntEnum):
     """Columns of the state of a point, its internal variables."""
 
-    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint
+    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint or a bed
     SLIP1 = 1  # along t1
     SLIP2 = 2  # along t2
     DAMAGE = 3  # share of the shear stiffness lost; plastic compression of a Mohr-Coulomb joint

@@ -120,13 +120,17 @@ LAWS: dict[str, Law] = {
     "MACRO_SEMELLE": Law(
         LawCode.STRIP,
         ("KN", "KS", "LARG"),
-        ("LONG",),
+        ("LONG", "COHE", "QULT", "FROT"),
         check_macro_parameters,
         rocking=_rocking_rectangle,
         in_space=("LONG",),
     ),
     "MACRO_DISQUE": Law(
-        LawCode.DISC, ("KN", "KS", "RAYO"), (), check_macro_parameters, rocking=_rocking_disc
+        LawCode.DISC,
+        ("KN", "KS", "RAYO"),
+        ("COHE", "QULT", "FROT"),
+        check_macro_parameters,
+        rocking=_rocking_disc,
     ),
     "MACRO_RESSORTS": Law(
         LawCode.SPRINGS,

@@ -74,6 +74,12 @@ def check_macro_parameters(parameters: FloatArray) -> None:
     _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("LARG", "LONG", "RAYO"):
         _refuse(columns[name] < 0, columns[name], name, "> 0")
+    for name in ("COHE", "QULT"):
+        _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    strong = columns["COHE"] == 0.0
+    for name, idle in (("QULT", 0.0), ("FROT", -1.0)):
+        if (strong & (columns[name] > idle)).any():
+            raise MaterialError("kernel.interface.macro-needs-cohe", name=name)
 
 
 def check_lead_parameters(parameters: FloatArray) -> None:
