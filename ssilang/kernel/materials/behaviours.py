@@ -31,6 +31,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 JOINT_WORDS = (
     "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
     "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
+    "APPUI_PLOMB", "APPUI_PENDULE",
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.interface.laws.point_laws` says what they mean."""
 

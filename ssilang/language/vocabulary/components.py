@@ -253,6 +253,11 @@ _VARIABLES = (
        "Glissement suivant la première tangente à ces points"),
     _c("GLP2", "variable", "m", "Slip along the second tangent at these places",
        "Glissement suivant la deuxième tangente à ces points"),
+    *(
+        _c(f"HYS{i}", "variable", "", f"Share of its force that a lead core has along t{i}",
+           f"Part de son effort qu'un noyau de plomb a suivant t{i}")
+        for i in (1, 2)
+    ),
     _c("STAT", "variable", "", "State of a Mohr-Coulomb joint: 0 untouched, 1 open, 2 in contact",
        "État d'un joint de Mohr-Coulomb : 0 vierge, 1 ouvert, 2 en contact"),
     _c("EPOU", "variable", "m", "Opening of an open point of a Mohr-Coulomb joint",

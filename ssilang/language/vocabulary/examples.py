@@ -41,6 +41,9 @@ _FIBRE_VALUES = {
 _FOOTINGS = {
     "MACRO_SEMELLE": "'LARG' 10.", "MACRO_DISQUE": "'RAYO' 10.", "MACRO_RESSORTS": "'LARG' 10.",
 }  # fmt: skip
+_BEARINGS = {
+    "APPUI_PLOMB": "'QD' 2.E5 'KPOS' 1.E6", "APPUI_PENDULE": "'RAYO' 2. 'FROT' 0.06",
+}  # fmt: skip
 _UPRIGHT = "OPTI DIME 3 MODE TRID ELEM SEG2 ;\nL = DROI 1 (0 0 0) (0 0 0.1) ;\n"
 
 _OWN = ("elasticity", "plastic", "joint")
@@ -89,6 +92,11 @@ EXAMPLES: dict[str, str] = {
         law: _UPRIGHT + f"M = MODE L 'MECANIQUE' 'ELASTIQUE' '{law}' 'JOI1' ;\n"
         f"A = MATE M 'KN' 1.E10 'KS' 1.E10 {rest} ;\nLIST (TYPE A) ;"
         for law, rest in _FOOTINGS.items()
+    },
+    **{
+        law: _UPRIGHT + f"M = MODE L 'MECANIQUE' 'ELASTIQUE' '{law}' 'JOI1' ;\n"
+        f"A = MATE M 'KN' 1.E9 'KS' 1.E7 {rest} ;\nLIST (TYPE A) ;"
+        for law, rest in _BEARINGS.items()
     },
     # elements
     "element body": _SQUARE + _BODY,

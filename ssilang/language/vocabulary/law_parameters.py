@@ -1,4 +1,4 @@
-"""Parameters that one law alone has: steel and concrete in cycles.
+"""Parameters that one law alone has: steel and concrete in cycles, bearings.
 
 Part of `parameters`, whose head says what stands here.
 """
@@ -41,13 +41,13 @@ _STEEL = (
        "Longueur libre de la barre entre cadres sur son diamètre ; au-dessus de 5 elle flambe",
        range=Range(0.0, 11.0, open_high=True), default=0.0),
     _p("A6FA", "", "Buckling: coefficient A6 of the stiffness that comes back (about 620)",
-       "Flambage : coefficient A6 de la raideur retrouvée (environ 620)",
-       range=NOT_NEGATIVE, default=0.0),
+       "Flambage : coefficient A6 de la raideur retrouvée (environ 620)", range=NOT_NEGATIVE,
+       default=0.0),
     _p("CFAC", "", "Buckling: coefficient C (about 0.5)",
        "Flambage : coefficient C (environ 0,5)", range=NOT_NEGATIVE, default=0.0),
     _p("AFAC", "", "Buckling: coefficient A of the slope that falls (about 0.006)",
-       "Flambage : coefficient A de la pente descendante (environ 0,006)",
-       range=NOT_NEGATIVE, default=0.0),
+       "Flambage : coefficient A de la pente descendante (environ 0,006)", range=NOT_NEGATIVE,
+       default=0.0),
 )  # fmt: skip
 
 _CONCRETE = (
@@ -81,4 +81,24 @@ _CONCRETE = (
     ),
 )  # fmt: skip
 
-WORDS = (*_STEEL, *_CONCRETE)
+_BEARINGS = (
+    _p("QD", "N", "Force that the lead core holds at no displacement",
+       "Effort que le noyau de plomb garde à déplacement nul", range=POSITIVE,
+       usual=between(1.0, 1e9)),
+    _p("KPOS", "N/m", "Shear stiffness once the lead core yields: that of the rubber",
+       "Raideur horizontale quand le plomb plastifie : celle du caoutchouc", range=NOT_NEGATIVE),
+    _p("ETA", "", "Exponent of Bouc and Wen: 1 rounds the yielding, more makes it sharp",
+       "Exposant de Bouc et Wen : 1 arrondit la plastification, plus la rend vive",
+       ("APPUI_PLOMB",), range=Range(1.0), default=1.0),
+    _p("BETA", "", "Bouc and Wen's beta, gamma being 1 - beta; 0.5: unloading is elastic",
+       "Bêta de Bouc et Wen, gamma étant 1 - bêta ; 0,5 : la décharge est élastique",
+       ("APPUI_PLOMB",), range=between(0.0, 0.5), default=0.5),
+    _p("RAYO", "m", "Radius of the bowl of a pendulum", "Rayon de la cuvette d'un pendule",
+       ("APPUI_PENDULE",), range=POSITIVE, usual=between(0.1, 100.0)),
+    # the law itself refuses a slider without FROT, or below 0
+    _p("FROT", "", "Coulomb's coefficient of friction of the slider",
+       "Coefficient de frottement de Coulomb du patin", ("APPUI_PENDULE",),
+       usual=between(0.0, 0.5)),
+)  # fmt: skip
+
+WORDS = (*_STEEL, *_CONCRETE, *_BEARINGS)

@@ -187,6 +187,17 @@ WORDS = (
         "décollement",
     ),
     _law(
+        "joint", "APPUI_PLOMB",
+        "A bearing of rubber with a lead core between two points: hysteresis of Bouc and Wen",
+        "Un appui de caoutchouc à noyau de plomb entre deux points : hystérésis de Bouc et Wen",
+    ),
+    _law(
+        "joint", "APPUI_PENDULE",
+        "A friction pendulum between two points: a slider that its bowl lifts, and that may part",
+        "Un pendule à frottement entre deux points : un patin que sa cuvette soulève et qui peut "
+        "décoller",
+    ),
+    _law(
         "joint", "CISAILLEMENT_ELASTIQUE",
         "Behind JOINT_SDM: shear stays elastic when the joint is open",
         "Derrière JOINT_SDM : le cisaillement reste élastique à l'ouverture",

@@ -27,7 +27,8 @@ from ssilang.language.vocabulary.terms import (
 
 _MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
 _YIELDING = ("MACRO_SEMELLE", "MACRO_DISQUE")
-_ONE_POINT = ("JOI1", *_MACRO)
+_BEARINGS = ("APPUI_PLOMB", "APPUI_PENDULE")
+_ONE_POINT = ("JOI1", *_MACRO, *_BEARINGS)
 _SHELLS = ("plate", "meridian", "mindlin", "thick")
 _STIFF = between(1e6, 1e12)  # moduli of soft clay to hard metal
 _AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}

@@ -158,7 +158,8 @@ MODE = shared(
         "JOINT_SDM, CISAILLEMENT_ELASTIQUE keeps shear elastic when the joint is open, "
         "FROTTEMENT_SYMETRIQUE makes the tangent of Coulomb's friction (FROT) symmetric: the "
         "same solution in more iterations. Other laws of joints are JOINT_DILATANT, COULOMB, "
-        "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
+        "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (footings), APPUI_PLOMB, "
+        "APPUI_PENDULE (bearings of isolated structures).",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
@@ -200,7 +201,8 @@ MODE = shared(
         "JOINT_SDM, CISAILLEMENT_ELASTIQUE garde le cisaillement élastique à l'ouverture, "
         "FROTTEMENT_SYMETRIQUE rend symétrique la tangente du frottement (FROT) : même solution "
         "en plus d'itérations. Autres lois des joints : JOINT_DILATANT, COULOMB et, en un "
-        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
+        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (fondations), APPUI_PLOMB, "
+        "APPUI_PENDULE (appuis de structures isolées).",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
         "('PLASTIQUE' (LOI1) | 'FLUAGE' 'NORTON') (ELEM1 ...) "
         "('INTEGRE' N1) ('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "

@@ -83,7 +83,8 @@ def sample_of_law(law: Word) -> Zone | None:
     """A zone that has a law; None for words that bring no parameters of their own."""
     name, plane, space = law.name, Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL
     if law.kind == "joint" and name in JOINT_LAWS:
-        element = "JOI1" if JOINT_LAWS[name].macro else "JOI2"
+        own = JOINT_LAWS[name].macro or JOINT_LAWS[name].two_points
+        element = "JOI1" if own else "JOI2"
         return sample(element, plane, ("ELASTIQUE", name))
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
         element = "POJS" if name in UNIAXIAL_LAWS else "QUA4"
@@ -268,8 +269,9 @@ def laws_of(element: str) -> tuple[str, ...]:
     family = ELEMENTS[element].family
     laws = [name for name, families in ELASTICITIES.items() if family in families]
     if family == "joint":
-        macro = [n for n, law in JOINT_LAWS.items() if law.macro and element != "JOI1"]
-        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and n not in macro]
+        points = [n for n, law in JOINT_LAWS.items() if law.macro or law.two_points]
+        faces = element != "JOI1"
+        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and not (faces and n in points)]
     laws += [f"PLASTIQUE {n}" for n in _plastic(family)]
     laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in CREEP_FAMILIES]
     return tuple(laws)
