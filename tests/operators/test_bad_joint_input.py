@@ -153,6 +153,12 @@ def test_a_law_that_is_described_nowhere_is_refused_with_that_reason(outcome, la
     assert "BETA (unloading) and CPLG" in result.message
 
 
+def test_a_law_that_differs_from_what_was_published_is_refused_with_that_reason(outcome):
+    result = outcome(SIDES + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'ISS_GRANGE' ;")
+    assert result.exit_code == 1
+    assert "no public text says how" in result.message
+
+
 def test_contradictory_supports_are_named_in_time_too(outcome):
     result = outcome(
         "OPTI DIME 2 ; P = 0. 0. ; B1 = BLOQ 'UX' P ; B2 = BLOQ 'UX' P ; T = TABL ;"
