@@ -29,6 +29,12 @@ MESSAGES: dict[str, Message] = {
         "{law} needs {rule}; given {given}",
         "{law} veut {rule} ; il est donné {given}",
     ),
+    "clay-cohesion": Message(
+        "CAM_CLAY has no cohesion here: COHE = {value:g} must be 0",
+        "CAM_CLAY n'a pas de cohésion ici : COHE = {value:g} doit être 0",
+        "no public text says how COHE moves the ellipse; leave COHE out",
+        "aucun texte public ne dit comment COHE déplace l'ellipse ; omettre COHE",
+    ),
     "soft-crack-closing": Message(
         "BETON_UNI closes its cracks at once: FAMX must be < 0, not {value:g}",
         "BETON_UNI referme ses fissures d'un coup : FAMX doit être < 0, et non {value:g}",
