@@ -62,6 +62,8 @@ class Results:
         Whether the text is that of a file that has changed since.
     recorded : bool
         Whether the run took down what a report shows.
+    verdicts : list of lists of dict
+        Pictures of each verdict; its figures stand in the summary's statistics.
     series, tables, pictures : lists of Path
         What the deck itself wrote.
     unread : list of str
@@ -78,6 +80,7 @@ class Results:
     drawings: list[dict[str, Any]] = field(default_factory=list)
     shapes: list[Shapes] = field(default_factory=list)
     left_out: dict[str, int] = field(default_factory=dict)
+    verdicts: list[list[dict[str, Any]]] = field(default_factory=list)
     series: list[Path] = field(default_factory=list)
     tables: dict[str, dict[str, FloatArray]] = field(default_factory=dict)
     pictures: list[Path] = field(default_factory=list)
@@ -118,6 +121,7 @@ def read_results(folder: Path) -> Results:
             for s in contents.get("shapes", ())
         ],
         contents.get("left_out", {}),
+        contents.get("verdicts", []),
         series, tables, pictures, unread,
     )  # fmt: skip
 

@@ -1,7 +1,7 @@
 """Joints as a family of elements: layout, jump operator, moduli, mass (RIGI, EPSI, SIGM, MASS).
 
 The strain is the jump in local axes, the stress the traction. JOI1 has relative rotations too,
-with springs QS (2D) or QN, QS1, QS2 (3D), unless its law is JOINT_SDM.
+with springs QS (2D) or QN, QS1, QS2 (3D), unless its law is JOINT_SDM or a bearing's.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ def displacement_names(zone: Zone) -> tuple[str, ...]:
 
 def has_rotations(zone: Zone) -> bool:
     """True for a joint of two points with rotational springs."""
-    return zone.element == "JOI1" and "JOINT_SDM" not in zone.behaviour
+    if zone.element != "JOI1" or "JOINT_SDM" in zone.behaviour:
+        return False
+    return not law_of(zone.behaviour).two_points
 
 
 def rotational_stiffness(zone: Zone, given: CellField) -> ElementMatrices | None:

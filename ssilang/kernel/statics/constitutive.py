@@ -262,6 +262,8 @@ def _joint(
         raise MaterialError("kernel.statics.ground-is-not-at-a-point")
     if law.linear or law.macro:
         return _elastic(zone, material, stress, variables, step)
+    if law.two_points:  # jumps do not follow from forces where the slider has moved
+        raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
     d, m = points.dimension, len(points.table)
     state = joint_state(points, variables)

@@ -213,8 +213,25 @@ _VARIABLES = (
        "Déformation plastique (ou de fluage) équivalente cumulée"),
     _c("EPSE", "variable", "m", "Cumulated plastic jump of a joint",
        "Saut plastique cumulé d'un joint", ("joint",)),
-    _c("EPSO", "variable", "", "Strain of a fibre of concrete",
-       "Déformation d'une fibre de béton"),
+    _c("EPSE", "variable", "", "Strain that concrete keeps without stress",
+       "Déformation que le béton garde sans contrainte", ("BETON_UNI",)),
+    _c("EPSO", "variable", "", "Strain of a fibre of concrete or steel",
+       "Déformation d'une fibre de béton ou d'acier"),
+    _c("EPSM", "variable", "", "Least strain so far of a fibre of concrete (BETON_UNI)",
+       "Plus petite déformation atteinte d'une fibre de béton (BETON_UNI)"),
+    _c("OUVE", "variable", "", "Largest opening so far of a fibre of concrete (BETON_UNI)",
+       "Plus grande ouverture atteinte d'une fibre de béton (BETON_UNI)"),
+    _c("EPSR", "variable", "", "Strain at the last reversal of steel (ACIER_UNI)",
+       "Déformation à la dernière inversion de l'acier (ACIER_UNI)"),
+    _c("SIGR", "variable", "Pa", "Stress at the last reversal of steel (ACIER_UNI)",
+       "Contrainte à la dernière inversion de l'acier (ACIER_UNI)"),
+    _c("EPSP", "variable", "", "Strain at the reversal before the last one (ACIER_UNI)",
+       "Déformation à l'avant-dernière inversion de l'acier (ACIER_UNI)"),
+    _c("SENS", "variable", "", "Branch of steel (ACIER_UNI): 0 elastic, +-1 first loading, +-2 in "
+       "cycles", "Branche de l'acier (ACIER_UNI) : 0 élastique, +-1 premier chargement, +-2 en "
+       "cycles"),
+    _c("FLAM", "variable", "", "1 once a bar of steel has buckled (ACIER_UNI)",
+       "1 dès qu'une barre d'acier a flambé (ACIER_UNI)"),
     *(
         _c(f"AL{a}", "variable", "Pa", f"Centre of the elastic domain, component {a}",
            f"Centre du domaine élastique, composante {a}")
@@ -236,6 +253,11 @@ _VARIABLES = (
        "Glissement suivant la première tangente à ces points"),
     _c("GLP2", "variable", "m", "Slip along the second tangent at these places",
        "Glissement suivant la deuxième tangente à ces points"),
+    *(
+        _c(f"HYS{i}", "variable", "", f"Share of its force that a lead core has along t{i}",
+           f"Part de son effort qu'un noyau de plomb a suivant t{i}")
+        for i in (1, 2)
+    ),
     _c("STAT", "variable", "", "State of a Mohr-Coulomb joint: 0 untouched, 1 open, 2 in contact",
        "État d'un joint de Mohr-Coulomb : 0 vierge, 1 ouvert, 2 en contact"),
     _c("EPOU", "variable", "m", "Opening of an open point of a Mohr-Coulomb joint",

@@ -8,6 +8,7 @@ are the laws' own.
 
 from __future__ import annotations
 
+from ssilang.language.vocabulary import law_parameters
 from ssilang.language.vocabulary.terms import (
     ANY_NUMBER,
     NOT_NEGATIVE,
@@ -17,25 +18,17 @@ from ssilang.language.vocabulary.terms import (
     Range,
     between,
 )
-
-
-def _p(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
-    default: float | None = None,
-) -> Quantity:
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
+from ssilang.language.vocabulary.terms import (
+    parameter as _p,
+)
+from ssilang.language.vocabulary.terms import (
+    unused_parameter as _unused,
+)
 
 _MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
 _YIELDING = ("MACRO_SEMELLE", "MACRO_DISQUE")
-_ONE_POINT = ("JOI1", *_MACRO)
+_BEARINGS = ("APPUI_PLOMB", "APPUI_PENDULE")
+_ONE_POINT = ("JOI1", *_MACRO, *_BEARINGS)
 _SHELLS = ("plate", "meridian", "mindlin", "thick")
 _STIFF = between(1e6, 1e12)  # moduli of soft clay to hard metal
 _AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}
@@ -43,12 +36,6 @@ _POISSON = (
     "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
     "Coefficient de Poisson, environ 0.3 pour les sols et l'acier, 0.2 pour le béton",
 )
-
-
-def _unused(name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 _ELASTIC = (
@@ -281,6 +268,14 @@ _PLASTIC = (
        ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
     _p("MU", "deg", "Dilatancy angle of the joint", "Angle de dilatance du joint",
        ("JOINT_DILATANT",), range=Range(0.0, 90.0, open_high=True)),
+    _p("GGAM", None, "Curve of G/Gmax over the shear strain gamma (no percentage), from G/Gmax = 1",
+       "Courbe de G/Gmax en fonction de la distorsion gamma (sans pourcent), depuis G/Gmax = 1"),
+    _p("GAMR", "", "Shear strain at which G is half of Gmax: G/Gmax = 1 / (1 + gamma / GAMR), in "
+       "the place of GGAM", "Distorsion à laquelle G vaut la moitié de Gmax : G/Gmax = 1 / (1 + "
+       "gamma / GAMR), au lieu de GGAM", range=POSITIVE, usual=between(1e-6, 1e-2)),
+    _p("PREF", "Pa", "Mean pressure (compression positive) at which the curve of G/Gmax holds",
+       "Pression moyenne (positive en compression) à laquelle vaut la courbe de G/Gmax",
+       range=POSITIVE, usual=between(1e2, 1e8)),
     _p("AF1", None, "Factor of the creep strain; its unit depends on AF2 and AF3",
        "Facteur de la déformation de fluage ; son unité dépend d'AF2 et AF3",
        range=NOT_NEGATIVE),
@@ -400,4 +395,13 @@ _SECTIONS = (
        "Facteur de la pression dans la contrainte équivalente"),
 )  # fmt: skip
 
-WORDS = (*_ELASTIC, *_ORTHOTROPIC, *_JOINTS, *_PLASTIC, *_CONTACT, *_POINTS, *_SECTIONS)
+WORDS = (
+    *_ELASTIC,
+    *_ORTHOTROPIC,
+    *_JOINTS,
+    *_PLASTIC,
+    *_CONTACT,
+    *_POINTS,
+    *_SECTIONS,
+    *law_parameters.WORDS,
+)

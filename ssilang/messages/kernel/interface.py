@@ -49,6 +49,12 @@ MESSAGES: dict[str, Message] = {
         "KN > {least:g} with this FU and GF, or FU < {largest:g} with this KN and GF",
         "KN > {least:g} avec ces FU et GF, ou FU < {largest:g} avec ces KN et GF",
     ),
+    "law-two-points": Message(
+        "{name} stands between two points, not on the faces of {element}",
+        "{name} se place entre deux points, pas sur les faces de {element}",
+        "JOI1 on a cell SEG2 from the lower point to the upper one",
+        "JOI1 sur une maille SEG2, du point bas au point haut",
+    ),
     "macro-ressorts-exists-two": Message(
         "MACRO_RESSORTS exists in two dimensions only",
         "MACRO_RESSORTS n'existe qu'en dimension 2",

@@ -69,6 +69,25 @@ MESSAGES: dict[str, Message] = {
         "the hardening is given twice, by TRAC and by ECRO",
         "l'écrouissage est donné deux fois, par TRAC et par ECRO",
     ),
+    "reduction-given-twice": Message(
+        "the fall of the shear modulus is given twice, by GAMR and by GGAM",
+        "la réduction du module de cisaillement est donnée deux fois, par GAMR et par GGAM",
+        "GGAM is a curve of G/Gmax, GAMR stands for 1 / (1 + gamma / GAMR)",
+        "GGAM est une courbe de G/Gmax, GAMR veut dire 1 / (1 + gamma / GAMR)",
+    ),
+    "gamr-is-a-number": Message(
+        "GAMR is a number or a field of numbers: the shear strain at which G is half of Gmax",
+        "GAMR est un nombre ou un champ de nombres : la distorsion à laquelle G vaut la moitié de "
+        "Gmax",
+        "a curve of G/Gmax is given by GGAM",
+        "une courbe de G/Gmax se donne par GGAM",
+    ),
+    "strains-in-percent": Message(
+        "G is half of Gmax at a shear strain of {half:g}: no soil is known to stand that",
+        "G vaut la moitié de Gmax à une distorsion de {half:g} : aucun sol connu ne va si loin",
+        "shear strains are plain numbers: 0.05 % is 5.E-4",
+        "les distorsions sont des nombres sans pourcent : 0.05 % s'écrit 5.E-4",
+    ),
     "trac-needs-one-youn": Message(
         "TRAC needs YOUN as one number",
         "TRAC demande pour YOUN un seul nombre",

@@ -14,6 +14,12 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
+from ssilang.kernel.interface.laws.bearing_law import (
+    lead_energy,
+    lead_point,
+    pendulum_energy,
+    pendulum_point,
+)
 from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_point
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
@@ -55,6 +61,10 @@ def point_response(
         mohr_point(w, state, p, t, new, D)
     elif code == LawCode.ELASTIC:
         elastic_point(w, state, p, t, new, D)
+    elif code == LawCode.LEAD:
+        lead_point(w, state, p, t, new, D)
+    elif code == LawCode.PENDULUM:
+        pendulum_point(w, state, p, t, new, D)
     elif code == LawCode.BED:
         bed_point(w, state, p, t, new, D)
     else:
@@ -90,6 +100,10 @@ def point_energies(
     stored = 0.0
     if code == LawCode.MOHR:
         return mohr_energy(w, t, state, p), state[Var.SHEAR_LOSS]
+    if code == LawCode.LEAD:
+        return lead_energy(w, state, p), state[Var.SHEAR_LOSS]
+    if code == LawCode.PENDULUM:
+        return pendulum_energy(w, state, p), state[Var.SHEAR_LOSS]
     if code == LawCode.BED:
         return bed_energy(w, t, p), state[Var.SHEAR_LOSS]
     if code == LawCode.ELASTIC:
