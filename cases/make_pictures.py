@@ -49,6 +49,13 @@ PICTURES = {
     "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
+    "seismic/reactor": {
+        1: "reactor_open",
+        2: "reactor_moment",
+        4: "reactor_spectrum",
+        8: "reactor_pressure",
+        9: "reactor_deformed",
+    },
     "seismic/tower_quake": {
         1: "quake_surface",
         2: "quake_lift",

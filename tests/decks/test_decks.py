@@ -53,6 +53,7 @@ SPOILT = [
     ("starters/frame.ssi", "(-1. * G0)", "(-1.001 * G0)"),
     ("starters/tower.ssi", "'RHO' 2000.", "'RHO' 2001."),
     ("starters/raft.ssi", "FG = FORC (0. 0. (-1. * WEI0))", "FG = FORC (0. 0. (-1.01 * WEI0))"),
+    ("seismic/reactor.ssi", "'KS' KN0 'FROT' MU0", "'KS' KN0 'FROT' (1.1 * MU0)"),
     ("seismic/tower_quake.ssi", ". 'YOUNG' = YOUS", ". 'YOUNG' = 1.02 * YOUS"),
 ]
 
@@ -61,6 +62,10 @@ SHORTER = {
     "club_cast3m_2014/club_a_methods.ssi": ("DUREE = 0.4 ;", "DUREE = 0.16 ;"),
     "club_cast3m_2014/club_b_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
     "club_cast3m_2014/club_c_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
+    "seismic/reactor.ssi": (
+        "COMPARE = VRAI ; IMAGES = VRAI ; DUREE = 5.",
+        "COMPARE = FAUX ; IMAGES = FAUX ; DUREE = 0.5",
+    ),
     "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.5 ;"),
 }
 
