@@ -48,6 +48,7 @@ PICTURES = {
     "published/friction_slider": {1: "friction_slider"},
     "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
+    "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/reactor": {
         1: "reactor_open",
