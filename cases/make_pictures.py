@@ -28,6 +28,10 @@ PICTURES = {
     "footing/embedded_disc": {2: "disc_impedance"},
     "footing/onset_of_uplift": {1: "onset_of_uplift"},
     "footing/macro_element": {2: "macro_rocking"},
+    "footing/macro_plastic": {1: "macro_plastic", 2: "macro_settlement"},
+    "footing/macro_against_soil": {1: "macro_against_soil"},
+    "footing/bridge_pier": {1: "bridge_pier"},
+    "footing/wind_turbine": {1: "wind_turbine"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
     "footing/raft_3d": {1: "raft_3d"},
@@ -53,6 +57,7 @@ PICTURES = {
         8: "reactor_pressure",
         9: "reactor_deformed",
     },
+    "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/tower_quake": {
         1: "quake_surface",
         2: "quake_lift",

@@ -113,7 +113,7 @@ class Bulk:
             vectors = zone.forces(found.stress)
             force += np.bincount(places.ravel(), vectors.ravel(), self.size)
             values.append(zone.stiffness(found.tangent))
-            elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
+            elastic = found.elastic_strain(zone.parameters, old.stress)
             plastic = old.plastic + whole - elastic
             after.append(PointState(found.stress, plastic, free, found.variables, time))
             density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
@@ -136,11 +136,7 @@ class Bulk:
 
     def stored(self, state: State) -> float:
         """Elastic energy."""
-        total = 0.0
-        for zone, old in zip(self.zones, state, strict=True):
-            strain = np.einsum("mij,mj->mi", zone.parameters.compliance, old.stress)
-            total += 0.5 * float(np.einsum("mi,mi->m", strain, old.stress) @ zone.weights.ravel())
-        return total
+        return sum(z.stored(s) for z, s in zip(self.zones, state, strict=True))
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars)."""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
+    cam_clay,
     creep,
     drucker_prager,
+    hognestad,
+    iwan,
+    menegotto_pinto,
     rounded_coulomb,
     uniaxial,
     von_mises,
@@ -43,8 +48,16 @@ class PlasticLaw:
         A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
+    defaults : mapping of str to float
+        Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
+    locked : callable or None
+        Energy density (m,) that stress (m, 6) and variables store beyond the elastic energy of
+        the stress.
+    shaped : callable or None
+        The law as its parameters shape it: how many variables there are, what of them is the same
+        at all steps. See `law_at`.
     """
 
     respond: Respond
@@ -56,7 +69,26 @@ class PlasticLaw:
     symmetric: bool = True
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
+    defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
+    locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
+    shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
+
+
+def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
+    parts = iwan.parts_of(parameters)
+    return replace(
+        law,
+        variables=iwan.variables(parts),
+        respond=partial(iwan.respond, parts),
+        locked=partial(iwan.locked, parts),
+    )
+
+
+def _of_its_shape(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    return law_at(PLASTIC_LAWS["IWAN"], parameters).respond(parameters, stress, strain, variables)
 
 
 _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
@@ -64,7 +96,9 @@ _CONE = ("ALFA", "BETA", "K", "ETA", "MU", "KL", "H", "GAMM", "DELT")
 
 PLASTIC_LAWS: dict[str, PlasticLaw] = {
     "PARFAIT": PlasticLaw(von_mises.perfect, ("SIGY",), positive=("SIGY",)),
-    "ISOTROPE": PlasticLaw(von_mises.isotropic, ("ECRO",), curves=("ECRO",)),
+    "ISOTROPE": PlasticLaw(
+        von_mises.isotropic, ("ECRO",), curves=("ECRO",), check=von_mises.check_strengths
+    ),
     "CINEMATIQUE": PlasticLaw(
         von_mises.kinematic, ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
     ),
@@ -81,11 +115,52 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         drucker_prager.hardening, _CONE, check=drucker_prager.check_hardening, symmetric=False
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
+    "IWAN": PlasticLaw(
+        _of_its_shape, (iwan.CURVE,), curves=(iwan.CURVE,), check=iwan.check, shaped=_iwan
+    ),
+    "IWAN_PRESSION": PlasticLaw(
+        _of_its_shape,
+        (iwan.CURVE, iwan.PRESSURE),
+        positive=(iwan.PRESSURE,),
+        curves=(iwan.CURVE,),
+        check=iwan.check,
+        symmetric=False,
+        shaped=_iwan,
+    ),
+    "CAM_CLAY": PlasticLaw(
+        cam_clay.respond,
+        cam_clay.REQUIRED,
+        cam_clay.VARIABLES,
+        positive=("M", "P0", "KAPA", "LAMD", "G1"),
+        check=cam_clay.check,
+        symmetric=False,
+        defaults={"COHE": 0.0},
+        locked=cam_clay.locked,
+    ),
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
     ),
     "BETON_BAEL": PlasticLaw(
         uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
+    "ACIER_UNI": PlasticLaw(
+        menegotto_pinto.respond,
+        menegotto_pinto.REQUIRED,
+        menegotto_pinto.VARIABLES,
+        positive=("STSY",),
+        check=menegotto_pinto.check,
+        uniaxial=True,
+        defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
+    ),
+    "BETON_UNI": PlasticLaw(
+        hognestad.respond,
+        hognestad.REQUIRED,
+        hognestad.VARIABLES,
+        positive=("STFC", "EZER"),
+        check=hognestad.check,
+        uniaxial=True,
+        optional=hognestad.UNUSED,
+        defaults=hognestad.DEFAULTS,
     ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
@@ -120,6 +195,11 @@ def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
     return PLASTIC_LAWS[after[0]]
 
 
+def law_at(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
+    """A law as these parameters shape it."""
+    return law if law.shaped is None else law.shaped(law, parameters)
+
+
 def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
     """Refuse inadmissible parameters.
 
@@ -133,9 +213,5 @@ def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
             raise MaterialError(
                 "kernel.materials.must", name=name, parameters_min=parameters[name].min()
             )
-    for name in law.curves:
-        for curve in parameters.curves[name][0]:
-            if (curve.parts[0].ordinates <= 0).any():
-                raise MaterialError("kernel.materials.curve-strengths-not", name=name)
     if law.check is not None:
         law.check(parameters)
