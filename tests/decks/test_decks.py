@@ -41,6 +41,8 @@ SPOILT = [
     ("footing/macro_plastic.ssi", "'LARG' B0 'COHE' C0 ;", "'LARG' B0 'COHE' (1.02 * C0) ;"),
     ("footing/macro_against_soil.ssi", "'LARG' B0 'COHE' C0", "'LARG' B0 'COHE' (0.9 * C0)"),
     ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
+    ("footing/wind_turbine.ssi", "'KN' K0 'KS' K0", "'KN' (1.03 * K0) 'KS' K0"),
+    ("footing/bridge_pier.ssi", "MAJ = MATE MOJ 'KN' K0", "MAJ = MATE MOJ 'KN' (1.02 * K0)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("published/unilateral_plate.ssi", "KTOT = 1.E4", "KTOT = 1.001E4"),
     ("published/friction_slider.ssi", "'FROT' MU0", "'FROT' (1.02 * MU0)"),
