@@ -28,6 +28,8 @@ PICTURES = {
     "footing/embedded_disc": {2: "disc_impedance"},
     "footing/onset_of_uplift": {1: "onset_of_uplift"},
     "footing/macro_element": {2: "macro_rocking"},
+    "footing/macro_plastic": {1: "macro_plastic", 2: "macro_settlement"},
+    "footing/macro_against_soil": {1: "macro_against_soil"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
     "footing/raft_3d": {1: "raft_3d"},
@@ -48,6 +50,13 @@ PICTURES = {
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
+    "seismic/reactor": {
+        1: "reactor_open",
+        2: "reactor_moment",
+        4: "reactor_spectrum",
+        8: "reactor_pressure",
+        9: "reactor_deformed",
+    },
     "seismic/tower_quake": {
         1: "quake_surface",
         2: "quake_lift",

@@ -93,6 +93,9 @@ IMPEDANCE_LAWS = ("VOIGT", "REUSS", "COMPLEXE")
 UNDESCRIBED_LAWS = ("JOINT_SOFT", "JOINT_COAT")
 """Joint laws whose parameters BETA and CPLG no public text defines: refused with that reason."""
 
+CHANGED_LAWS = ("ISS_GRANGE",)
+"""Laws of footings whose notice says that they differ from the published model, and not how."""
+
 
 def full_word(word: str, known: tuple[str, ...]) -> str | None:
     """The known word that `word` writes in full, or at least by its first four letters."""

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.contact.solver import step_solver
-from ssilang.kernel.interface.interface import Interface
+from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
@@ -36,6 +36,8 @@ UNHELD = 1e-5
 """Imbalance over the forces, beyond which a step with joints is no equilibrium."""
 FLOWN = 1e12
 """Traction that jumps would mean in closed joints, over the forces, beyond which nothing holds."""
+HALVINGS = 6
+"""Of a step with macro-elements that is too long."""
 DRIVEN = 1e-9
 """Work of the loads on a free motion, over both norms, beyond which they drive it."""
 
@@ -100,7 +102,7 @@ def _at_load_step(
 ) -> StepOutcome:
     """Equilibrium at time k; what fails says where."""
     try:
-        outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+        outcome = _cut_step(problem, solver, motion, factors[k - 1 : k + 1], _cuts(problem))
     except ConvergenceError as failure:
         raise ConvergenceError(
             "kernel.statics.at-load-step", step=k, time=problem.times[k], failure=failure
@@ -108,6 +110,31 @@ def _at_load_step(
     if outcome.turns <= 0:
         raise _lost(problem, motion, k, outcome)
     return outcome
+
+
+def _cuts(problem: Problem) -> int:
+    """How often a step may be halved: whole footings lift off and yield within one."""
+    joints = problem.interface
+    return 0 if joints is None or not any(is_macro(j) for j in joints.joints) else HALVINGS
+
+
+def _cut_step(
+    problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray, cuts: int
+) -> StepOutcome:
+    """Equilibrium for the second of two rows of load factors, on the way in halves if need be."""
+    before = [x.copy() for x in motion] if cuts else []
+    outcome = _step(problem, solver, motion, factors)
+    if outcome.turns > 0 or not cuts:
+        return outcome
+    for array, old in zip(motion, before, strict=True):
+        array[...] = old
+    turns, du, middle = 0, np.zeros_like(motion.u), factors.mean(axis=0)
+    for half in (np.stack([factors[0], middle]), np.stack([middle, factors[1]])):
+        outcome = _cut_step(problem, solver, motion, half, cuts - 1)
+        if outcome.turns <= 0:
+            return outcome
+        turns, du = turns + outcome.turns, du + outcome.du
+    return StepOutcome(du, turns, outcome.residual)
 
 
 def _initial_motion(problem: Problem) -> Motion:

@@ -13,6 +13,7 @@ from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
+    CHANGED_LAWS,
     CREEP_WORDS,
     ELASTICITIES,
     FORMULATIONS,
@@ -452,6 +453,8 @@ def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
+    if said in CHANGED_LAWS:
+        raise call.error("operators.models.footing-law-not-built", said, said=said)
     if said in UNPUBLISHED:
         names = UNPUBLISHED[said]
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)
