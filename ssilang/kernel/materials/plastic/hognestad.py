@@ -1,17 +1,21 @@
 """Fibres of concrete: Hognestad's parabola with softening, confinement, and cracks.
 
-The law of fibres of Guedes, Pegon and Pinto (1994, JRC I.94.31), compression counted positive here:
+Hognestad (1951); confinement of Model Code 1990 and Eurocode 8 as fibres of CASTEM 2000 have it
+(Guedes, Pegon and Pinto 1994, JRC I.94.31), with the parameters of Cast3M's BETON_UNI. Compression
+counts positive here:
 
-- confinement (Model Code 1990, Eurocode 8) by a = ALF1 and w = OME1: the strength is
-  `f = beta STFC` at the strain `c = beta^2 EZER`, beta = min(1 + 2.5 a w, 1.125 + 1.25 a w);
+- confinement by a = ALF1 and w = OME1: the strength is `f = beta STFC` at the strain
+  `c = beta^2 EZER`, beta = min(1 + 2.5 a w, 1.125 + 1.25 a w);
 - first compression: `f x (2 - x)`, x = e / c, then `f (1 - Z (e - c))`, at least ST85. Z is ZETA;
-  where ZETA = 0, the line meets 0.85 STFC at 0.0035 + 0.1 a w;
-- unloading from the largest compression (e, s) along the slope
-  `E0 (1 + x) / (1 + x + x^2)`, E0 = 2 f / c being the first slope of the parabola, until no stress
-  is left, and back the same way;
+  where ZETA = 0, the line meets 0.85 STFC at 0.0035 + 0.1 a w.
+
+Notice and codes leave open, and it is so here:
+
+- unloading from the largest compression (e, s) along the slope `E0 (1 + x) / (1 + x + x^2)`,
+  E0 = 2 f / c being the first slope of the parabola, until no stress is left, and back the same;
 - tension from there: slope E0 up to STFT, then down to nothing at TRAF times the strain of STFT;
   a crack that is not full closes along the line to where it began, and all of the compression
-  comes back there (the stiff closing, FAMX < 0; no public text has the equations of the other).
+  comes back there: the stiff closing, FAMX < 0. The gradual one is not built.
 
 YOUN makes the elastic stiffness only (RIGI, shear): the curves have slopes of their own.
 """
@@ -63,7 +67,7 @@ def respond(
 
 
 def check(p: PointParameters) -> None:
-    """Refuse concrete whose curves do not exist, or whose equations no public text has.
+    """Refuse concrete whose curves do not exist, or whose cracks close gradually.
 
     Raises
     ------

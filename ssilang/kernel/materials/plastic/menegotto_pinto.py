@@ -70,8 +70,8 @@ def check(p: PointParameters) -> None:
         "0 <= A1FA < ROFA": (p["A1FA"] >= 0) & (p["A1FA"] < p["ROFA"]),
         "A2FA > 0": p["A2FA"] > 0,
         "0 <= FALD < 11": (p["FALD"] >= 0) & (p["FALD"] < 11),
-        "CFAC > 0, FALD > 5": ~slender | (p["CFAC"] > 0),
-        "AFAC >= 0, FALD > 5": ~slender | (p["AFAC"] >= 0),
-        "A6FA >= 0, FALD > 5": ~slender | (p["A6FA"] >= 0),
+        "CFAC > 0 (FALD > 5)": ~slender | (p["CFAC"] > 0),
+        "AFAC >= 0 (FALD > 5)": ~slender | (p["AFAC"] >= 0),
+        "A6FA >= 0 (FALD > 5)": ~slender | (p["A6FA"] >= 0),
     }
     require("ACIER_UNI", p, rules)
