@@ -65,7 +65,7 @@ OTHER_BEHAVIOURS = (
     "TUYAU_FISSURE", "LINESPRING", "BILIN_MOMY", "BILIN_EFFZ", "TAKEDA_MOMY", "TAKEMO_EFFZ",
     "BA1D", "ACIER_ANCRAGE", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
     "CISAIL_NL", "INFILL_UNI", "PARFAIT_ANCRAGE", "RICBET_UNI", "OUGLOVA", "LIAISON_ACBE",
-    "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "CAM_CLAY", "HUJEUX", "UBIQUITOUS",
+    "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "HUJEUX", "UBIQUITOUS",
     "MOHR_COULOMB", "MRS_LADE", "DP_SOL", "IWPR3D_SOL", "VMT_FEFP", "RHMC_FEFP",
     "POWDER_FEFP", "POWDERCAP_FEFP",
     # damage
@@ -92,6 +92,9 @@ IMPEDANCE_LAWS = ("VOIGT", "REUSS", "COMPLEXE")
 
 UNDESCRIBED_LAWS = ("JOINT_SOFT", "JOINT_COAT")
 """Joint laws whose parameters BETA and CPLG no public text defines: refused with that reason."""
+
+CHANGED_LAWS = ("ISS_GRANGE",)
+"""Laws of footings whose notice says that they differ from the published model, and not how."""
 
 
 def full_word(word: str, known: tuple[str, ...]) -> str | None:

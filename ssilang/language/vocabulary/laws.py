@@ -117,6 +117,13 @@ WORDS = (
         "pour un sable",
     ),
     _law(
+        "plastic", "CAM_CLAY",
+        "Modified Cam-Clay: an ellipse that grows with the plastic compression; elasticity that "
+        "stiffens with the pressure, G1 constant",
+        "Cam-Clay modifié : une ellipse qui croît avec la compression plastique ; élasticité qui "
+        "se raidit avec la pression, G1 constant",
+    ),
+    _law(
         "plastic", "PARFAIT_UNI",
         "Yielding along a fibre of a section, such as a steel bar in concrete: SIGY and H",
         "Plasticité le long d'une fibre de section, comme une armature : SIGY et H",
@@ -172,13 +179,17 @@ WORDS = (
     ),
     _law(
         "joint", "MACRO_SEMELLE",
-        "A whole rectangular footing in one joint of two points: rocking with uplift",
-        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement",
+        "A whole rectangular footing in one joint of two points: rocking with uplift; with COHE "
+        "its ground yields",
+        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_DISQUE",
-        "A whole circular footing in one joint of two points: rocking with uplift",
-        "Une fondation circulaire entière en un joint de deux points : balancement, décollement",
+        "A whole circular footing in one joint of two points: rocking with uplift; with COHE its "
+        "ground yields",
+        "Une fondation circulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_RESSORTS",

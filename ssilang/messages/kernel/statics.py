@@ -198,6 +198,14 @@ MESSAGES: dict[str, Message] = {
         "look for what was divided by zero, or grew without bound",
         "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
     ),
+    "ground-is-not-at-a-point": Message(
+        "the ground below a macro-element with COHE yields at many places, which PASAPAS and "
+        "DYNAMIC follow; the law alone has no answer",
+        "le sol sous un macro-élément avec COHE plastifie en beaucoup de points, que PASAPAS et "
+        "DYNAMIC suivent ; la loi seule n'a pas de réponse",
+        "give the model to PASAPAS or DYNAMIC",
+        "donnez le modèle à PASAPAS ou à DYNAMIC",
+    ),
     "footing-overloaded": Message(
         "load step {step}, time {time:g}: no equilibrium: the loads press with {pressing:.4g} N on "
         "the footing at node {node}, whose ground bears {capacity:.4g} N",

@@ -13,6 +13,7 @@ from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
+    CHANGED_LAWS,
     CREEP_WORDS,
     ELASTICITIES,
     FORMULATIONS,
@@ -124,6 +125,7 @@ MODE = shared(
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
         "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
         "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), "
+        "CAM_CLAY, "
         "IWAN or IWAN_PRESSION (cyclic soil), or "
         "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
         "their thickness. Beams TIMO "
@@ -165,6 +167,7 @@ MODE = shared(
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
         "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
+        "CAM_CLAY, "
         "IWAN ou IWAN_PRESSION (sol cyclique), "
         "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
         "l'épaisseur. Les poutres "
@@ -450,6 +453,8 @@ def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
+    if said in CHANGED_LAWS:
+        raise call.error("operators.models.footing-law-not-built", said, said=said)
     if said in UNPUBLISHED:
         names = UNPUBLISHED[said]
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)

@@ -1,15 +1,22 @@
 """Macro-elements whose ground yields: capacities of the whole footing, its tangent, its energy."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from references.assembled import Bench
+from references.recorder import Recorder
 
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.footing import footings_of
 from ssilang.kernel.interface.interface import (
+    interface_field,
+    interface_of,
+    joint_zones,
+    point_history,
     state_field,
     state_from_field,
 )
@@ -23,6 +30,7 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
 
 B, L, R, C = 4.0, 6.0, 2.0, 5e4
 STRIP = {"KN": 8e7, "KS": 4e7, "LARG": B}
@@ -267,3 +275,145 @@ def test_what_the_ground_does_not_know_is_refused():
         made("strip", QULT=1e5)
     with pytest.raises(MaterialError, match="COHE"):
         made("strip", FROT=0.5)
+
+
+def rocking_by_springs(mass, inertia, turning, times):
+    """Rotation and lift in time of a strip thrown over, on many springs that press and yield.
+
+    Central differences on each degree of freedom, a spring at a time: no code of the package.
+    """
+    n, weight, dt = 600, 0.3 * FACTORS["strip"] * C * B, 1e-4
+    s, area = ((np.arange(n) + 0.5) / n - 0.5) * B, B / n
+    k, q = 8e7 / B, FACTORS["strip"] * C
+    settled = np.zeros(n)
+    x, speed = np.array([-weight / 8e7, 0.0]), np.array([0.0, turning])
+    lasting, found = round(times[-1] / dt), []
+    every = round((times[1] - times[0]) / dt)
+    for step in range(lasting + 1):
+        press = np.maximum(k * (settled - x[0] - s * x[1]), 0.0)
+        settled = settled - np.maximum(press - q, 0.0) / k
+        press = np.minimum(press, q)
+        force = np.array([press.sum() * area - weight, (press * s).sum() * area])
+        if step % every == 0:
+            found.append([x[1], x[0], settled @ np.full(n, -area) / B])
+        speed = speed + (0.5 if step == 0 else 1.0) * dt * force / np.array([mass, inertia])
+        x = x + dt * speed
+    return np.array(found)
+
+
+def test_a_strip_thrown_over_rocks_and_settles_as_on_many_springs():
+    weight, inertia, turning = 0.3 * FACTORS["strip"] * C * B, 5e5, 0.25
+    bench = Bench(PLANE)
+    soil, base = bench.node(0.0, -1.0), bench.node(0.0, 0.0)
+    bench.fix(soil, "UX", "UY", "RZ")
+    bench.fix(base, "UX")
+    bench.joint("SEG2", [[soil, base]], "JOI1", "MACRO_SEMELLE", **STRIP, COHE=C)
+    bench.mass(weight / 9.81, base, ("UY",))
+    bench.mass(inertia, base, ("RZ",))
+    times = np.linspace(0.0, 1.2, 2401)
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, times, bench.mass_matrix,
+            load=bench.load(bench.field((base, "FY", -weight))),
+            displacement=bench.field((base, "UY", -weight / 8e7)),
+            velocity=bench.field((base, "RZ", turning)),
+            model=bench.model, characteristics=bench.characteristics,
+        )
+    )  # fmt: skip
+    recorder = Recorder(len(times))
+    history = integrate(problem, [recorder])
+    exact = rocking_by_springs(weight / 9.81, inertia, turning, times)
+    u, n = recorder.of("u"), problem.numbering
+    theta, lift = u[:, n.index_of(base, "RZ")], u[:, n.index_of(base, "UY")]
+    largest = np.abs(exact[:, 0]).max()
+    assert largest > 0.02
+    np.testing.assert_allclose(theta, exact[:, 0], atol=0.01 * largest)
+    np.testing.assert_allclose(lift, exact[:, 1], atol=0.01 * np.abs(exact[:, 1]).max())
+    bed = problem.interface.beds[0]
+    settled = -recorder.of("state")[-1, bed.points, 0] @ bed.areas / B
+    assert settled == pytest.approx(exact[-1, 2], rel=0.02)
+    assert settled > 1e-3
+    balance = history.energies[:, :5].sum(axis=1) - history.energies[:, 5]
+    assert np.abs(balance - balance[0]).max() < 1e-3 * history.energies[:, 3].max() + 5.0
+
+
+def three_rows(x, w, t, state):
+    """A history of three alike instants, as observers get it."""
+    return SimpleNamespace(w=np.stack([w] * 3), t=np.stack([t] * 3), state=np.stack([state] * 3))
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_fields_histories_and_footings_tell_what_the_whole_carries(name):
+    footing = made(name, COHE=C)
+    footing.move(motion_of(footing, 1e-2, -0.02, 4e-3))
+    motion = motion_of(footing, 0.0, -0.01, -8e-3)
+    _, (w, t, new) = footing.whole(motion)
+    of_all = footing.force(t)
+    vertical, turning = (2, 4) if footing.space else (1, 2)
+    moment = "MOMZ"  # about t2, Y in space
+    x = footing.joints
+    (block,) = interface_field(x, t, "traction").blocks
+    assert block.components["EFFX"][0, 0] == pytest.approx(of_all[vertical], rel=1e-12)
+    assert block.components[moment][0, 0] == pytest.approx(of_all[turning], rel=1e-12)
+    rows = three_rows(x, w, t, new)
+    for kind, component in (("traction", "EFFX"), ("variables", "PART"), ("variables", "TASS"),
+                            ("variables", "EPER"), ("variables", "ETAT")):  # fmt: skip
+        history = point_history(x, rows, kind, component, (0, 0, 0))
+        made_by = (
+            interface_field(x, t, "traction") if kind == "traction" else state_field(x, new, w, t)
+        )
+        assert history == pytest.approx([made_by.blocks[0].components[component][0, 0]] * 3)
+    (whole,) = footings_of(x, footing.problem.numbering)
+    loads = whole.loads(w[None], t[None], np.zeros((1, 0)))
+    assert loads.force[0] == pytest.approx(-of_all[vertical], rel=1e-12)
+    assert loads.share[0] == block_of(x, new, w, t).components["PART"][0, 0]
+    assert 0.0 < loads.pressure[0] <= FACTORS[name] * C * (1 + 1e-12)
+
+
+def block_of(x, state, w, t):
+    (block,) = state_field(x, state, w, t).blocks
+    return block
+
+
+def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer():
+    """Surface joints and a macro-element in one interface: each as if it stood alone."""
+    bench = Bench(PLANE)
+    soil, base = bench.node(0.0, -1.0), bench.node(0.0, 0.0)
+    upper, lower = ([bench.node(x, 5.0) for x in (6.0, 8.0)] for _ in range(2))
+    bench.joint("SEG2", [[soil, base]], "JOI1", "MACRO_SEMELLE", **STRIP, COHE=C)
+    bench.joint("RAC2", [[*upper, *lower]], "JOI2", KN=2e7, KS=1e7)
+    for node in (soil, base, *upper, *lower):
+        for unknown in ("UX", "UY", "RZ"):
+            bench.spring(1.0, node, unknown=unknown)
+    x = interface_of(
+        joint_zones(bench.model), bench.characteristics,
+        make_problem(
+            Inputs(bench.stiffness, np.array([0.0, 1.0]), model=bench.model,
+                   characteristics=bench.characteristics)
+        ).numbering,
+    )  # fmt: skip
+    rng = np.random.default_rng(3)
+    alone = made("strip", COHE=C)
+    motion = np.array([0.01, -0.02, 6e-3])
+    n = x.J.shape[1]
+    u = rng.normal(size=n) * 1e-3
+    numbering = make_problem(
+        Inputs(bench.stiffness, np.array([0.0, 1.0]), model=bench.model,
+               characteristics=bench.characteristics)
+    ).numbering  # fmt: skip
+    places = [numbering.index_of(base, name) for name in ("UX", "UY", "RZ")]
+    u[places] = motion
+    u[[numbering.index_of(soil, name) for name in ("UX", "UY", "RZ")]] = 0.0
+    w, t = np.zeros((x.n_points, 2)), np.zeros((x.n_points, 2))
+    new, D = np.zeros((x.n_points, N_STATE)), np.zeros((x.n_points, 2, 2))
+    local_jumps(x.points, x.J @ u, w)
+    respond(x.codes, w, x.initial_state(), x.points.p, t, new, D)
+    f = np.zeros(x.size)
+    interface_forces(x.points, t, f)
+    forces = x.J.T @ f
+    _, t_alone, _, _ = alone.tried(motion)
+    np.testing.assert_allclose(forces[places], alone.force(t_alone), rtol=1e-12)
+    plain = np.minimum(w[:2, 1], 0.0) * 2e7
+    np.testing.assert_allclose(t[:2, 1], plain, rtol=1e-12, atol=1e-9)
+    again = state_from_field(x, state_field(x, new, w, t))
+    np.testing.assert_array_equal(again[3:, :3], new[3:, :3])
