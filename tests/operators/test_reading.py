@@ -295,13 +295,20 @@ def test_a_table_with_titles_in_metres(
     (curve,) = values(result, "E")
     assert [p.ordinates[1] for p in curve.parts] == pytest.approx(numbers)
     assert [p.ordinate_name for p in curve.parts] == names
+    units = {"ACCE": "m/s2", "VITE": "m/s", "DEPL": "m"}
+    assert [p.units for p in curve.parts] == [("s", units[n]) for n in names]
     assert curve.parts[0].abscissas[1] == pytest.approx(0.1)
 
 
 def test_a_table_without_units_is_told_and_taken_as_it_is(tmp_path: Path) -> None:
     result = run("E = LIRE 'SIGNAL' 'a.csv' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
     assert values(result, "E")[0].parts[0].ordinates[1] == 5.0
+    assert values(result, "E")[0].parts[0].units == ("", "")
     assert [w.code for w in result.session.warnings] == ["operators.files.record-without-unit"]
+    result = run("OPTI 'UNIT' 'N-MM' ; E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path,
+                 a_csv="t (s);a (g)\n0;1\n1;2\n")  # fmt: skip
+    assert values(result, "E")[0].parts[0].units == ("", "")  # they are not those of the deck
+    assert [w.code for w in result.session.warnings] == ["operators.files.record-in-other-units"]
     result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
     assert "the record names no unit" in result.message
     result = run("E = LIRE 'SIGNAL' 'a.csv' 2. 'SI' ;", tmp_path, a_csv="t (s);a (g)\n0;1\n1;2\n")

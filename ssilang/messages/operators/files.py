@@ -64,6 +64,14 @@ MESSAGES: dict[str, Message] = {
         "give the factor: LIRE '{kind}' '{file}' 9.81 if it is in g, 0.01 in cm/s2, 1. in m/s2",
         "donner le facteur : LIRE '{kind}' '{file}' 9.81 s'il est en g, 0.01 en cm/s2, 1. en m/s2",
     ),
+    "record-in-other-units": Message(
+        "the record is read in {unit}, the deck is in {system} (OPTI 'UNIT'): {needed}",
+        "l'enregistrement est lu en {unit}, le jeu de données est en {system} (OPTI 'UNIT') : "
+        "{needed}",
+        "multiply it by {factor:g}",
+        "le multiplier par {factor:g}",
+        severity="warning",
+    ),
     "no-such-channel": Message(
         "the file has {count} {count:record|records}",
         "le fichier a {count} {count:signal|signaux}",

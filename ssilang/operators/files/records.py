@@ -12,6 +12,7 @@ from ssilang.language.registry import Entry, arg, flag, key, lead, opt, said
 from ssilang.language.run.call import Call
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
+from ssilang.operators.workspace import workspace
 
 _ENTRIES: tuple[Entry, ...] = (
     lead("file", "MOT", en="file", fr="fichier"),
@@ -144,17 +145,22 @@ def _curve(
             )  # fmt: skip
         elif nameless:
             call.warn("operators.files.record-without-unit", file=file, kind=kind)
-    parts = tuple(
-        CurvePart(
-            r.times, _factor(r, factor, in_si) * r.values, "TEMP", r.quantity,
-            r.event[:40],
-        )
-        for r in records
-    )  # fmt: skip
+    parts = tuple(_part(call, r, factor, in_si) for r in records)
     return Curve(parts, records[0].event[:72])
 
 
-def _factor(record: GroundMotion, given: float | None, in_si: bool) -> float:
-    if in_si:
-        return record.in_si
-    return 1.0 if given is None else given
+def _part(call: Call, record: GroundMotion, factor: float | None, in_si: bool) -> CurvePart:
+    """A record's curve; it says its units where they are those of the deck."""
+    by = record.in_si if in_si else 1.0 if factor is None else factor
+    part = CurvePart(record.times, by * record.values, "TEMP", record.quantity, record.event[:40])
+    unit = {"ACCE": "m/s2", "VITE": "m/s", "DEPL": "m"}[record.quantity]
+    system = workspace(call.session).units
+    if not (in_si or (factor is None and record.has_unit and record.in_si == 1.0)):
+        return part
+    if system is None or system.factor(unit) == 1.0:
+        return part.measured("s", unit)
+    call.warn(
+        "operators.files.record-in-other-units", system=system.name, unit=unit,
+        needed=system.written(unit), factor=1.0 / system.factor(unit),
+    )  # fmt: skip
+    return part
