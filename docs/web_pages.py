@@ -24,7 +24,7 @@ from types import ModuleType
 _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parent
 _KEPT = (
-    "*.md", "docs/*.md", "docs/*.ipynb", "docs/fr/*.md",
+    "*.md", "docs/*.md", "docs/*.ipynb", "docs/fr/*.md", "docs/pictures/*.png",
     "cases/*.md", "cases/*/*.md", "cases/*/pictures/*.png", "benchmarks/*.md",
     "benchmarks/pictures/*.png", "editors/vscode/README.md",
 )  # fmt: skip

@@ -36,6 +36,14 @@ def test_every_deck_has_its_page_with_its_picture_and_its_text(web):
     assert "(footing/pictures/strip_uplift.png)" in gallery
 
 
+def test_pictures_of_the_guides_are_shown_and_small():
+    pages = "".join(p.read_text(encoding="utf-8") for p in _DOCS.rglob("*.md"))
+    pictures = list((_DOCS / "pictures").glob("*.png"))
+    assert pictures
+    assert {p.name for p in pictures if f"pictures/{p.name})" not in pages} == set()
+    assert {p.name for p in pictures if p.stat().st_size > 60_000} == set()
+
+
 def test_a_page_belongs_to_the_navigation(web, tmp_path):
     for page in (*_DOCS.glob("*.md"), *_DOCS.glob("fr/*.md")):
         if page.name != "README.md" or page.parent.name == "fr":
