@@ -4,9 +4,9 @@
     python docs/screenshots.py FOLDER [SITE]
 
 The editor is the one inside VS Code (Monaco). What it shows (problems, hover, completion, colours)
-are the answers of `ssilang lsp`, a process that is asked by the protocol; the notebook is run anew and
-laid out by nbconvert as JupyterLab does; SITE is what `docs/web_pages.py` has made (site/). Debian's
-chromium draws all of them, without a network.
+are the answers of `ssilang lsp`, a process that is asked by the protocol; the notebook is run anew
+and laid out by nbconvert as JupyterLab does; SITE is what `docs/web_pages.py` has made (site/).
+Debian's chromium draws all of them, without a network.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ _PAGE = """<!doctype html><meta charset="utf-8">
 <style>html, body, #editor {{ margin: 0; width: 100%; height: 100%; overflow: hidden }}</style>
 <div id="editor"></div><script src="{vs}/loader.js"></script><script>
 const told = {told};
-const kinds = {{2: 'Method', 3: 'Function', 6: 'Variable', 10: 'Property', 12: 'Value', 14: 'Keyword',
-  17: 'File', 20: 'EnumMember'}};
+const kinds = {{2: 'Method', 3: 'Function', 6: 'Variable', 10: 'Property', 12: 'Value',
+  14: 'Keyword', 17: 'File', 20: 'EnumMember'}};
 const area = r => ({{startLineNumber: r.start.line + 1, startColumn: r.start.character + 1,
   endLineNumber: r.end.line + 1, endColumn: r.end.character + 1}});
 require.config({{paths: {{vs: '{vs}'}}}});
