@@ -64,6 +64,7 @@ def test_the_site_is_made_and_no_link_leads_nowhere(web, tmp_path, capfd):
     assert "n**2 pi/(2 L**2) sqrt(E I/(rho A))" in gallery  # signs of formulas are no emphasis
     equations = (tmp_path / "site" / "docs" / "physics.html").read_text(encoding="utf-8")
     assert equations.count("<math") > 40
+    assert equations.count('display="block"') == equations.count('<div style="overflow-x: auto">')
     assert "$" not in equations.partition("<article")[2].partition("</article")[0]
     index = json.loads((tmp_path / "site" / "search" / "search_index.json").read_text())
     places = {d["location"].partition("#")[0] for d in index["docs"]}
