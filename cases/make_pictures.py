@@ -30,6 +30,8 @@ PICTURES = {
     "footing/macro_element": {2: "macro_rocking"},
     "footing/macro_plastic": {1: "macro_plastic", 2: "macro_settlement"},
     "footing/macro_against_soil": {1: "macro_against_soil"},
+    "footing/bridge_pier": {1: "bridge_pier"},
+    "footing/wind_turbine": {1: "wind_turbine"},
     "footing/winkler_beam": {1: "winkler_beam"},
     "footing/flexible_tower": {1: "flexible_tower"},
     "footing/raft_3d": {1: "raft_3d"},
@@ -49,6 +51,7 @@ PICTURES = {
     "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
+    "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/reactor": {
         1: "reactor_open",
