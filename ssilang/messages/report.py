@@ -206,7 +206,6 @@ MESSAGES: dict[str, Message] = {
     "friction": Message("friction coefficient", "coefficient de frottement"),
     "motions": Message("uplift and settlement (m)", "soulèvement et enfoncement (m)"),
     "factors": Message("factors of safety", "coefficients de sécurité"),
-    "use": Message("pressure over capacity", "pression sur capacité"),
     "floor": Message("floor {number}, {component}", "plancher {number}, {component}"),
     "broadened": Message("broadened", "élargi"),
     "floor-head": Message("floor", "plancher"),
@@ -218,4 +217,30 @@ MESSAGES: dict[str, Message] = {
     "verdict-settlement": Message("settlement (m)", "enfoncement (m)"),
     "verdict-overturning": Message("overturning", "renversement"),
     "verdict-sliding": Message("sliding", "glissement"),
+    # a sweep
+    "not-a-sweep": Message(
+        "'{path}' is not the table of a sweep",
+        "'{path}' n'est pas la table d'un balayage",
+        "run the sweep again",
+        "relancez le balayage",
+    ),
+    "sweep-ran": Message("all runs ended well", "tous les calculs ont abouti"),
+    "sweep-failed": Message(
+        "{count} {count:run|runs} failed", "{count} {count:calcul en échec|calculs en échec}"
+    ),
+    "sweep-runs": Message("Runs", "Calculs"),
+    "sweep-figures": Message("Figures over what was swept", "Valeurs selon ce qui varie"),
+    "sweep-histories": Message("Histories of all runs", "Histoires de tous les calculs"),
+    "sweep-joined": Message(
+        "One table each: number of the run, its values, then the columns that the runs wrote.",
+        "Une table chacune : numéro du calcul, ses valeurs, puis les colonnes écrites par les "
+        "calculs.",
+    ),
+    "sweep-seconds": Message("work of all runs", "travail de tous les calculs"),
+    "sweep-error": Message("error", "erreur"),
+    "sweep-rows-left": Message(
+        "The first {count} runs; sweep.csv has all of them.",
+        "Les {count} premiers calculs ; sweep.csv les a tous.",
+    ),
+    "sweep-lines-left": Message("{count} more in sweep.csv", "{count} de plus dans sweep.csv"),
 }

@@ -102,7 +102,7 @@ def read_results(folder: Path) -> Results:
     own = {f["path"] for f in summary.get("files", ())} if summary else {p.name for p in found}
     unread: list[str] = []
     series = [p for p in found if p.suffix in SERIES and p.name in own]
-    tables = _tables([p for p in found if p.name in own], unread)
+    tables = tables_of([p for p in found if p.name in own], unread)
     if not summary and not series and not tables and not (folder / FOLDER).is_dir():
         raise InputError("report.no-run", folder=folder)
     contents = _contents(folder, own, bool(summary), unread)
@@ -229,7 +229,7 @@ def _calculation(folder: Path, told: dict[str, Any], unread: list[str]) -> Calcu
     )
 
 
-def _tables(paths: list[Path], unread: list[str]) -> dict[str, dict[str, FloatArray]]:
+def tables_of(paths: list[Path], unread: list[str]) -> dict[str, dict[str, FloatArray]]:
     """Tables of histories, CSV and Parquet; those that are no numbers are left alone."""
     found = {}
     for path in paths:

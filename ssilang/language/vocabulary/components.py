@@ -217,6 +217,8 @@ _VARIABLES = (
        "Déformation que le béton garde sans contrainte", ("BETON_UNI",)),
     _c("EPSO", "variable", "", "Strain of a fibre of concrete or steel",
        "Déformation d'une fibre de béton ou d'acier"),
+    _c("VPLA", "variable", "", "Plastic loss of volume of a clay (CAM_CLAY)",
+       "Perte plastique de volume d'une argile (CAM_CLAY)"),
     _c("EPSM", "variable", "", "Least strain so far of a fibre of concrete (BETON_UNI)",
        "Plus petite déformation atteinte d'une fibre de béton (BETON_UNI)"),
     _c("OUVE", "variable", "", "Largest opening so far of a fibre of concrete (BETON_UNI)",

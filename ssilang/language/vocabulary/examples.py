@@ -28,6 +28,7 @@ _PLASTIC_VALUES = {
     "DRUCKER_PARFAIT": "5.E7 'NU' 0.3 'LTR' 1.E4 'LCS' 3.E4",
     "DRUCKER_PRAGER": "5.E7 'NU' 0.3 'ALFA' 0.2 'BETA' 1. 'K' 1.E4\n"
     "    'ETA' 0.2 'MU' 1. 'KL' 2.E4 'H' 1.E6 'GAMM' 0.1 'DELT' 1.",
+    "CAM_CLAY": "2.E7 'NU' 0.3 'E0' 1. 'M' 1. 'P0' 1.E5 'KAPA' 0.05 'LAMD' 0.2 'G1' 8.E6",
     "RH_COULOMB": "5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52",
 }
 _FIBRE_VALUES = {

@@ -1,4 +1,4 @@
-"""Parameters that one law alone has: steel and concrete in cycles, bearings.
+"""Parameters that one law alone has: steel and concrete in cycles, bearings, clay.
 
 Part of `parameters`, whose head says what stands here.
 """
@@ -101,4 +101,25 @@ _BEARINGS = (
        usual=between(0.0, 0.5)),
 )  # fmt: skip
 
-WORDS = (*_STEEL, *_CONCRETE, *_BEARINGS)
+_CLAY = (
+    _p("E0", "", "Void ratio of the start", "Indice des vides initial", range=NOT_NEGATIVE,
+       usual=between(0.1, 10.0)),
+    _p("M", "", "Slope of the critical state: von Mises' stress over pressure",
+       "Pente de l'état critique : contrainte de von Mises sur pression", ("CAM_CLAY",),
+       range=POSITIVE, usual=between(0.1, 3.0)),
+    _p("P0", "Pa", "Preconsolidation pressure of the start, positive",
+       "Pression de préconsolidation initiale, positive", range=POSITIVE,
+       usual=between(1e2, 1e9)),
+    _p("KAPA", "", "Slope of unloading: void ratio over the logarithm of the pressure",
+       "Pente élastique : indice des vides sur logarithme de la pression", range=POSITIVE,
+       usual=between(1e-4, 1.0)),
+    _p("LAMD", "", "Slope of first loading: void ratio over the logarithm of the pressure",
+       "Pente plastique : indice des vides sur logarithme de la pression", range=POSITIVE,
+       usual=between(1e-3, 2.0)),
+    _p("G1", "Pa", "Shear modulus, constant", "Module de cisaillement, constant", range=POSITIVE,
+       usual=between(1e4, 1e11)),
+    _p("COHE", "Pa", "Cohesion of clay: 0, no other is available",
+       "Cohésion de l'argile : 0, aucune autre n'est disponible", ("CAM_CLAY",), default=0.0),
+)  # fmt: skip
+
+WORDS = (*_STEEL, *_CONCRETE, *_BEARINGS, *_CLAY)

@@ -117,6 +117,13 @@ WORDS = (
         "pour un sable",
     ),
     _law(
+        "plastic", "CAM_CLAY",
+        "Modified Cam-Clay: an ellipse that grows with the plastic compression; elasticity that "
+        "stiffens with the pressure, G1 constant",
+        "Cam-Clay modifié : une ellipse qui croît avec la compression plastique ; élasticité qui "
+        "se raidit avec la pression, G1 constant",
+    ),
+    _law(
         "plastic", "PARFAIT_UNI",
         "Yielding along a fibre of a section, such as a steel bar in concrete: SIGY and H",
         "Plasticité le long d'une fibre de section, comme une armature : SIGY et H",

@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import Parameter as Par
@@ -119,7 +119,7 @@ def _returned(
     return found
 
 
-@apart
+@seldom
 @compiled
 def bed_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray

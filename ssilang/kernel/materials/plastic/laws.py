@@ -9,6 +9,7 @@ from functools import partial
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
+    cam_clay,
     creep,
     drucker_prager,
     hognestad,
@@ -125,6 +126,16 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         check=iwan.check,
         symmetric=False,
         shaped=_iwan,
+    ),
+    "CAM_CLAY": PlasticLaw(
+        cam_clay.respond,
+        cam_clay.REQUIRED,
+        cam_clay.VARIABLES,
+        positive=("M", "P0", "KAPA", "LAMD", "G1"),
+        check=cam_clay.check,
+        symmetric=False,
+        defaults={"COHE": 0.0},
+        locked=cam_clay.locked,
     ),
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
