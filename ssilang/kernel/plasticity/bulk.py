@@ -113,7 +113,7 @@ class Bulk:
             vectors = zone.forces(found.stress)
             force += np.bincount(places.ravel(), vectors.ravel(), self.size)
             values.append(zone.stiffness(found.tangent))
-            elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
+            elastic = found.elastic_strain(zone.parameters, old.stress)
             plastic = old.plastic + whole - elastic
             after.append(PointState(found.stress, plastic, free, found.variables, time))
             density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)

@@ -91,9 +91,7 @@ class YieldingBulk(FiniteBulk):
             points = zone.points
             strain = zone.strains(u[places]) - zone.strains(before[places])
             found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
-            elastic = np.einsum(
-                "mij,mj->mi", points.parameters.compliance, found.stress - last.stress
-            )
+            elastic = found.elastic_strain(points.parameters, last.stress)
             after.append(
                 PointState(
                     found.stress, last.plastic + whole - elastic, last.free, found.variables, time

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
+    cam_clay,
     creep,
     drucker_prager,
+    hognestad,
     iwan,
+    menegotto_pinto,
     rounded_coulomb,
     uniaxial,
     von_mises,
@@ -45,6 +48,8 @@ class PlasticLaw:
         A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
+    defaults : mapping of str to float
+        Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
     locked : callable or None
@@ -64,6 +69,7 @@ class PlasticLaw:
     symmetric: bool = True
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
+    defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
@@ -121,11 +127,40 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         symmetric=False,
         shaped=_iwan,
     ),
+    "CAM_CLAY": PlasticLaw(
+        cam_clay.respond,
+        cam_clay.REQUIRED,
+        cam_clay.VARIABLES,
+        positive=("M", "P0", "KAPA", "LAMD", "G1"),
+        check=cam_clay.check,
+        symmetric=False,
+        defaults={"COHE": 0.0},
+        locked=cam_clay.locked,
+    ),
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
     ),
     "BETON_BAEL": PlasticLaw(
         uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
+    "ACIER_UNI": PlasticLaw(
+        menegotto_pinto.respond,
+        menegotto_pinto.REQUIRED,
+        menegotto_pinto.VARIABLES,
+        positive=("STSY",),
+        check=menegotto_pinto.check,
+        uniaxial=True,
+        defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
+    ),
+    "BETON_UNI": PlasticLaw(
+        hognestad.respond,
+        hognestad.REQUIRED,
+        hognestad.VARIABLES,
+        positive=("STFC", "EZER"),
+        check=hognestad.check,
+        uniaxial=True,
+        optional=hognestad.UNUSED,
+        defaults=hognestad.DEFAULTS,
     ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
