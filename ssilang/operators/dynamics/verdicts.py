@@ -107,10 +107,10 @@ def _pictures(given: Table, found: Table, told: Teller) -> list[dict[str, Any]]:
     t = cast(ListReel, histories.get("TEMPS")).values
     time = f"{told('report.time')} (s)"
     made = []
-    for code, names in (
-        ("report.toe-pressure", ("PRESSION",)),
-        ("report.motions", ("OUVERTURE", "ENFONCEMENT")),
-        ("report.factors", ("RENVERSEMENT", "GLISSEMENT")),
+    for code, unit, names in (
+        ("report.toe-pressure", " (Pa)", ("PRESSION",)),
+        ("report.motions", "", ("OUVERTURE", "ENFONCEMENT")),
+        ("report.factors", "", ("RENVERSEMENT", "GLISSEMENT")),
     ):
         lines = [
             _line(told(_NAMES[n]), t, _known(n, cast(ListReel, histories.get(n)).values))
@@ -122,7 +122,7 @@ def _pictures(given: Table, found: Table, told: Teller) -> list[dict[str, Any]]:
             level = np.full(len(t), float(cast(float, given.get("CAPACITE"))))
             lines.append(_line(told("report.capacity"), t, level))
         if lines:
-            made.append(_picture(told(code), time, told(code), lines))
+            made.append(_picture(told(code), time, told(code) + unit, lines))
     for number, floor, plain, wide in _each_floor(given, found):
         title = told("report.floor", number=number, component=floor.get("COMPOSANTE"))
         lines = [_spectrum(p, p.legend) for p in plain.parts]
