@@ -50,6 +50,9 @@ PICTURES = {
     "published/friction_slider": {1: "friction_slider"},
     "published/bar_on_wall": {1: "bar_on_wall"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
+    "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
+    "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},
+    "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/reactor": {
         1: "reactor_open",
         2: "reactor_moment",
@@ -57,7 +60,6 @@ PICTURES = {
         8: "reactor_pressure",
         9: "reactor_deformed",
     },
-    "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/tower_quake": {
         1: "quake_surface",
         2: "quake_lift",

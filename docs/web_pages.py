@@ -157,7 +157,8 @@ def with_mathml(text: str) -> str:
     from latex2mathml.converter import convert
 
     def block(match: re.Match[str]) -> str:
-        return f"<div>{convert(match[1].strip(), display='block')}</div>"
+        # on a phone a long one scrolls by itself, and not the page
+        return f'<div style="overflow-x: auto">{convert(match[1].strip(), display="block")}</div>'
 
     text = re.sub(r"^\$\$\n(.*?)^\$\$$", block, text, flags=re.DOTALL | re.MULTILINE)
     return re.sub(r"\$([^$\n]+)\$", lambda m: convert(m[1]), text)

@@ -118,6 +118,10 @@ MESSAGES: dict[str, Message] = {
         "the three points of the plane lie on a line",
         "les trois points du plan sont alignés",
     ),
+    "upright-along-view": Message(
+        "one looks along what is to go upwards in the picture",
+        "on regarde le long de ce qui doit aller vers le haut de l'image",
+    ),
     "curve-asked-evolution": Message(
         "curve {bad} is asked for, the evolution has {count}",
         "la courbe {bad} est demandée, l'évolution en a {count}",

@@ -206,7 +206,6 @@ MESSAGES: dict[str, Message] = {
     "friction": Message("friction coefficient", "coefficient de frottement"),
     "motions": Message("uplift and settlement (m)", "soulèvement et enfoncement (m)"),
     "factors": Message("factors of safety", "coefficients de sécurité"),
-    "use": Message("pressure over capacity", "pression sur capacité"),
     "floor": Message("floor {number}, {component}", "plancher {number}, {component}"),
     "broadened": Message("broadened", "élargi"),
     "floor-head": Message("floor", "plancher"),

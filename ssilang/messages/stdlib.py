@@ -67,6 +67,10 @@ MESSAGES: dict[str, Message] = {
         "@CIBLE: SOL is A, B, C, D or E, not {1}",
         "@CIBLE : SOL est A, B, C, D ou E, pas {1}",
     ),
+    "cible-type": Message(
+        "@CIBLE: TYPE is 1 or 2, not {1}",
+        "@CIBLE : TYPE est 1 ou 2, pas {1}",
+    ),
     "cible-needs": Message(
         "@CIBLE: the spectrum of {1} needs {2}",
         "@CIBLE : le spectre {1} demande {2}",

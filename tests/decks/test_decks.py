@@ -51,6 +51,8 @@ SPOILT = [
     ("published/nafems_elasticity.ssi", "-10.E6 OUT1", "-10.1E6 OUT1"),
     ("published/nafems_vibration.ssi", "P3 = 10. 0.5", "P3 = 10. 0.52"),
     ("seismic/tower_on_cones.ssi", "'RAYON' = R0", "'RAYON' = 1.02 * R0"),
+    ("seismic/isolated_block.ssi", "'FROT' MU0", "'FROT' (1.01 * MU0)"),
+    ("seismic/record_to_verdict.ssi", "LFO0 = 1.2 *", "LFO0 = 1.21 *"),
     ("seismic/soil_column.ssi", "'GAMR' GR0", "'GAMR' (1.02 * GR0)"),
     ("starters/oscillator.ssi", "'INRY' INE0 'INRZ' INE0", "'INRY' INE0 'INRZ' (1.02 * INE0)"),
     ("starters/frame.ssi", "(-1. * G0)", "(-1.001 * G0)"),
@@ -69,6 +71,7 @@ SHORTER = {
         "COMPARE = VRAI ; IMAGES = VRAI ; DUREE = 5.",
         "COMPARE = FAUX ; IMAGES = FAUX ; DUREE = 0.5",
     ),
+    "seismic/record_to_verdict.ssi": ("1.25E-3 (MAXI LT0)", "1.25E-3 0.5"),
     "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.5 ;"),
 }
 

@@ -31,7 +31,7 @@ def test_the_report_has_them_with_their_limits_marked(verdict_run):
     use = verdict["peaks"]["TAUX"]["value"]
     assert use > 1.0
     assert f'<b class="bad">{use:.5g}</b>' in part
-    assert part.count("data-chart=") == 8
+    assert part.count("data-chart=") == 4
     charts = json.loads(re.search(r'id="data-charts">(.*?)</script>', page, re.DOTALL)[1])
     titles = [c["title"] for c in charts]
     floor = charts[titles.index("plancher 1, UX")]

@@ -46,6 +46,7 @@ def test_spectra_of_codes_at_and_between_their_corners(code, more, values):
     [
         ("EC8", "0.2 1.", "T . 'AG' = 2. ; T . 'SOL' = 'B' ;", "cible-frequency"),
         ("EC8", "1.", "T . 'SOL' = 'B' ;", "cible-needs"),
+        ("EC8", "1.", "T . 'AG' = 2. ; T . 'SOL' = 'B' ; T . 'TYPE' = 3 ;", "cible-type"),
         ("ASCE7", "1.", "T . 'SDS' = 1. ; T . 'SD1' = 2. ; T . 'TL' = 1. ;", "cible-corners"),
         ("ASCE7", "1.", "T . 'SDS' = 1. ; T . 'SD1' = 0.6 ; T . 'TL' = 0. ;", "cible-above-zero"),
     ],

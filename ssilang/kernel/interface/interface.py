@@ -180,8 +180,8 @@ def interface_of(
     beds = beds_of(joints, given_tables)
     J, places, B = _jumps(joints, numbering, beds)
     for bed in beds:  # the closed form above knows what its ground bears
-        at, cell = _at(joints, bed.owner)
-        tables[at][cell, Parameter.QULT] = bed.parameters[Parameter.QULT]
+        place, cell = _at(joints, bed.owner)
+        tables[place][cell, Parameter.QULT] = bed.parameters[Parameter.QULT]
     tables += [np.tile(bed.parameters, (len(bed.areas), 1)) for bed in beds]
     codes += [np.full(len(bed.areas), LawCode.BED, dtype=np.int64) for bed in beds]
     return Interface(

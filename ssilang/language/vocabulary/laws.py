@@ -179,13 +179,17 @@ WORDS = (
     ),
     _law(
         "joint", "MACRO_SEMELLE",
-        "A whole rectangular footing in one joint of two points: rocking with uplift",
-        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement",
+        "A whole rectangular footing in one joint of two points: rocking with uplift; with COHE "
+        "its ground yields",
+        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_DISQUE",
-        "A whole circular footing in one joint of two points: rocking with uplift",
-        "Une fondation circulaire entière en un joint de deux points : balancement, décollement",
+        "A whole circular footing in one joint of two points: rocking with uplift; with COHE its "
+        "ground yields",
+        "Une fondation circulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_RESSORTS",

@@ -32,16 +32,16 @@ MESSAGES: dict[str, Message] = {
     "clay-cohesion": Message(
         "CAM_CLAY has no cohesion here: COHE = {value:g} must be 0",
         "CAM_CLAY n'a pas de cohésion ici : COHE = {value:g} doit être 0",
-        "no public text says how COHE moves the ellipse; leave COHE out",
-        "aucun texte public ne dit comment COHE déplace l'ellipse ; omettre COHE",
+        "how a cohesion moves the ellipse is not written in the notice; leave COHE out",
+        "la notice ne dit pas comment une cohésion déplace l'ellipse ; omettre COHE",
     ),
     "soft-crack-closing": Message(
         "BETON_UNI closes its cracks at once: FAMX must be < 0, not {value:g}",
         "BETON_UNI referme ses fissures d'un coup : FAMX doit être < 0, et non {value:g}",
-        "no public text has the equations of the gradual closing (FAMX FACL FAM1 FAM2 STPT); "
-        "write 'FAMX' -1., or leave it out",
-        "aucun texte public ne donne les équations de la fermeture progressive (FAMX FACL FAM1 "
-        "FAM2 STPT) ; écrire 'FAMX' -1., ou l'omettre",
+        "the gradual closing of cracks (FACL FAM1 FAM2 STPT) is not available; write 'FAMX' -1., "
+        "or leave it out",
+        "la fermeture progressive des fissures (FACL FAM1 FAM2 STPT) n'est pas disponible ; écrire "
+        "'FAMX' -1., ou l'omettre",
     ),
     "slope-and-confinement": Message(
         "BETON_UNI has a slope ZETA and a confinement ALF1 OME1: which of the two says how it "

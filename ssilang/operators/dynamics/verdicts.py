@@ -20,14 +20,11 @@ QUANTITIES = (
     "GLISSEMENT",
 )  # fmt: skip
 _NAMES = {
-    "PART": "report.share",
     "PRESSION": "report.toe-pressure",
     "OUVERTURE": "report.verdict-uplift",
     "ENFONCEMENT": "report.verdict-settlement",
-    "ROTATION": "report.rotation",
     "RENVERSEMENT": "report.verdict-overturning",
     "GLISSEMENT": "report.verdict-sliding",
-    "TAUX": "report.use",
 }
 """How curves are called."""
 LEFT = ("ROTATION", "ENFONCEMENT")
@@ -102,29 +99,30 @@ def _each_floor(given: Table, found: Table) -> list[tuple[int, Table, Curve, Cur
 
 
 def _pictures(given: Table, found: Table, told: Teller) -> list[dict[str, Any]]:
-    """Pictures of a verdict: contact, pressure, uplift, factors, moment, spectra."""
+    """Pictures of a verdict: pressure and capacity, motions, factors, floors.
+
+    Contact, moment and rotation stand in the report beside it, with those of all footings.
+    """
     histories = cast(Table, found.get("HISTOIRES"))
-    values = {name: cast(ListReel, histories.get(name)).values for name in QUANTITIES if
-              histories.has(name)}  # fmt: skip
     t = cast(ListReel, histories.get("TEMPS")).values
     time = f"{told('report.time')} (s)"
     made = []
     for code, names in (
-        ("report.share", ("PART",)), ("report.toe-pressure", ("PRESSION",)),
-        ("report.motions", ("OUVERTURE", "ENFONCEMENT")), ("report.rotation", ("ROTATION",)),
-        ("report.factors", ("RENVERSEMENT", "GLISSEMENT")), ("report.use", ("TAUX",)),
-    ):  # fmt: skip
-        there = [n for n in names if n in values]
-        lines = [_line(told(_NAMES[n]), t, _known(n, values[n])) for n in there]
+        ("report.toe-pressure", ("PRESSION",)),
+        ("report.motions", ("OUVERTURE", "ENFONCEMENT")),
+        ("report.factors", ("RENVERSEMENT", "GLISSEMENT")),
+    ):
+        lines = [
+            _line(told(_NAMES[n]), t, _known(n, cast(ListReel, histories.get(n)).values))
+            for n in names
+            if histories.has(n)
+        ]
+        lines = [line for line in lines if not np.isnan(line["y"]).all()]
         if code == "report.toe-pressure" and given.has("CAPACITE"):
             level = np.full(len(t), float(cast(float, given.get("CAPACITE"))))
             lines.append(_line(told("report.capacity"), t, level))
         if lines:
             made.append(_picture(told(code), time, told(code), lines))
-    turn, moment = f"{told('report.rotation')} (rad)", f"{told('report.moment')} (N.m)"
-    if "MOMENT" in values and np.abs(values["MOMENT"]).max() > 0.0:
-        loops = [_line(told("report.loops"), values["ROTATION"], values["MOMENT"])]
-        made.append({**_picture(told("report.loops"), turn, moment, loops), "loop": True})
     for number, floor, plain, wide in _each_floor(given, found):
         title = told("report.floor", number=number, component=floor.get("COMPOSANTE"))
         lines = [_spectrum(p, p.legend) for p in plain.parts]

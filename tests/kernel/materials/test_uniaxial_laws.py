@@ -120,7 +120,7 @@ def test_slender_bars_lose_strength_and_stiffness() -> None:
         ({"EPSH": 1e-3}, "STSY / YOUN <= EPSH"),
         ({"A1FA": 21.0}, "0 <= A1FA < ROFA"),
         ({"FALD": 12.0}, "0 <= FALD < 11"),
-        ({"FALD": 8.0}, "CFAC > 0, FALD > 5"),
+        ({"FALD": 8.0}, "CFAC > 0 (FALD > 5)"),
     ],
 )
 def test_steel_without_a_curve_is_refused(change: dict[str, float], rule: str) -> None:

@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import Parameter as Par
@@ -97,7 +97,7 @@ def _lead_core(
     return taken
 
 
-@apart
+@seldom
 @compiled
 def lead_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
@@ -126,7 +126,7 @@ def lead_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
     return stored
 
 
-@apart
+@seldom
 @compiled
 def pendulum_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray

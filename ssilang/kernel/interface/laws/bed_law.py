@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import Parameter as Par
@@ -35,14 +35,19 @@ SAME = 1e-15  # of a right angle
 
 
 @compiled
+def _bearing(x: float, q: float) -> float:
+    """Pressure that the ground bears under the drag x c."""
+    bound: float = 1.0 + 0.5 * math.pi + math.acos(x) + math.sqrt(1.0 - x * x)
+    return q * bound / (2.0 + math.pi)
+
+
+@compiled
 def corner_pressure(q: float, c: float, friction: float) -> float:
     """Pressure on the capacity curve where the drag is `friction` times it."""
     low, high = 0.0, q
     for _ in range(TURNS):
         p = 0.5 * (low + high)
-        x = min(friction * p / c, 1.0)
-        bound = q * (1.0 + 0.5 * math.pi + math.acos(x) + math.sqrt(1.0 - x * x)) / (2.0 + math.pi)
-        if p < bound:
+        if p < _bearing(min(friction * p / c, 1.0), q):
             low = p
         else:
             high = p
@@ -99,9 +104,7 @@ def _returned(
 ) -> tuple[float, float, float, float, float, float]:
     """p, T and derivatives by the tries, back within the capacity."""
     kn, ks, c, q = p[Par.BED_KN], p[Par.BED_KS], p[Par.COHE], p[Par.QULT]
-    x = min(T_try / c, 1.0)
-    bound = q * (1.0 + 0.5 * math.pi + math.acos(x) + math.sqrt(1.0 - x * x)) / (2.0 + math.pi)
-    if T_try <= c and p_try <= bound:
+    if T_try <= c and (p_try <= 0.5 * q or p_try <= _bearing(T_try / c, q)):
         found = (p_try, T_try, 1.0, 0.0, 0.0, 1.0)
     elif p_try <= 0.5 * q:
         found = (p_try, c, 1.0, 0.0, 0.0, 0.0)
@@ -116,7 +119,7 @@ def _returned(
     return found
 
 
-@apart
+@seldom
 @compiled
 def bed_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray

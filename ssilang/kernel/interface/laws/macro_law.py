@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import LawCode
@@ -109,7 +109,7 @@ def rectangle_contact(
         out[I22] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
 
 
-@apart
+@seldom
 @compiled
 def macro_point(
     code: int,
@@ -186,7 +186,7 @@ def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: Floa
         t[i] = at[i] + share * t[i] + energy * fade[i]
 
 
-@apart
+@seldom
 @compiled
 def macro_energy(code: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
     """Stored energy of a macro-element, without what its ground takes."""

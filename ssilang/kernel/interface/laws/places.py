@@ -6,7 +6,6 @@ import math
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.copies import clear
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 
@@ -62,25 +61,32 @@ def place(code: int, dimension: int, i: int, p: FloatArray) -> tuple[float, floa
 def pressed_at_places(
     code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray
 ) -> None:
-    """Moments and force t and tangent D of the elastic bed that presses at the places alone."""
+    """Moments and force t and tangent D of the elastic bed that presses at the places alone.
+
+    Both follow from area, first and second moments of the places that press.
+    """
     d = w.shape[0]
-    clear(D)
+    whole, area, m1, m2, m11, m12, m22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    v, by_1, by_2 = (w[1], w[0], 0.0) if d == 2 else (w[2], -w[1], w[0])
+    for i in range(n_places(d)):
+        s1, s2, a = place(code, d, i, p)
+        whole += a
+        if v + by_1 * s1 + by_2 * s2 < 0.0:
+            area += a
+            m1 += a * s1
+            m2 += a * s2
+            m11 += a * s1 * s1
+            m12 += a * s1 * s2
+            m22 += a * s2 * s2
+    k = p[Par.KN] / whole
+    if d == 2:
+        D[0, 0], D[0, 1], D[1, 0], D[1, 1] = k * m11, k * m1, k * m1, k * area
+    else:
+        D[0, 0], D[1, 1], D[2, 2] = k * m22, k * m11, k * area
+        D[0, 1] = D[1, 0] = -k * m12
+        D[0, 2] = D[2, 0] = k * m2
+        D[1, 2] = D[2, 1] = -k * m1
     for i in range(d):
         t[i] = 0.0
-    whole = 0.0
-    for i in range(n_places(d)):
-        s1, s2, area = place(code, d, i, p)
-        whole += area
-        opening = w[1] + w[0] * s1 if d == 2 else w[2] + w[0] * s2 - w[1] * s1
-        if opening >= 0.0:
-            continue
-        b0, b1, b2 = (s1, 1.0, 0.0) if d == 2 else (s2, -s1, 1.0)
-        for row in range(d):
-            b_row = b0 if row == 0 else b1 if row == 1 else b2
-            t[row] += area * opening * b_row
-            for column in range(d):
-                D[row, column] += area * b_row * (b0 if column == 0 else b1 if column == 1 else b2)
-    for i in range(d):
-        t[i] *= p[Par.KN] / whole
         for j in range(d):
-            D[i, j] *= p[Par.KN] / whole
+            t[i] += D[i, j] * w[j]

@@ -1,17 +1,21 @@
 """Fibres of concrete: Hognestad's parabola with softening, confinement, and cracks.
 
-The law of fibres of Guedes, Pegon and Pinto (1994, JRC I.94.31), compression counted positive here:
+Hognestad (1951); confinement of Model Code 1990 and Eurocode 8 as fibres of CASTEM 2000 have it
+(Guedes, Pegon and Pinto 1994, JRC I.94.31), with the parameters of Cast3M's BETON_UNI. Compression
+counts positive here:
 
-- confinement (Model Code 1990, Eurocode 8) by a = ALF1 and w = OME1: the strength is
-  `f = beta STFC` at the strain `c = beta^2 EZER`, beta = min(1 + 2.5 a w, 1.125 + 1.25 a w);
+- confinement by a = ALF1 and w = OME1: the strength is `f = beta STFC` at the strain
+  `c = beta^2 EZER`, beta = min(1 + 2.5 a w, 1.125 + 1.25 a w);
 - first compression: `f x (2 - x)`, x = e / c, then `f (1 - Z (e - c))`, at least ST85. Z is ZETA;
-  where ZETA = 0, the line meets 0.85 STFC at 0.0035 + 0.1 a w;
-- unloading from the largest compression (e, s) along the slope
-  `E0 (1 + x) / (1 + x + x^2)`, E0 = 2 f / c being the first slope of the parabola, until no stress
-  is left, and back the same way;
+  where ZETA = 0, the line meets 0.85 STFC at 0.0035 + 0.1 a w.
+
+Notice and codes leave open, and it is so here:
+
+- unloading from the largest compression (e, s) along the slope `E0 (1 + x) / (1 + x + x^2)`,
+  E0 = 2 f / c being the first slope of the parabola, until no stress is left, and back the same;
 - tension from there: slope E0 up to STFT, then down to nothing at TRAF times the strain of STFT;
   a crack that is not full closes along the line to where it began, and all of the compression
-  comes back there (the stiff closing, FAMX < 0; no public text has the equations of the other).
+  comes back there: the stiff closing, FAMX < 0. The gradual one is not built.
 
 YOUN makes the elastic stiffness only (RIGI, shear): the curves have slopes of their own.
 """
@@ -47,57 +51,23 @@ def confined(p: PointParameters) -> tuple[FloatArray, FloatArray, FloatArray]:
     return strength, peak, np.where(p["ZETA"] > 0, p["ZETA"], slope)
 
 
-def _compression(p: PointParameters, e: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Stress and slope (m,) of the first compression, both signs as users have them."""
-    strength, peak, fall = confined(p)
-    x = np.maximum(-e / peak, 0.0)
-    line = strength * (1 - fall * (-e - peak))
-    size = np.where(x <= 1, strength * x * (2 - x), np.maximum(line, p["ST85"]))
-    rise = np.where(x <= 1, 2 * strength / peak * (1 - x), -strength * fall * (line > p["ST85"]))
-    return -size, rise
-
-
-def _tension(p: PointParameters, E: FloatArray, opening: FloatArray, largest: FloatArray) -> tuple[
-    FloatArray, FloatArray
-]:  # fmt: skip
-    """Stress and slope (m,) of openings >= 0, the largest one before known."""
-    crack = p["STFT"] / E
-    far = np.maximum(opening, largest)
-    length = np.where(crack > 0, (p["TRAF"] - 1) * crack, 1.0)
-    soft = np.clip(p["STFT"] * (1 - (far - crack) / length), 0.0, p["STFT"])
-    top = np.where(far <= crack, E * far, soft)
-    secant = top / np.where(far > 0, far, 1.0)
-    falls = np.where((far > crack) & (soft > 0), -p["STFT"] / length, 0.0)
-    slope = np.where(opening < largest, secant, np.where(far <= crack, E, falls))
-    return secant * opening, np.where(far > 0, slope, E)
-
-
 def respond(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """Concrete (see the head of this module)."""
-    p = parameters
-    strength, peak, _ = confined(p)
-    E = 2 * strength / peak
-    e = variables[:, 1] + strain[:, 0]
-    least = np.minimum(variables[:, 2], e)
-    bottom, fall = _compression(p, least)
-    x = -least / peak
-    back = E * (1 + x) / (1 + x + x * x)
-    left = least - bottom / back
-    opening = np.maximum(e - left, 0.0)
-    pulled, give = _tension(p, E, opening, variables[:, 3])
-    crushing = e <= least
-    found = elastic_shear(p, stress, strain)
-    inside = np.where(e < left, back * (e - left), pulled)
-    found[:, 0] = np.where(crushing & (e < 0), bottom, inside)
-    slope = np.where(crushing & (e < 0), fall, np.where(e < left, back, give))
-    kept = np.column_stack([left, e, least, np.maximum(variables[:, 3], opening)])
-    return Response(found, kept, fibre_tangent(p, slope))
+    from ssilang.kernel.materials.plastic.fibre_cycles import concrete_points
+
+    found, kept = elastic_shear(parameters, stress, strain), variables.copy()
+    along, slope = stress[:, 0].copy(), np.empty(len(stress))
+    rest = (parameters[n] for n in ("ST85", "STFT", "TRAF"))
+    table = np.stack([*confined(parameters), *rest])
+    concrete_points(table, strain[:, 0].copy(), along, kept, slope)
+    found[:, 0] = along
+    return Response(found, kept, fibre_tangent(parameters, slope))
 
 
 def check(p: PointParameters) -> None:
-    """Refuse concrete whose curves do not exist, or whose equations no public text has.
+    """Refuse concrete whose curves do not exist, or whose cracks close gradually.
 
     Raises
     ------

@@ -109,7 +109,8 @@ class Response:
         """Elastic strain (m, 6) of a step from the stress `before`."""
         if self.elastic is not None:
             return self.elastic
-        return np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
+        found: FloatArray = np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
+        return found
 
 
 def mises(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
