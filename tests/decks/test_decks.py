@@ -42,6 +42,7 @@ SPOILT = [
     ("footing/macro_against_soil.ssi", "'LARG' B0 'COHE' C0", "'LARG' B0 'COHE' (0.9 * C0)"),
     ("footing/onset_of_uplift.ssi", "'MZ' (N0 * B0 / 6.)", "'MZ' (1.01 * N0 * B0 / 6.)"),
     ("footing/wind_turbine.ssi", "'KN' K0 'KS' K0", "'KN' (1.03 * K0) 'KS' K0"),
+    ("footing/when_it_matters.ssi", "'KS' KH0 'RAYO'", "'KS' (1.02 * KH0) 'RAYO'"),
     ("footing/bridge_pier.ssi", "MAJ = MATE MOJ 'KN' K0", "MAJ = MATE MOJ 'KN' (1.02 * K0)"),
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("published/unilateral_plate.ssi", "KTOT = 1.E4", "KTOT = 1.001E4"),

@@ -7,6 +7,16 @@ MESSAGES: dict[str, Message] = {
         "the model has no joints: what stands on the ground is not known",
         "le modèle n'a pas de joints : on ne sait pas ce qui repose sur le sol",
     ),
+    "waves-before-the-record": Message(
+        "the ground moves before the given acceleration begins: at {share:.2g} % of the largest "
+        "velocity, which is cut off and strains the soil",
+        "le sol bouge avant le début de l'accélération donnée : à {share:.2g} % de la plus grande "
+        "vitesse, ce qui est coupé et déforme le sol",
+        "begin the record with {rest:.2g} s of zeros: waves cross the layers before they are felt",
+        "commencez l'enregistrement par {rest:.2g} s de zéros : les ondes traversent les couches "
+        "avant d'être ressenties",
+        severity="warning",
+    ),
     "footing-not-kept": Message(
         "the displacements have nothing at {node}, a node of the joints",
         "les déplacements n'ont rien à {node}, un noeud des joints",

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from references.assembled import Bench
 from references.recorder import Recorder
+from scipy.optimize import brentq
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.footing import footings_of
@@ -417,3 +418,23 @@ def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer():
     np.testing.assert_allclose(t[:2, 1], plain, rtol=1e-12, atol=1e-9)
     again = state_from_field(x, state_field(x, new, w, t))
     np.testing.assert_array_equal(again[3:, :3], new[3:, :3])
+
+
+@pytest.mark.parametrize(("axis", "arm"), [(3, L), (4, B)])
+def test_a_rectangle_turned_under_its_weight_about_either_axis_meets_its_effective_area(axis, arm):
+    """M = N a/2 (1 - N/N0) with a the side that turns, whatever the path that led there."""
+    footing = made("rectangle", COHE=C)
+    capacity = FACTORS["rectangle"] * C * AREAS["rectangle"]
+    weight = 0.3 * capacity
+    for turn in np.linspace(0.0, 0.4, 41):
+        motion = np.zeros(6)
+        motion[axis] = turn
+
+        def carried_at(v, motion=motion):
+            return footing.whole(motion + v * np.eye(6)[2])[0][2] + weight
+
+        v = brentq(carried_at, -1.0, 1.0, xtol=1e-13)
+        found = footing.move(motion + v * np.eye(6)[2])
+    assert -found[2] == pytest.approx(weight, rel=1e-6)
+    assert abs(found[axis]) == pytest.approx(weight * arm / 2 * 0.7, rel=1e-2)
+    assert abs(found[7 - axis]) < 1e-6 * abs(found[axis])  # nothing about the other axis

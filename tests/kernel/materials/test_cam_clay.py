@@ -60,7 +60,7 @@ def test_compression_follows_both_lines_of_the_logarithm_of_the_pressure(n):
     assert pressure(found[-1]) == pytest.approx(0.5 * P0, rel=1e-9)
 
 
-@pytest.mark.parametrize("n", [3, 200])
+@pytest.mark.parametrize("n", [3, 50])
 def test_undrained_shear_follows_its_closed_form_to_the_critical_state(n):
     """Constant volume: pc = P0 (P0 / p)^(KAPA / (LAMD - KAPA)), q = M sqrt(p (pc - p))."""
     found = strained([SHEAR * 0.9 / n] * n, stress=isotropic(P0))
@@ -78,10 +78,10 @@ def test_overconsolidated_clay_swells_when_it_is_sheared_under_a_constant_pressu
     stress, variables = np.array([isotropic(2e4)]), np.zeros((1, 2))
     p, volume = points(), 0.0
     tops = []
-    for _ in range(200):
+    for _ in range(80):
         swell = 0.0
         for _ in range(30):
-            step = SHEAR * 2e-3 + swell * np.array([1, 1, 1, 0, 0, 0]) / 3
+            step = SHEAR * 5e-3 + swell * np.array([1, 1, 1, 0, 0, 0]) / 3
             found = CLAY.respond(p, stress, step[None], variables)
             rest = 2e4 - pressure(found)
             if abs(rest) < 1e-7:
@@ -118,7 +118,7 @@ def test_stored_and_lost_energy_is_the_work():
     """The elasticity has an energy: work less what is stored is never given back."""
     rng = np.random.default_rng(7)
     legs = [SHEAR * 0.02, COMPRESSION * 0.05, -SHEAR * 0.03, -COMPRESSION * 0.02]
-    path = [leg / 400 for leg in legs for _ in range(400)]
+    path = [leg / 100 for leg in legs for _ in range(100)]
     p, now, variables = points(), np.array([isotropic(6e4)]), np.zeros((1, 2))
 
     def stored(stress):
@@ -133,7 +133,7 @@ def test_stored_and_lost_energy_is_the_work():
         after = stored(now)
         lost.append(lost[-1] + work - (after - before))
         before = after
-    assert np.diff(lost).min() > -1e-5 * lost[-1]
+    assert np.diff(lost).min() > -1e-4 * lost[-1]  # the mean of both ends, in a hundred steps
     assert lost[-1] > 100.0
     # inside the surface nothing is lost, whatever the cycle
     small = list(1e-4 * rng.normal(size=(50, 6)))
