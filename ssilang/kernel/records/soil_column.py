@@ -65,8 +65,8 @@ class FreeField:
     """Motion and stress at depths; rows are depths, columns times.
 
     `stress` is modulus times derivative along the upward axis (positive in tension). `begun` is by
-    how much the velocities at the depths differ where the times begin, before all are made to start
-    at rest, of the largest one: waves that are in the ground before the given motion begins.
+    how much the velocities at the depths differ where the times begin, of the largest one: waves
+    that are in the ground before the given motion begins.
     """
 
     times: FloatArray
@@ -173,7 +173,10 @@ def free_field(
     rows = slice(0, len(depths))
     motion = u[rows] * surface
     speed = history(motion / (1j * omega))
-    drift = mean * times - speed[:, :1]
+    # what makes the given motion start at rest goes to all depths alike: constants of their own
+    # would draw the depths apart all along
+    start = history((given[1:] / (1j * omega))[None])[0, 0]
+    drift = (mean * times - start)[None]
     stress = history(s[rows] * surface / -(omega**2))
     strain = history(e[rows] * surface / -(omega**2))
     return FreeField(

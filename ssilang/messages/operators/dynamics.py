@@ -9,9 +9,9 @@ MESSAGES: dict[str, Message] = {
     ),
     "waves-before-the-record": Message(
         "the ground moves before the given acceleration begins: at {share:.2g} % of the largest "
-        "velocity, which is cut off and strains the soil",
+        "velocity, which is cut off",
         "le sol bouge avant le début de l'accélération donnée : à {share:.2g} % de la plus grande "
-        "vitesse, ce qui est coupé et déforme le sol",
+        "vitesse, ce qui est coupé",
         "begin the record with {rest:.2g} s of zeros: waves cross the layers before they are felt",
         "commencez l'enregistrement par {rest:.2g} s de zéros : les ondes traversent les couches "
         "avant d'être ressenties",

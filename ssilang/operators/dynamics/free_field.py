@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.records.soil_column import FreeField
 
 _CODE = "operators.dynamics.waves-before-the-record"
-_BEGUN = 0.02
+_BEGUN = 0.05
 """Share of the largest velocity that is in the ground before a motion begins, unheard."""
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
