@@ -18,6 +18,8 @@ from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
 """Response from parameters, stress (m, 6), step of strain (m, 6), variables (m, k)."""
+Columns = Callable[[PointParameters], dict[str, FloatArray]]
+"""Numbers (m,) of a cone at m points."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,9 @@ class PlasticLaw:
         Parameters that are taken and count for nothing here.
     timed : bool
         The duration of a step counts (parameter DT).
+    columns : callable or None
+        Of a cone of revolution: its numbers (m,) by the names of `cone_rows.ConeColumn`, for
+        compiled passes over many points.
     """
 
     respond: Respond
@@ -57,28 +62,45 @@ class PlasticLaw:
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
     timed: bool = False
+    columns: Columns | None = None
 
 
 _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
 _CONE = ("ALFA", "BETA", "K", "ETA", "MU", "KL", "H", "GAMM", "DELT")
 
 PLASTIC_LAWS: dict[str, PlasticLaw] = {
-    "PARFAIT": PlasticLaw(von_mises.perfect, ("SIGY",), positive=("SIGY",)),
-    "ISOTROPE": PlasticLaw(von_mises.isotropic, ("ECRO",), curves=("ECRO",)),
+    "PARFAIT": PlasticLaw(
+        von_mises.perfect, ("SIGY",), positive=("SIGY",), columns=von_mises.perfect_columns
+    ),
+    "ISOTROPE": PlasticLaw(
+        von_mises.isotropic, ("ECRO",), curves=("ECRO",), columns=von_mises.isotropic_columns
+    ),
     "CINEMATIQUE": PlasticLaw(
-        von_mises.kinematic, ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
+        von_mises.kinematic,
+        ("SIGY", "H"),
+        ("EPSE", *_CENTRE),
+        positive=("SIGY",),
+        columns=von_mises.kinematic_columns,
     ),
     "J2": PlasticLaw(
         von_mises.saturating,
         ("SIG0", "SIGI", "KISO", "VELO"),
         positive=("SIG0",),
         check=von_mises.check_saturating,
+        columns=von_mises.saturating_columns,
     ),
     "DRUCKER_PARFAIT": PlasticLaw(
-        drucker_prager.perfect, ("LTR", "LCS"), check=drucker_prager.check_perfect
+        drucker_prager.perfect,
+        ("LTR", "LCS"),
+        check=drucker_prager.check_perfect,
+        columns=drucker_prager.perfect_columns,
     ),
     "DRUCKER_PRAGER": PlasticLaw(
-        drucker_prager.hardening, _CONE, check=drucker_prager.check_hardening, symmetric=False
+        drucker_prager.hardening,
+        _CONE,
+        check=drucker_prager.check_hardening,
+        symmetric=False,
+        columns=drucker_prager.hardening_columns,
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
     "PARFAIT_UNI": PlasticLaw(
