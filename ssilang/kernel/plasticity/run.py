@@ -167,7 +167,8 @@ def _recorded(run: BulkRun) -> Iterator[History]:
 
 
 def _name(run: BulkRun, history: History, solver: type[BulkSolver]) -> None:
-    history.loop, history.solver = solver.loop, solver.factor
+    history.loop = f"{solver.loop} (plastic bodies: {run.bulk.words})"
+    history.solver = solver.factor
     history.method = Sentence(solver.said)
 
 

@@ -113,8 +113,8 @@ def newton():
 def test_a_kept_factor_leads_to_newtons_answer(newton) -> None:
     """Both end each step at 1e-10 of the forces; the model yields, lifts and comes down again."""
     history, u, strain, _ = stepped()
-    assert history.loop == "kept factor"
-    assert newton[0].loop == "full Newton"
+    assert history.loop.startswith("kept factor")
+    assert newton[0].loop.startswith("full Newton")
     assert np.mean(strain > 0) > 0.2
     opens = newton[3][1:] > 0
     assert opens.any()
@@ -135,7 +135,7 @@ def test_renewed_factors_lead_there_too(newton, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(accelerated, "PATIENCE", 4)
     history, u, _, _ = stepped(steps=20)
     assert len(made) > 3
-    assert history.loop == "kept factor"
+    assert history.loop.startswith("kept factor")
     assert np.abs(u - newton[1][:21]).max() <= 1e-8 * np.abs(newton[1]).max()
 
 
@@ -159,8 +159,8 @@ def test_runs_repeat_to_the_last_bit_and_go_on_to_it(tmp_path: Path) -> None:
 
 
 def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not() -> None:
-    assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop == "kept factor"
-    assert stepped("DRUCKER_PRAGER", steps=3)[0].loop == "full Newton"
+    assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop.startswith("kept factor")
+    assert stepped("DRUCKER_PRAGER", steps=3)[0].loop.startswith("full Newton")
 
 
 def test_acceleration_solves_a_linear_problem_in_as_many_turns_as_it_has_unknowns() -> None:
