@@ -26,11 +26,12 @@ UP = MANU 'CHPO' (POIN 1 FOO) 1 'FY' 1.E5 ;
 DOWN = MAS * (MANU 'CHPO' FOO 1 'UY' -9.81) ;
 TI = PROG 0. 'PAS' 2.E-3 'NPAS' 100 ; EV = EVOL 'MANU' TI (AG * (SIN (2000. * TI))) ;
 CHA = (CHAR 'MECA' DOWN) ET (CHAR 'MECA' UP EV) ;
-RIG = (RIGI MOF MAF) ET (BLOQ 'UX' 'UY' GRO) ET (BLOQ 'UX' P1) ;
+BAS = BLOQ 'UX' 'UY' GRO ; RIG = (RIGI MOF MAF) ET BAS ET (BLOQ 'UX' P1) ;
 """
 DYNAMIC = """T1 = TABL ; T1 . 'RIGI' = RIG ; T1 . 'MASS' = MAS ; T1 . 'MODELE' = MOJ ;
 T1 . 'CARACTERISTIQUES' = MAJ ; T1 . 'CHAR' = CHA ; T1 . 'TEMPS_CALCULES' = TI ;
 T1 . 'PAS_SAUVES' = 1 ;
+T1 . 'RELATIONS_SAUVEES' = TABL ; T1 . 'RELATIONS_SAUVEES' . 'BASE' = BAS ;
 SI (CASE EGA 5) ; T1 . 'PAS_SAUVES' = 0 ; FINSI ;
 T2 = DYNAMIC T1 ; LU = EXTR (EVOL 'TEMP' T2 'DEPL' 'UY' P1) 'ORDO' ;
 SI (CASE EGA 3) ; ERRE 'wrong at the end' ; FINSI ;
@@ -39,6 +40,8 @@ SI (CASE EGA 4) ; T2 = DYNAMIC T1 ; LU = 2. * LU ; FINSI ;
 TA = T2 . 7 ; @VERIFIE T1 'one' (MAXI (TA . 'DEPL')) -10. 100. ;
 @VERIFIE T1 'instants' (DIME T2) 0. 1000. ;
 @VERIFIE T1 'work' (EXTR (T1 . 'ENERGIES' . 'EXTERIEURE') 100) 0. 1.E9 ;
+FB = T1 . 'RESULTATS_RELATIONS' . 'BASE' ;
+@VERIFIE T1 'pressed' (MAXI (FB . 'FY')) 1. 1.E9 ; @VERIFIE T1 'lifted' (MINI (FB . 'FY')) -1. 1. ;
 """
 PASAPAS = """T1 = TABL ; T1 . 'DYNAMIQUE' = VRAI ; T1 . 'MODELE' = MOF ET MOJ ;
 T1 . 'CARACTERISTIQUES' = MAF ET MAJ ; T1 . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' 'UY' GRO)
@@ -47,7 +50,7 @@ T1 . 'TEMPS_CALCULES' = TI ; PASAPAS T1 ;
 LU = EXTR (EVOL 'TEMP' T1 'DEPLACEMENTS' 'UY' P1) 'ORDO' ;
 @VERIFIE T1 'highest' (MAXI LU) -10. 100. ; @VERIFIE T1 'lowest' (MINI LU) -10. 100. ;
 """
-FIGURES = ("highest", "lowest", "one", "instants", "work")
+FIGURES = ("highest", "lowest", "one", "instants", "work", "pressed", "lifted")
 
 
 @pytest.fixture

@@ -56,50 +56,36 @@ def catalogue() -> dict[str, Message]:
 
 
 @cache
-def constants() -> frozenset[str]:
-    """All texts of the program outside of the catalogues."""
-    return frozenset(
-        node.value
-        for _, tree in _trees()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-    )
-
-
-@cache
-def _trees() -> tuple[tuple[Path, ast.Module], ...]:
-    return tuple(
-        (path, ast.parse(path.read_text(encoding="utf-8")))
-        for path in sorted(_ROOT.rglob("*.py"))
-        if not path.is_relative_to(_MESSAGES)
-    )
-
-
-@cache
-def sites() -> tuple[Site, ...]:
-    """Calls that hand a code on with its data."""
-    return tuple(_sites())
-
-
-def _sites() -> Iterator[Site]:
+def program() -> tuple[tuple[Site, ...], frozenset[str]]:
+    """Calls that hand a code on with its data, and all texts, of all but the catalogues."""
     rooms = {c.rpartition(".")[0] for c in catalogue()} - {""}
-    for path, tree in _trees():
-        for node in ast.walk(tree):
-            if not isinstance(node, ast.Call):
-                continue
-            called = node.func.attr if isinstance(node.func, ast.Attribute) else None
-            called = node.func.id if isinstance(node.func, ast.Name) else called
-            for first in node.args[:2]:
-                code = first.value if isinstance(first, ast.Constant) else None
-                if not isinstance(code, str) or " " in code:
-                    continue
-                room, _, name = code.rpartition(".")
-                if (room in rooms and name) or (first is node.args[0] and called in _RAISES):
-                    names = frozenset(k.arg for k in node.keywords if k.arg)
-                    raises = called in _RAISES or str(called).endswith("Error")
-                    more = not raises or any(k.arg is None for k in node.keywords)
-                    place = f"{path.relative_to(_ROOT)}:{node.lineno}"
-                    yield Site(place, code, names, more)
+    sites: list[Site] = []
+    texts: set[str] = set()
+    for path in sorted(_ROOT.rglob("*.py")):
+        if path.is_relative_to(_MESSAGES):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call):
+                sites += _sites(node, path, rooms)
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                texts.add(node.value)
+    return tuple(sites), frozenset(texts)
+
+
+def _sites(node: ast.Call, path: Path, rooms: set[str]) -> Iterator[Site]:
+    called = node.func.attr if isinstance(node.func, ast.Attribute) else None
+    called = node.func.id if isinstance(node.func, ast.Name) else called
+    for first in node.args[:2]:
+        code = first.value if isinstance(first, ast.Constant) else None
+        if not isinstance(code, str) or " " in code:
+            continue
+        room, _, name = code.rpartition(".")
+        if (room in rooms and name) or (first is node.args[0] and called in _RAISES):
+            names = frozenset(k.arg for k in node.keywords if k.arg)
+            raises = called in _RAISES or str(called).endswith("Error")
+            more = not raises or any(k.arg is None for k in node.keywords)
+            place = f"{path.relative_to(_ROOT)}:{node.lineno}"
+            yield Site(place, code, names, more)
 
 
 def names_of(template: str) -> set[str]:
@@ -179,13 +165,13 @@ def _fitting(name: str, value: object, template: str) -> object:
 
 
 def test_every_code_that_is_raised_has_a_sentence():
-    lost = [f"{s.place} {s.code}" for s in sites() if s.code not in catalogue()]
+    lost = [f"{s.place} {s.code}" for s in program()[0] if s.code not in catalogue()]
     assert not lost
 
 
 def test_every_site_gives_what_its_sentence_tells():
     lost = []
-    for site in sites():
+    for site in program()[0]:
         if not _own(site.code) or site.code not in catalogue():
             continue
         told = set().union(*map(names_of, texts(site.code))) - _ADDED
@@ -198,8 +184,7 @@ def test_every_site_gives_what_its_sentence_tells():
 def test_every_sentence_has_a_site():
     of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
     assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
-    lost = [code for code in catalogue() if code not in constants() | of_library | named_words()]
-    assert not lost
+    assert not set(catalogue()) - program()[1] - of_library - named_words()
 
 
 def named_words() -> set[str]:

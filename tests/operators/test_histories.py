@@ -72,9 +72,20 @@ def test_fields_at_a_few_nodes_are_those_of_the_body(step):
 NAMED = """T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'BASE' = B1 ; """
 
 
-@pytest.mark.parametrize("loop", LOOPS)
+RUBBED = LOOPS | {
+    "friction": "T . 'CARACTERISTIQUES' = MATE MJ 'KN' 1.E8 'KS' 1.E8 'FROT' 0.1 ;",
+    "friction, full Newton": "T . 'CARACTERISTIQUES' = MATE MJ 'KN' 1.E8 'KS' 1.E8 'FROT' 0.1 ; "
+    "T . 'NEWTON_COMPLET' = VRAI ;",
+    "a procedure's loads": "T . 'CHAR' = CHAR 'MECA' W (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ; "
+    "T . 'CHARMECA' = VRAI ; DEBP CHARMECA T0*TABLE TI*FLOTTANT ; TC = TABL ; "
+    "TC . 'ADDI_FNL' = (1. - (200. * (MINI (PROG TI 0.01))) "
+    "+ (200. * (MAXI (PROG (TI - 0.01) 0.)))) * S ; FINP TC ; ",
+}
+
+
+@pytest.mark.parametrize("loop", RUBBED)
 def test_forces_of_a_named_support_are_what_moves_the_whole_body(loop):
-    find = ran(BLOCK.format(step=LOOPS[loop] + NAMED))
+    find = ran(BLOCK.format(step=RUBBED[loop] + NAMED))
     mass, whole = find("T").get("MASS"), find("R1")
     rows = [whole.get(i) for i in range(1, 36)]
     pushed = [product(mass, row.get("ACCE")).components for row in rows]

@@ -22,7 +22,7 @@ class Ending:
     def stride(self, done: int, small: bool) -> int:
         return self.every - done % self.every
 
-    def steady(self):
+    def steady(self, done: int, state):
         return nullcontext()
 
     def reached(self, done: int, state) -> None:

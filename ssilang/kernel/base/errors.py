@@ -25,6 +25,10 @@ class MaterialError(KernelError):
     """A missing, unknown or inadmissible material parameter."""
 
 
+class LostSolverError(KernelError):
+    """The program beside us that solves has ended, in the middle of what it was asked."""
+
+
 class SingularMatrixError(KernelError):
     """The system has a free rigid-body motion or mechanism; `hint` names its unknowns."""
 

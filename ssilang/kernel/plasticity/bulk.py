@@ -160,7 +160,7 @@ class Bulk:
         strain = strain - freed if len(freed) else strain
         found, whole = zone.respond(old.stress, strain, old.variables, time - old.time)
         force += np.bincount(places.ravel(), zone.forces(found.stress).ravel(), self.size)
-        elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
+        elastic = found.elastic_strain(zone.parameters, old.stress)
         plastic = old.plastic + whole - elastic
         density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
         return _OfZone(
@@ -199,11 +199,7 @@ class Bulk:
 
     def stored(self, state: State) -> float:
         """Elastic energy."""
-        total = 0.0
-        for zone, old in zip(self.zones, state, strict=True):
-            density = zone.parameters.elastic_energy(old.stress)
-            total += float(density @ zone.weights.ravel())
-        return total
+        return sum(z.stored(s) for z, s in zip(self.zones, state, strict=True))
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars)."""

@@ -91,9 +91,7 @@ class YieldingBulk(FiniteBulk):
             points = zone.points
             strain = zone.strains(u[places]) - zone.strains(before[places])
             found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
-            elastic = np.einsum(
-                "mij,mj->mi", points.parameters.compliance, found.stress - last.stress
-            )
+            elastic = found.elastic_strain(points.parameters, last.stress)
             after.append(
                 PointState(
                     found.stress, last.plastic + whole - elastic, last.free, found.variables, time
@@ -119,9 +117,7 @@ class YieldingBulk(FiniteBulk):
         """Elastic energy."""
         total = super().stored(state)
         for zone, last in zip(self.yielding, _parts(state)[1], strict=True):
-            strain = np.einsum("mij,mj->mi", zone.points.parameters.compliance, last.stress)
-            density = np.einsum("mi,mi->m", strain, last.stress)
-            total += 0.5 * float(density @ zone.points.weights.ravel())
+            total += zone.points.stored(last)
         return total
 
     def stresses(self, state: State) -> list[CellFieldBlock]:

@@ -119,6 +119,13 @@ class PlasticPoints:
             given = PointParameters({**given.values, DURATION: steps}, given.curves)
         return respond_held(self.law, given, stress, strain, variables, self.held)
 
+    def stored(self, state: PointState) -> float:
+        """Elastic energy, with what a law locks in."""
+        density = self.parameters.elastic_energy(state.stress)
+        if self.law.locked is not None:
+            density = density + self.law.locked(self.parameters, state.stress, state.variables)
+        return float(density @ self.weights.ravel())
+
     def forces(self, stress: FloatArray) -> FloatArray:
         """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""
         n, s, p, rows = self.B.shape
@@ -217,11 +224,12 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
     """
     shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
 
-    def at_points(name: str) -> FloatArray:
-        return np.broadcast_to(given.at(name, "STRESSES"), shape).ravel()
+    def at_points(name: str, default: float | None = None) -> FloatArray:
+        return np.broadcast_to(given.at(name, "STRESSES", default), shape).ravel()
 
     names = [n for n in ("YOUN", "NU", *law.required) if n not in law.curves]
     values = {name: at_points(name) for name in names}
+    values |= {name: at_points(name, default) for name, default in law.defaults.items()}
     check_isotropic(values["YOUN"], values["NU"])
     if (values["YOUN"] <= 0).any():
         raise MaterialError(

@@ -14,7 +14,7 @@ from ssilang.kernel.elements.zone_fields import (
 )
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.materials.plastic.laws import plastic_law
+from ssilang.kernel.materials.plastic.laws import law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
 from ssilang.kernel.plasticity.layered_points import layered_points
 from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, law_parameters
@@ -51,10 +51,11 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
         weights = weights * section
     parameters = law_parameters(zone, law, given)
-    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
+    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar and not law.uniaxial else ()
     if zone.mode is Mode.PLANE_STRESS and not bar:
         held = (2,)
     components = (0,) if bar else COMPONENTS[zone.mode]
     return PlasticPoints(
-        zone, law, family.layout(zone), B, weights, section, components, held, parameters
-    )
+        zone, law_at(law, parameters), family.layout(zone), B, weights, section, components, held,
+        parameters,
+    )  # fmt: skip

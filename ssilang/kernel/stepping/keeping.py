@@ -18,6 +18,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ssilang.kernel.base.errors import LostSolverError
+
 State = dict[str, Any]
 
 SMALL_STRIDE = 4096
@@ -33,7 +35,7 @@ class Keeper(Protocol):
         """Steps after `done` up to the next instant at which the state may be kept."""
         ...
 
-    def steady(self) -> AbstractContextManager[None]:
+    def steady(self, done: int, state: Callable[[], State]) -> AbstractContextManager[None]:
         """While steps change the state an interruption waits."""
         ...
 
@@ -49,6 +51,10 @@ class Keeper(Protocol):
 
     def left(self, done: int, state: Callable[[], State]) -> None:
         """The calculation ends early, and whole: keep its state."""
+        ...
+
+    def lost(self, done: int, state: Callable[[], State]) -> None:
+        """The solver's program has ended, if it did so within steps, these are not done."""
         ...
 
     def finished(self, done: int, state: Callable[[], State]) -> None:
@@ -70,14 +76,14 @@ class Cut:
         """Steps up to the next cut."""
         return stride_of(done, small, self.every)
 
-    def steady(self) -> AbstractContextManager[None]:
+    def steady(self, done: int, state: Callable[[], State]) -> AbstractContextManager[None]:
         """Nothing waits."""
         return nullcontext()
 
     def reached(self, done: int, state: Callable[[], State]) -> None:
         """Nothing is kept."""
 
-    left = finished = reached
+    left = lost = finished = reached
 
     def last(self) -> State | None:
         """Nothing was kept."""
@@ -94,18 +100,24 @@ def stride_of(done: int, small: bool, every: int) -> int:
 def told_to_leave(
     keeper: Keeper | None, done: Callable[[], int], state: Callable[[], State]
 ) -> Iterator[None]:
-    """Steps that an interruption may end: the keeper gets the state in which it does."""
+    """Steps that may be ended: the keeper gets the state in which they are."""
     try:
         yield
+    except LostSolverError:
+        if keeper is not None:
+            keeper.lost(done(), state)
+        raise
     except KeyboardInterrupt:
         if keeper is not None:
             keeper.left(done(), state)
         raise
 
 
-def steady(keeper: Keeper | None) -> AbstractContextManager[None]:
+def steady(
+    keeper: Keeper | None, done: int, state: Callable[[], State]
+) -> AbstractContextManager[None]:
     """While steps change the state an interruption waits, if the state is kept."""
-    return nullcontext() if keeper is None else keeper.steady()
+    return nullcontext() if keeper is None else keeper.steady(done, state)
 
 
 # ---- records of arrays ------------------------------------------------------------------------
@@ -239,7 +251,7 @@ class KeptSteps:
     @contextmanager
     def step(self, k: int) -> Iterator[None]:
         """The step that ends at time k."""
-        with steady(self.keeper):
+        with steady(self.keeper, self.done, self.state):
             yield
             self.done = k
 

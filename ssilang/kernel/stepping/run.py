@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -288,7 +289,7 @@ class Integration:
             recorder = recorder_of(
                 self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
             )
-            with steady(self.keeper):
+            with steady(self.keeper, self._done, partial(self._state, history)):
                 done, turns, residual = choice.loop.run(factors, recorder)
                 history.worst = float(self._balance[1])
                 history.seen = max(

@@ -25,6 +25,34 @@ MESSAGES: dict[str, Message] = {
         "FC = 0: concrete needs a strength",
         "FC = 0 : le béton veut une résistance",
     ),
+    "law-condition": Message(
+        "{law} needs {rule}; given {given}",
+        "{law} veut {rule} ; il est donné {given}",
+    ),
+    "clay-cohesion": Message(
+        "CAM_CLAY has no cohesion here: COHE = {value:g} must be 0",
+        "CAM_CLAY n'a pas de cohésion ici : COHE = {value:g} doit être 0",
+        "how a cohesion moves the ellipse is not written in the notice; leave COHE out",
+        "la notice ne dit pas comment une cohésion déplace l'ellipse ; omettre COHE",
+    ),
+    "soft-crack-closing": Message(
+        "BETON_UNI closes its cracks at once: FAMX must be < 0, not {value:g}",
+        "BETON_UNI referme ses fissures d'un coup : FAMX doit être < 0, et non {value:g}",
+        "the gradual closing of cracks (FACL FAM1 FAM2 STPT) is not available; write 'FAMX' -1., "
+        "or leave it out",
+        "la fermeture progressive des fissures (FACL FAM1 FAM2 STPT) n'est pas disponible ; écrire "
+        "'FAMX' -1., ou l'omettre",
+    ),
+    "slope-and-confinement": Message(
+        "BETON_UNI has a slope ZETA and a confinement ALF1 OME1: which of the two says how it "
+        "softens?",
+        "BETON_UNI a une pente ZETA et un confinement ALF1 OME1 : lequel des deux dit "
+        "l'adoucissement ?",
+        "write 'ZETA' 0. for the slope that ALF1 and OME1 give, or 'ALF1' 0. with STFC and EZER "
+        "of the confined concrete",
+        "écrire 'ZETA' 0. pour la pente que donnent ALF1 et OME1, ou 'ALF1' 0. avec STFC et EZER "
+        "du béton confiné",
+    ),
     "no-plastic-law-bodies": Message(
         "no plastic law of bodies is called {after}",
         "aucune loi plastique de corps ne s'appelle {after}",
@@ -44,6 +72,54 @@ MESSAGES: dict[str, Message] = {
         "la courbe {name} a des résistances qui ne sont pas > 0",
         "abscissas are plastic strains from 0, ordinates stresses",
         "en abscisses les déformations plastiques à partir de 0, en ordonnées les contraintes",
+    ),
+    "reduction-no-points": Message(
+        "the curve of G/Gmax over the shear strain has no points, or values that are no numbers",
+        "la courbe de G/Gmax en fonction de la distorsion est sans points, ou a des valeurs qui ne "
+        "sont pas des nombres",
+    ),
+    "reduction-strain-negative": Message(
+        "the curve of G/Gmax begins at the shear strain {strain:g}, below 0",
+        "la courbe de G/Gmax commence à la distorsion {strain:g}, au-dessous de 0",
+    ),
+    "reduction-strains-fall": Message(
+        "the shear strains of G/Gmax do not grow: {second:g} follows {first:g}",
+        "les distorsions de G/Gmax ne croissent pas : {second:g} suit {first:g}",
+    ),
+    "reduction-negative": Message(
+        "G/Gmax = {ratio:g} at the shear strain {strain:g}: it must be > 0",
+        "G/Gmax = {ratio:g} à la distorsion {strain:g} : il faut une valeur > 0",
+    ),
+    "reduction-begins": Message(
+        "G/Gmax begins at {ratio:g}, at the shear strain {strain:g}: it must begin at 1",
+        "G/Gmax commence à {ratio:g}, à la distorsion {strain:g} : il doit commencer à 1",
+        "give G/Gmax = 1 at a small strain, 1.E-6 say: the soil is elastic up to there",
+        "donnez G/Gmax = 1 à une petite distorsion, par exemple 1.E-6 : le sol est élastique "
+        "jusque-là",
+    ),
+    "reduction-rises": Message(
+        "G/Gmax rises, from {before:g} at the shear strain {first:g} to {after:g} at {second:g}",
+        "G/Gmax monte, de {before:g} à la distorsion {first:g} à {after:g} à {second:g}",
+        "the modulus of a soil falls with the strain",
+        "le module d'un sol baisse quand la distorsion croît",
+    ),
+    "reduction-softens": Message(
+        "G/Gmax = {ratio:g} at the shear strain {second:g}: the shear stress falls from {first:g} "
+        "on",
+        "G/Gmax = {ratio:g} à la distorsion {second:g} : la contrainte de cisaillement baisse à "
+        "partir de {first:g}",
+        "nested surfaces do not soften: end the curve at {first:g}, beyond which the stress stays, "
+        "or give at least G/Gmax = {least:.4g}",
+        "des surfaces emboîtées n'adoucissent pas : arrêtez la courbe à {first:g}, la contrainte "
+        "s'y maintient, ou donnez au moins G/Gmax = {least:.4g}",
+    ),
+    "reduction-stiffens": Message(
+        "G/Gmax = {ratio:g} at the shear strain {strain:g}: the stress G gamma rises faster behind "
+        "it than before",
+        "G/Gmax = {ratio:g} à la distorsion {strain:g} : la contrainte G gamma monte plus vite "
+        "après qu'avant",
+        "leave this point out, or give at least G/Gmax = {least:.4g}",
+        "ôtez ce point, ou donnez au moins G/Gmax = {least:.4g}",
     ),
     "first-slope-trac-youn": Message(
         "the first slope of TRAC is {slope:g}, YOUN is {young:g}",

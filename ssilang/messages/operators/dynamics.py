@@ -202,6 +202,15 @@ MESSAGES: dict[str, Message] = {
         "le poids la presse-t-il (MASS fois -9.81 selon 'UY', ou 'UZ' dans l'espace) ?",
         severity="warning",
     ),
+    "footing-overloaded": Message(
+        "at the start the loads press with {pressing:.4g} N on the footing at node {node}, whose "
+        "ground bears {capacity:.4g} N: it sinks",
+        "au départ le chargement presse de {pressing:.4g} N la fondation au noeud {node}, dont le "
+        "sol supporte {capacity:.4g} N : elle s'enfonce",
+        "check the weight, the size of the footing, and the strength COHE (or QULT)",
+        "vérifiez le poids, la taille de la fondation et la résistance COHE (ou QULT)",
+        severity="warning",
+    ),
     "joints-out-of-proportion": Message(
         "the joints are {stiffer:?{stiffer:.1e} times as stiff as|{softer:.1e} times softer "
         "than} the "

@@ -69,6 +69,25 @@ MESSAGES: dict[str, Message] = {
         "the hardening is given twice, by TRAC and by ECRO",
         "l'écrouissage est donné deux fois, par TRAC et par ECRO",
     ),
+    "reduction-given-twice": Message(
+        "the fall of the shear modulus is given twice, by GAMR and by GGAM",
+        "la réduction du module de cisaillement est donnée deux fois, par GAMR et par GGAM",
+        "GGAM is a curve of G/Gmax, GAMR stands for 1 / (1 + gamma / GAMR)",
+        "GGAM est une courbe de G/Gmax, GAMR veut dire 1 / (1 + gamma / GAMR)",
+    ),
+    "gamr-is-a-number": Message(
+        "GAMR is a number or a field of numbers: the shear strain at which G is half of Gmax",
+        "GAMR est un nombre ou un champ de nombres : la distorsion à laquelle G vaut la moitié de "
+        "Gmax",
+        "a curve of G/Gmax is given by GGAM",
+        "une courbe de G/Gmax se donne par GGAM",
+    ),
+    "strains-in-percent": Message(
+        "G is half of Gmax at a shear strain of {half:g}: no soil is known to stand that",
+        "G vaut la moitié de Gmax à une distorsion de {half:g} : aucun sol connu ne va si loin",
+        "shear strains are plain numbers: 0.05 % is 5.E-4",
+        "les distorsions sont des nombres sans pourcent : 0.05 % s'écrit 5.E-4",
+    ),
     "trac-needs-one-youn": Message(
         "TRAC needs YOUN as one number",
         "TRAC demande pour YOUN un seul nombre",
@@ -164,6 +183,16 @@ MESSAGES: dict[str, Message] = {
         "(décharge) et CPLG (couplage) n'est publié nulle part",
         "JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
         "JOINT_SDM s'adoucit en traction avec FU et GF ; JOINT_DILATANT et COULOMB glissent",
+    ),
+    "footing-law-not-built": Message(
+        "the law {said} of a footing is not built: its plasticity and uplift differ from the "
+        "published model (Grange 2008), and no public text says how",
+        "la loi de fondation {said} n'est pas construite : sa plasticité et son décollement "
+        "diffèrent du modèle publié (Grange 2008), et aucun texte public ne dit comment",
+        "MACRO_SEMELLE (LARG, LONG) and MACRO_DISQUE (RAYO) lift off, and yield with COHE; "
+        "QULT is a bearing pressure",
+        "MACRO_SEMELLE (LARG, LONG) et MACRO_DISQUE (RAYO) se décollent, et plastifient avec "
+        "COHE ; QULT est une pression portante",
     ),
     "element-not-in-mode": Message(
         "element {name} does not exist in mode {mode}",

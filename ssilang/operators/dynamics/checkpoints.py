@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
@@ -82,6 +82,7 @@ class KeptCalculation:
             self.wanted |= observer.wanted
         self._waiting: list[list[Any]] = []
         self._written, self._at = 0, time.monotonic()
+        self._before: tuple[int, State] | None = None
 
     # ---- an observer
 
@@ -105,9 +106,14 @@ class KeptCalculation:
 
         return stride_of(done, small, self.every)
 
-    def steady(self) -> AbstractContextManager[None]:
-        """Interruptions wait."""
-        return self.session.hold()
+    @contextmanager
+    def steady(self, done: int, state: Callable[[], State]) -> Iterator[None]:
+        """Interruptions wait; the state before is kept where what solves may be lost."""
+        if self.problem.solver.petsc is not None:
+            self._before = done, state()
+        with self.session.hold():
+            yield
+        self._before = None
 
     def reached(self, done: int, state: Callable[[], State]) -> None:
         """Write a checkpoint if it is time to."""
@@ -129,6 +135,14 @@ class KeptCalculation:
                 time=self.problem.times[self._written],
                 folder=self.checkpoints.folder,
             )
+
+    def lost(self, done: int, state: Callable[[], State]) -> None:
+        """What solves has ended: as `left`, from before the steps that it broke off."""
+        if self._before is None:
+            self.left(done, state)
+        else:
+            before, kept = self._before
+            self.left(before, lambda: kept)
 
     def finished(self, done: int, state: Callable[[], State]) -> None:
         """Keep the results too: a deck that goes on elsewhere does not step again."""

@@ -16,12 +16,13 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.materials.parameters import geometric_names
+from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
 from ssilang.language.run.call import Call
-from ssilang.operators.models.tension import material_names, tension_to_hardening
+from ssilang.operators.models.reduction import reference_to_curve
+from ssilang.operators.models.tension import tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
@@ -80,8 +81,13 @@ _PAIRS = each(
         "strain) or TRAC (of the stress over the whole strain, from zero); CINEMATIQUE SIGY H; "
         "J2 SIG0 SIGI KISO VELO (strength SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))); "
         "DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
-        "KL H GAMM DELT; RH_COULOMB COHE PHI (radians); PARFAIT_UNI SIGY H; "
-        "BETON_BAEL FC; FLUAGE NORTON AF1 AF2 AF3 (creep strain "
+        "KL H GAMM DELT; RH_COULOMB COHE PHI (radians); "
+        "CAM_CLAY E0 M P0 KAPA LAMD G1; IWAN GGAM (curve of G/Gmax over the shear "
+        "strain, Gmax being that of YOUN and NU) or GAMR (G/Gmax = 1 / (1 + gamma / GAMR)); "
+        "IWAN_PRESSION PREF too; PARFAIT_UNI SIGY H; "
+        "BETON_BAEL FC; ACIER_UNI STSY STSU EPSH EPSU ROFA BFAC A1FA A2FA (FALD A6FA CFAC AFAC); "
+        "BETON_UNI STFC EZER STFT ZETA ST85 TRAF (ALF1 OME1 FAMX); "
+        "FLUAGE NORTON AF1 AF2 AF3 (creep strain "
         "AF1 q**AF2 t**AF3 under a constant stress). "
         "Beams ELASTIQUE SECTION take the model of their section, MODS, and its material, MATS; "
         "fibres take ALPY ALPZ, which multiply their shear stresses (and points SECT): the section "
@@ -104,7 +110,12 @@ _PAIRS = each(
         "KISO VELO (limite SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))) ; DRUCKER_PARFAIT LTR "
         "LCS ; "
         "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI (radians) ; "
-        "PARFAIT_UNI SIGY H ; BETON_BAEL FC ; FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage "
+        "CAM_CLAY E0 M P0 KAPA LAMD G1 ; "
+        "IWAN GGAM (courbe de G/Gmax en fonction de la distorsion, Gmax étant celui de YOUN et NU) "
+        "ou GAMR (G/Gmax = 1 / (1 + gamma / GAMR)) ; IWAN_PRESSION aussi PREF ; "
+        "PARFAIT_UNI SIGY H ; BETON_BAEL FC ; ACIER_UNI STSY STSU EPSH EPSU ROFA BFAC A1FA A2FA "
+        "(FALD A6FA CFAC AFAC) ; BETON_UNI STFC EZER STFT ZETA ST85 TRAF (ALF1 OME1 FAMX) ; "
+        "FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage "
         "AF1 q**AF2 t**AF3 "
         "sous contrainte constante). Les poutres ELASTIQUE SECTION prennent le modèle de leur "
         "section, MODS, et son matériau, MATS ; les fibres ALPY ALPZ, qui multiplient leurs "
@@ -149,6 +160,12 @@ _PAIRS = each(
 def mate(call: Call, **said: Any) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
     return _parameters(call, material_names, check_joints, **said)
+
+
+def material_names(zone: Zone) -> tuple[str, ...]:
+    """Parameters that MATE reads for a zone: with those that stand for others."""
+    names = known_names(zone)
+    return (*names, *(other for name, other in words.INSTEAD.items() if name in names))
 
 
 def check_joints(model: Model, given: list[Values]) -> None:
@@ -198,8 +215,11 @@ def _parameters(
         said[_set_value(call, written, value, model, given, known)] = value
     for directions in axes:
         _set_axes(call, directions, turn, model, given, known)
-    for values in given:
+    for zone, values in zip(model.zones, given, strict=True):
+        others = {n: values[n] for n in words.INSTEAD.values() if n in values}
+        _refuse_outside(call, zone, others, said)
         tension_to_hardening(values)
+        reference_to_curve(call, values, said)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.error("operators.models.no-parameter", model)

@@ -10,15 +10,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.materials.parameters import known_names
 from ssilang.kernel.materials.plastic.tension_curve import hardening_of
-
-
-def material_names(zone: Zone) -> tuple[str, ...]:
-    """Parameters that MATE reads for a zone: TRAC besides ECRO."""
-    names = known_names(zone)
-    return (*names, "TRAC") if "ECRO" in names else names
 
 
 def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> None:

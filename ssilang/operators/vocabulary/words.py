@@ -26,6 +26,7 @@ from ssilang.kernel.materials.behaviours import (
     FIBRE_LAWS,
     LAYER_LAWS,
     PLASTIC_FAMILIES,
+    UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
 from ssilang.kernel.materials.model import Mode, Zone
@@ -39,6 +40,8 @@ from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
 
+INSTEAD = {"ECRO": "TRAC", "GGAM": "GAMR"}
+"""Parameters, and what MATE takes in their place."""
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
 _LINES = 12  # of meanings in a hint
@@ -80,7 +83,8 @@ def sample_of_law(law: Word) -> Zone | None:
     """A zone that has a law; None for words that bring no parameters of their own."""
     name, plane, space = law.name, Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL
     if law.kind == "joint" and name in JOINT_LAWS:
-        element = "JOI1" if JOINT_LAWS[name].macro else "JOI2"
+        own = JOINT_LAWS[name].macro or JOINT_LAWS[name].two_points
+        element = "JOI1" if own else "JOI2"
         return sample(element, plane, ("ELASTIQUE", name))
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
         element = "POJS" if name in UNIAXIAL_LAWS else "QUA4"
@@ -120,9 +124,10 @@ def parameter(name: str, zone: Zone) -> Quantity | None:
 
 
 def law_names(zone: Zone) -> Names:
-    """Parameters of a zone's law, TRAC besides ECRO included."""
+    """Parameters of a zone's law, with those that MATE takes in the place of others."""
     names = material_names(zone)
-    return Names(names.required, (*names.optional, *(("TRAC",) if "ECRO" in names.all else ())))
+    others = tuple(other for name, other in INSTEAD.items() if name in names.all)
+    return Names(names.required, (*names.optional, *others))
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,10 +227,11 @@ def known_components() -> tuple[str, ...]:
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
     from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
+    from ssilang.kernel.interface.bed_results import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
-    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES]
+    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES]
     for element in ELEMENTS:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]
@@ -263,8 +269,9 @@ def laws_of(element: str) -> tuple[str, ...]:
     family = ELEMENTS[element].family
     laws = [name for name, families in ELASTICITIES.items() if family in families]
     if family == "joint":
-        macro = [n for n, law in JOINT_LAWS.items() if law.macro and element != "JOI1"]
-        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and n not in macro]
+        points = [n for n, law in JOINT_LAWS.items() if law.macro or law.two_points]
+        faces = element != "JOI1"
+        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and not (faces and n in points)]
     laws += [f"PLASTIQUE {n}" for n in _plastic(family)]
     laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in CREEP_FAMILIES]
     return tuple(laws)
@@ -274,6 +281,7 @@ def _plastic(family: str) -> tuple[str, ...]:
     if family not in PLASTIC_FAMILIES:
         return ("SECTION",) if family == "timoshenko" else ()
     bodies = tuple(n for n in PLASTIC_LAWS if n not in (*UNIAXIAL_LAWS, "SECTION"))
+    bodies += UNIAXIAL_LAWS if family in UNIAXIAL_FAMILIES else ()
     return {"fibre": FIBRE_LAWS, "plate": LAYER_LAWS}.get(family, bodies)
 
 

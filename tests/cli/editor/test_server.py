@@ -8,11 +8,13 @@ import sys
 from pathlib import Path
 
 import pytest
+import pytest_asyncio
 import pytest_lsp
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pytest_lsp import ClientServerConfig, LanguageClient
 
+pytestmark = pytest.mark.asyncio(loop_scope="module")
 ROOT = Path(__file__).parents[3]
 URI = "file:///deck/case.ssi"
 DECK = """\
@@ -40,18 +42,31 @@ FIN ;
 
 
 @pytest_lsp.fixture(
+    scope="module",
     config=ClientServerConfig(
         server_command=[sys.executable, "-m", "ssilang.cli.main", "lsp"],
         server_env={**os.environ, "PYTHONPATH": str(ROOT)},
-    )
+    ),
 )
-async def client(lsp_client: LanguageClient):
+async def session(lsp_client: LanguageClient):
+    """A server for all tests: it reads all operators at its start."""
     capabilities = lsp.ClientCapabilities()
     await lsp_client.initialize_session(
         lsp.InitializeParams(capabilities=capabilities, process_id=os.getpid())
     )
     yield
     await lsp_client.shutdown_session()
+
+
+@pytest_asyncio.fixture(loop_scope="module")
+async def client(session: LanguageClient):
+    """The server without an open document."""
+    yield session
+    named = lsp.TextDocumentIdentifier(URI)
+    session.text_document_did_close(lsp.DidCloseTextDocumentParams(named))
+    # the answer comes behind all that was said of the document
+    await session.completion_item_resolve_async(lsp.CompletionItem("nothing"))
+    session.log_messages.clear()
 
 
 def open_deck(client: LanguageClient, text: str = DECK) -> None:
@@ -102,7 +117,6 @@ async def diagnostics(client: LanguageClient) -> list[lsp.Diagnostic]:
     return list(client.diagnostics[URI])
 
 
-@pytest.mark.asyncio
 async def test_problems_are_told_with_their_places_and_mended_by_a_quick_fix(client):
     open_deck(client)
     found = {d.code: d for d in await diagnostics(client)}
@@ -134,7 +148,6 @@ async def test_problems_are_told_with_their_places_and_mended_by_a_quick_fix(cli
         ("X = RSEO 1 ;\nLIST X ;\n", "unknown-operator", "X = RESO 1 ;\nLIST X ;\n"),
     ],
 )
-@pytest.mark.asyncio
 async def test_quick_fixes(client, wrong, code, right):
     open_deck(client, wrong)
     found = [d for d in await diagnostics(client) if d.code == code]
@@ -146,7 +159,6 @@ async def test_quick_fixes(client, wrong, code, right):
     assert applied(wrong, actions[0].edit.changes[URI]) == right
 
 
-@pytest.mark.asyncio
 async def test_hover_tells_operators_keywords_entries_words_and_names(client):
     open_deck(client)
     await diagnostics(client)
@@ -165,7 +177,6 @@ async def test_hover_tells_operators_keywords_entries_words_and_names(client):
     assert not await told("1.E-6")
 
 
-@pytest.mark.asyncio
 async def test_completion_knows_what_fits_at_the_place(client):
     async def offered(text: str, version: int) -> dict[str, str]:
         change_to(client, text, version)
@@ -190,7 +201,6 @@ async def test_completion_knows_what_fits_at_the_place(client):
     assert {"SIDE", "SIN", "SI", "MAILLER"} <= set(names)
 
 
-@pytest.mark.asyncio
 async def test_names_are_found_and_renamed_within_their_scope(client):
     open_deck(client)
     inner = await client.text_document_references_async(
@@ -217,14 +227,12 @@ async def test_names_are_found_and_renamed_within_their_scope(client):
     assert applied(DECK, loop.changes[URI]) == DECK.replace("BOUCLE", "ROUND")
 
 
-@pytest.mark.asyncio
 async def test_procedures_of_the_library_are_opened(client):
     open_deck(client)
     found = await client.text_document_definition_async(lsp.DefinitionParams(**at(DECK, "DYNAMIC")))
     assert [place.uri.rpartition("/")[2] for place in found] == ["dynamic.ssi"]
 
 
-@pytest.mark.asyncio
 async def test_outline_folds_and_colours(client):
     open_deck(client)
     named = lsp.TextDocumentIdentifier(URI)
@@ -258,7 +266,6 @@ def colours_of(text: str, data: list[int], client: LanguageClient) -> list[tuple
     return [pair for pair in found if pair[0] not in ("DIME", "MODE", "PLAN", "DEFO", "ELEM")]
 
 
-@pytest.mark.asyncio
 async def test_signatures_follow_the_words_typed(client):
     open_deck(client)
     found = await client.text_document_signature_help_async(
@@ -267,7 +274,6 @@ async def test_signatures_follow_the_words_typed(client):
     assert any("RACC" in s.label for s in found.signatures)
 
 
-@pytest.mark.asyncio
 async def test_layout_and_letters_beyond_the_first_plane(client):
     """Positions are counted in UTF-16 units: a letter beyond 65 535 counts twice."""
     text = "MESS '\U0001f3d7 é' ;   X=1 ;\nMESS   X ;\n"
@@ -288,7 +294,6 @@ async def test_layout_and_letters_beyond_the_first_plane(client):
     assert [(f.range.start.line, f.range.start.character) for f in found] == [(0, column), (1, 7)]
 
 
-@pytest.mark.asyncio
 async def test_unsound_texts_are_answered_too(client):
     """One types: quotes are open, parentheses miss; no request may fail."""
     open_deck(client)

@@ -11,12 +11,13 @@ imports all that it needs by itself.
 
 from __future__ import annotations
 
+import hashlib
 import pickle
 from typing import Any
 
 import llvmlite.binding as llvm
 from numba.core import environment
-from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
@@ -94,10 +95,29 @@ def _library(codegen: Any, code: Any, defined: list[str]) -> Any:
     return made
 
 
+class KeptFiles(IndexDataCacheFile):
+    """Files of one function's code, which several processes may fill at a time.
+
+    Numba numbers them: two processes that compile for other types take the same number, and the
+    code of one stands under the types of the other. Here the types name the file.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Write code, then the index that leads to it."""
+        digest = hashlib.sha256(self._dump((self._source_stamp, key))).hexdigest()[:16]
+        name = self._data_name_pattern.replace("{number:d}", digest)
+        self._save_data(name, data)
+        self._save_index(self._load_index() | {key: name})
+
+
 class KeptCode(FunctionCache):
     """Where the code of one function is kept."""
 
     _impl_class = _Results
+
+    def __init__(self, function: Any) -> None:
+        super().__init__(function)
+        self._cache_file.__class__ = KeptFiles
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The compiled function for a signature, None if it is not kept."""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
+    cam_clay,
     creep,
     drucker_prager,
+    hognestad,
+    iwan,
+    menegotto_pinto,
     rounded_coulomb,
     uniaxial,
     von_mises,
@@ -45,11 +50,19 @@ class PlasticLaw:
         A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
+    defaults : mapping of str to float
+        Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
     columns : callable or None
         Of a cone of revolution: its numbers (m,) by the names of `cone_rows.ConeColumn`, for
         compiled passes over many points.
+    locked : callable or None
+        Energy density (m,) that stress (m, 6) and variables store beyond the elastic energy of
+        the stress.
+    shaped : callable or None
+        The law as its parameters shape it: how many variables there are, what of them is the same
+        at all steps. See `law_at`.
     """
 
     respond: Respond
@@ -61,8 +74,27 @@ class PlasticLaw:
     symmetric: bool = True
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
+    defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
     columns: Columns | None = None
+    locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
+    shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
+
+
+def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
+    parts = iwan.parts_of(parameters)
+    return replace(
+        law,
+        variables=iwan.variables(parts),
+        respond=partial(iwan.respond, parts),
+        locked=partial(iwan.locked, parts),
+    )
+
+
+def _of_its_shape(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    return law_at(PLASTIC_LAWS["IWAN"], parameters).respond(parameters, stress, strain, variables)
 
 
 _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
@@ -73,7 +105,11 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         von_mises.perfect, ("SIGY",), positive=("SIGY",), columns=von_mises.perfect_columns
     ),
     "ISOTROPE": PlasticLaw(
-        von_mises.isotropic, ("ECRO",), curves=("ECRO",), columns=von_mises.isotropic_columns
+        von_mises.isotropic,
+        ("ECRO",),
+        curves=("ECRO",),
+        check=von_mises.check_strengths,
+        columns=von_mises.isotropic_columns,
     ),
     "CINEMATIQUE": PlasticLaw(
         von_mises.kinematic,
@@ -103,11 +139,52 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         columns=drucker_prager.hardening_columns,
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
+    "IWAN": PlasticLaw(
+        _of_its_shape, (iwan.CURVE,), curves=(iwan.CURVE,), check=iwan.check, shaped=_iwan
+    ),
+    "IWAN_PRESSION": PlasticLaw(
+        _of_its_shape,
+        (iwan.CURVE, iwan.PRESSURE),
+        positive=(iwan.PRESSURE,),
+        curves=(iwan.CURVE,),
+        check=iwan.check,
+        symmetric=False,
+        shaped=_iwan,
+    ),
+    "CAM_CLAY": PlasticLaw(
+        cam_clay.respond,
+        cam_clay.REQUIRED,
+        cam_clay.VARIABLES,
+        positive=("M", "P0", "KAPA", "LAMD", "G1"),
+        check=cam_clay.check,
+        symmetric=False,
+        defaults={"COHE": 0.0},
+        locked=cam_clay.locked,
+    ),
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
     ),
     "BETON_BAEL": PlasticLaw(
         uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
+    "ACIER_UNI": PlasticLaw(
+        menegotto_pinto.respond,
+        menegotto_pinto.REQUIRED,
+        menegotto_pinto.VARIABLES,
+        positive=("STSY",),
+        check=menegotto_pinto.check,
+        uniaxial=True,
+        defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
+    ),
+    "BETON_UNI": PlasticLaw(
+        hognestad.respond,
+        hognestad.REQUIRED,
+        hognestad.VARIABLES,
+        positive=("STFC", "EZER"),
+        check=hognestad.check,
+        uniaxial=True,
+        optional=hognestad.UNUSED,
+        defaults=hognestad.DEFAULTS,
     ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }
@@ -142,6 +219,11 @@ def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
     return PLASTIC_LAWS[after[0]]
 
 
+def law_at(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
+    """A law as these parameters shape it."""
+    return law if law.shaped is None else law.shaped(law, parameters)
+
+
 def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
     """Refuse inadmissible parameters.
 
@@ -155,9 +237,5 @@ def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
             raise MaterialError(
                 "kernel.materials.must", name=name, parameters_min=parameters[name].min()
             )
-    for name in law.curves:
-        for curve in parameters.curves[name][0]:
-            if (curve.parts[0].ordinates <= 0).any():
-                raise MaterialError("kernel.materials.curve-strengths-not", name=name)
     if law.check is not None:
         law.check(parameters)

@@ -103,11 +103,21 @@ class Response:
         Internal variables at the end.
     tangent : array (m, 6, 6)
         Derivative of the stress by the strain of the step (consistent with the integration).
+    elastic : array (m, 6) or None
+        Elastic strain of the step, where YOUN and NU do not give it.
     """
 
     stress: FloatArray
     variables: FloatArray
     tangent: FloatArray
+    elastic: FloatArray | None = None
+
+    def elastic_strain(self, parameters: PointParameters, before: FloatArray) -> FloatArray:
+        """Elastic strain (m, 6) of a step from the stress `before`."""
+        if self.elastic is not None:
+            return self.elastic
+        found: FloatArray = np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
+        return found
 
 
 def mises(stress: FloatArray) -> tuple[FloatArray, FloatArray]:

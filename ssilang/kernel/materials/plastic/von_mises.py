@@ -63,6 +63,18 @@ def isotropic(
     return _isotropic(parameters, stress, strain, variables, strength)
 
 
+def check_strengths(parameters: PointParameters) -> None:
+    """Refuse hardening curves with strengths that are not positive.
+
+    Raises
+    ------
+    MaterialError
+    """
+    for curve in parameters.curves["ECRO"][0]:
+        if (curve.parts[0].ordinates <= 0).any():
+            raise MaterialError("kernel.materials.curve-strengths-not", name="ECRO")
+
+
 def saturating(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:

@@ -31,7 +31,7 @@ from typing import IO, Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import KernelError, SingularFactorError
+from ssilang.kernel.base.errors import KernelError, LostSolverError, SingularFactorError
 from ssilang.kernel.base.memory import fits, gigabytes
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.petsc.server import PROTOCOL, receive, send
@@ -294,9 +294,9 @@ class _Line:
             gone = self.process.poll() is not None
         return receive(self.connection)[0]
 
-    def _death(self) -> KernelError:
+    def _death(self) -> LostSolverError:
         code = self.process.poll()
-        return KernelError(
+        return LostSolverError(
             "kernel.solvers.petsc-ended",
             command=self.command,
             code=0 if code is None else code,

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 from ssilang.kernel.base.compiled import cache
+from ssilang.kernel.base.compiled.kept import KeptFiles
 
 PROGRAM = """
 from __future__ import annotations
@@ -69,3 +70,26 @@ def test_code_of_older_states_goes_when_nobody_has_used_it_for_long(tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(
         [names[0], f"{module}-fedcba9876543210"]
     )
+
+
+def test_processes_that_fill_a_function_s_files_at_a_time_keep_their_code_apart(
+    tmp_path, monkeypatch
+):
+    """One compiles for floats, one for integers; both have read an empty index before."""
+    floats, integers = (KeptFiles(str(tmp_path), "spread-7.py311", (1.0, 9)) for _ in range(2))
+    monkeypatch.setattr(integers, "_load_index", dict)
+    write = floats._save_data
+
+    def meanwhile(*arguments):
+        integers.save("integers", "code for integers")
+        write(*arguments)
+
+    monkeypatch.setattr(floats, "_save_data", meanwhile)
+    floats.save("floats", "code for floats")
+    late = KeptFiles(str(tmp_path), "spread-7.py311", (1.0, 9))
+    found = {late.load("floats"): "floats", late.load("integers"): "integers"}
+    assert found.items() <= {
+        ("code for floats", "floats"), ("code for integers", "integers"),
+        (None, "floats"), (None, "integers"),  # not found: compiled again
+    }  # fmt: skip
+    assert set(found) - {None}

@@ -93,6 +93,7 @@ def test_a_block_that_lifts_off_moves_alike_on_petsc(tmp_path, full):
     petsc, summary = run(HEAD + ASKED + script, tmp_path / "petsc")
     solvers = {s["solver"] for s in summary["statistics"]["systems"]}
     assert solvers == {"PETSc MUMPS"}
+    assert petsc.exit_code == 0, petsc.message
     (motion,) = summary["statistics"]["calculations"]
     assert motion["solver"] == ("PETSC" if full == "VRAI" else "PETSc MUMPS")
     for here, there_ in zip(
@@ -161,6 +162,36 @@ def test_a_lost_rank_ends_the_run_with_a_message(tmp_path, monkeypatch):
     assert "a process or a machine was lost" in result.message
     assert "defect" not in result.message
     assert summary["statistics"]["petsc"]["ranks"] == 2
+
+
+@there
+@pytest.mark.parametrize("full", ["FAUX", "VRAI"])
+def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypatch, full):
+    from ssilang.kernel.solvers.petsc import client
+
+    script = HEAD + ASKED + MODEL + MOTION.replace("FULL0", full)
+    script = script.replace("TAB2 =", "TAB1 . 'REPRISE' = TABL ; TAB1 . 'PAS_SAUVES' = 1 ; TAB2 =")
+    whole, _ = run(script, tmp_path / "whole")
+    ask, asked = client._Line.ask, []
+
+    def lose(line, message, *arguments, **more):
+        asked.append(message["do"])
+        if message["do"] == "solve" and asked.count("solve") == 100:
+            os.kill(ranks()[-1], signal.SIGKILL)
+        return ask(line, message, *arguments, **more)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(client._Line, "ask", lose)
+        ended, summary = run(script, tmp_path / "ended")
+    assert ended.exit_code == 1
+    codes = [w["code"] for w in summary["warnings"]]
+    assert "operators.dynamics.checkpoint-left" in codes  # none was due: ten minutes between them
+    assert [e["code"] for e in summary["errors"]] == ["kernel.solvers.petsc-ended"]
+    resumed, summary = run(script, tmp_path / "ended", resume=True)
+    assert resumed.exit_code == 0, resumed.message
+    assert "operators.dynamics.resumed" in [w["code"] for w in summary["warnings"]]
+    for here, there_ in zip(values(whole, "L1", "L2"), values(resumed, "L1", "L2"), strict=True):
+        np.testing.assert_allclose(there_, here, atol=1e-12 * np.abs(here).max())
 
 
 @there
