@@ -53,7 +53,8 @@ SAME_STEP = 1e-9
 class BulkRun:
     """A calculation under way: `motion` and `state` are those of the last accepted step.
 
-    Motions carry the bodies' internal `force` (n,) from step to step.
+    Motions carry the bodies' internal `force` (n,) from step to step; `full` asks for Newton's
+    method on all unknowns where steps could keep a factor.
     """
 
     problem: Problem
@@ -65,6 +66,7 @@ class BulkRun:
     residuals: list[list[float]] = field(default_factory=list)
     last: tuple[FloatArray, FloatArray] | None = None
     keeper: Keeper | None = None
+    full: bool = False
     motion: Motion = field(init=False)
     force: FloatArray = field(init=False)
 
@@ -349,7 +351,7 @@ class _BulkLoop(SparseLoop):
 
     def _made(self, A: sp.csr_array, dt: float, share: float) -> BulkSolver:
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
-        if self.problem.numbering.size < MANY:
+        if self.bulk_run.full or self.problem.numbering.size < MANY:
             return BulkSolver(self.problem, A, share, bulk, state)
         from ssilang.kernel.plasticity.large.accelerated import AcceleratedSolver, is_accelerated
 
@@ -395,7 +397,8 @@ def run_bulk(
     progress: Progress | None = None,
     dynamic: bool = False,
     keeper: Keeper | None = None,
+    full: bool = False,
 ) -> History:
     """Step a problem with plastic bodies through its times."""
-    run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper)
+    run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper, full=full)
     return integrate_bulk(run) if dynamic else step_bulk_statics(run)
