@@ -162,6 +162,11 @@ class FibreParameters(PointParameters):
             found[:, c, c] = inverse[:, i]
         return found
 
+    def elastic_energy(self, stress: FloatArray) -> FloatArray:
+        """Energy (m,) that stresses (m, 6) store in a unit of volume."""
+        found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.compliance, stress)
+        return found
+
 
 @dataclass(frozen=True, eq=False)
 class FibrePoints(PlasticPoints):

@@ -102,7 +102,7 @@ class YieldingBulk(FiniteBulk):
             tangents.append(now.tangent(u[places]))
         whole_answer = replace(self, places=(*self.places, *self.at))
         work = 0.5 * float((self.force(state) + force) @ du)
-        return Answer(force, whole_answer._assembled(tangents), _state(u, after), work)
+        return Answer(force, lambda: whole_answer._assembled(tangents), _state(u, after), work)
 
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""

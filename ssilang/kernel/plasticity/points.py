@@ -121,8 +121,7 @@ class PlasticPoints:
 
     def stored(self, state: PointState) -> float:
         """Elastic energy, with what a law locks in."""
-        strain = np.einsum("mij,mj->mi", self.parameters.compliance, state.stress)
-        density = 0.5 * np.einsum("mi,mi->m", strain, state.stress)
+        density = self.parameters.elastic_energy(state.stress)
         if self.law.locked is not None:
             density = density + self.law.locked(self.parameters, state.stress, state.variables)
         return float(density @ self.weights.ravel())
