@@ -24,7 +24,7 @@ from types import ModuleType
 _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parent
 _KEPT = (
-    "*.md", "docs/*.md", "docs/*.ipynb", "docs/fr/*.md",
+    "*.md", "docs/*.md", "docs/*.ipynb", "docs/fr/*.md", "docs/pictures/*.png",
     "cases/*.md", "cases/*/*.md", "cases/*/pictures/*.png", "benchmarks/*.md",
     "benchmarks/pictures/*.png", "editors/vscode/README.md",
 )  # fmt: skip
@@ -64,6 +64,7 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Questions", (("Questions", "docs/faq.md"),)),
     ("Physics", (
         ("The equations", "docs/physics.md"), ("Plastic bodies", "docs/laws.md"),
+        ("When it matters", "docs/matter.md"),
     )),
     ("Others", (("OpenSees", "docs/opensees.md"), ("Cast3M", "docs/differences.md"))),
     ("Français", (
@@ -156,7 +157,8 @@ def with_mathml(text: str) -> str:
     from latex2mathml.converter import convert
 
     def block(match: re.Match[str]) -> str:
-        return f"<div>{convert(match[1].strip(), display='block')}</div>"
+        # on a phone a long one scrolls by itself, and not the page
+        return f'<div style="overflow-x: auto">{convert(match[1].strip(), display="block")}</div>'
 
     text = re.sub(r"^\$\$\n(.*?)^\$\$$", block, text, flags=re.DOTALL | re.MULTILINE)
     return re.sub(r"\$([^$\n]+)\$", lambda m: convert(m[1]), text)

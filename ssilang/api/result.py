@@ -361,6 +361,20 @@ class Result(Mapping[str, Any]):
         """Pictures that the run made, in order."""
         return pictures_of(self.session)
 
+    @property
+    def report(self) -> Path:
+        """The page `report.html` of the run; without a folder asked for it goes with the result.
+
+        Raises
+        ------
+        Error
+            If it was run without `report=True`.
+        """
+        path = Path(self.session.output_directory) / "report.html"
+        if not path.is_file():
+            raise refused("api.no-report", self.language)
+        return path
+
     def _repr_html_(self) -> str:
         rows = [(name, type_of(value)) for name, value in self._names.items()]
         return rows_html(("", f"{self.seconds:.2f} s"), rows)

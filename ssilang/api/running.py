@@ -35,6 +35,7 @@ def run(
     allow: Allowed = (),
     language: str = "en",
     quiet: bool = True,
+    report: bool = False,
     **parameters: Any,
 ) -> Result:
     """Run a script.
@@ -52,6 +53,9 @@ def run(
         Of messages.
     quiet : bool
         False: what the script prints, and warnings, appear while it runs.
+    report : bool
+        Whether the run takes down what its page shows; `Result.report` is that page. It can be
+        copied, and stays where `out` is given.
     **parameters
         Values that names of the script get in place of their first assignment: numbers, words,
         logicals, lists of them, a pandas Series (an EVOLUTION over its index).
@@ -82,7 +86,8 @@ def run(
         output_directory=_folder(out),
         allowed=folders(allow),
         language=language,
-        summary=out is not None,
+        summary=out is not None or report,
+        report=report,
         quiet=quiet,
         given={name.upper(): _given(name, value, language) for name, value in parameters.items()},
     )

@@ -18,7 +18,13 @@ from ssilang.api.libraries import library
 from ssilang.api.running import Allowed, Script, folders
 from ssilang.cli.sweeping.given import MOTION, Case, GivenError, Value, combined, motions_in
 from ssilang.cli.sweeping.pool import dask_installed
-from ssilang.cli.sweeping.sweep import TOGETHER, SweepOptions, run_cases, write_results
+from ssilang.cli.sweeping.sweep import (
+    TOGETHER,
+    SweepOptions,
+    run_cases,
+    write_reports,
+    write_results,
+)
 from ssilang.cli.sweeping.table import RESERVED, Row
 from ssilang.language.say.errors import SsiError
 
@@ -38,6 +44,7 @@ def sweep(
     allow: Allowed = (),
     language: str = "en",
     quiet: bool = True,
+    report: bool = False,
     **values: Any,
 ) -> pandas.DataFrame:
     """Run a script for all combinations of values and ground motions, as `ssilang sweep` does.
@@ -48,8 +55,8 @@ def sweep(
     records : path, or paths
         A folder of ground motions, or their files; the script finds the path of one in MOTION.
     out : path, optional
-        Folder for what the runs write, for `sweep.csv` and for pictures of the figures; a sweep of
-        that folder that was stopped goes on. Without it nothing stays.
+        Folder for what the runs write, for `sweep.csv`, joined `histories` and pictures of the
+        figures; a sweep of that folder that was stopped goes on. Without it nothing stays.
     jobs : int
         Processes; 0: one a core.
     together : int
@@ -58,6 +65,8 @@ def sweep(
         Address of a Dask scheduler, whose workers run instead of processes here.
     allow, language, quiet
         As for `run`.
+    report : bool
+        Whether each run and the sweep leave a page, `report.html`, in `out`.
     **values
         A value or several for names of the script; the last name changes fastest.
 
@@ -83,9 +92,12 @@ def sweep(
     pd = library("pandas", language)
     if isinstance(script, str) and (";" in script or "\n" in script):
         raise refused("api.sweep-of-a-file", language)
+    if report and out is None:
+        raise refused("api.report-without-folder", language)
     options = SweepOptions(
         Path(script), out=None if out is None else Path(out), jobs=jobs, scheduler=scheduler,
         allowed=folders(allow), language=language, together=together,
+        report=report,
     )  # fmt: skip
     told = (io.StringIO(), io.StringIO()) if quiet else (sys.stdout, sys.stderr)
     try:
@@ -136,6 +148,8 @@ def _rows(cases: list[Case], options: SweepOptions, out: TextIO, err: TextIO) ->
     if options.out is not None:
         rows = run_cases(cases, options, out, err)
         write_results(rows, list(cases[0].values), options.folder)
+        if options.report:
+            write_reports(rows, options)
         return rows
     with tempfile.TemporaryDirectory(prefix="ssilang-") as folder:
         options.out = Path(folder)

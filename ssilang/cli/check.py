@@ -6,6 +6,7 @@ import io
 from typing import TextIO
 
 from ssilang.cli.checking.scope import assigned_names
+from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.cli.terminal.colour import coloured
@@ -36,9 +37,15 @@ def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiErr
 
 
 def typed_source(
-    source: Source, syntax_only: bool = False
+    source: Source, syntax_only: bool = False, sound: SoundStatements | None = None
 ) -> tuple[list[SsiError], set[str], dict[int, str]]:
-    """As `check_source`, and the types that names get, by where the name stands."""
+    """As `check_source`, and the types that names get, by where the name stands.
+
+    Parameters
+    ----------
+    sound : SoundStatements, optional
+        What was found in this script before it was changed.
+    """
     try:
         script = parse(source)
     except SeveralErrors as several:
@@ -48,6 +55,6 @@ def typed_source(
     if syntax_only:
         return [], set(), {}
     session = make_session(source, RunOptions(), io.StringIO())
+    checker = Checker(session, sound)
     names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-    checker = Checker(session)
     return checker.check(script), names, checker.types

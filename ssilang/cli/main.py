@@ -246,6 +246,7 @@ def _sweep(options: argparse.Namespace) -> int:
             options.allow,
             options.lang,
             options.together,
+            options.report,
         ),
         sys.stdout,
         sys.stderr,

@@ -169,6 +169,7 @@ def _sweep(sweep: argparse.ArgumentParser) -> None:
     sweep.add_argument("--jobs", type=int, default=0, help="cli.usage-jobs")
     sweep.add_argument("--together", type=int, default=8, metavar="N", help="cli.usage-together")
     sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
+    sweep.add_argument("--report", action="store_true", help="cli.usage-report-sweep")
     _allowed(sweep)
     _language_argument(sweep)
 

@@ -1,7 +1,8 @@
 """What a run with `--report` leaves for its report: a folder `report` in the output folder.
 
-`contents.json` says what there is: the deck's text and, under `calculations`, `drawings` and
-`shapes`, one entry a calculation, a picture of curves, a field or basis of modes. Of a calculation
+`contents.json` says what there is: the deck's text and, under `calculations`, `drawings`,
+`shapes` and `verdicts`, one entry a calculation, a picture of curves, a field or basis of modes,
+the pictures of a footing's verdict. Of a calculation
 there is `calculation_N.csv`, energies and footings in time, and `scene_N.vtkhdf`, some instants of
 all that moves. All of it is of use without the report.
 """
@@ -23,6 +24,7 @@ from ssilang.kernel.base.arrays import FloatArray
 FOLDER, CONTENTS = "report", "contents.json"
 MOST_CALCULATIONS = 12
 MOST_DRAWINGS = 24
+MOST_VERDICTS = 6
 MOST_POINTS = 4000
 """Points of a curve that are kept; of more, the extremes of equal stretches."""
 
@@ -36,7 +38,7 @@ class Recording:
     folder : Path
     told : dict
         The deck: `name`, `text`.
-    calculations, drawings, shapes : list of dict
+    calculations, drawings, shapes, verdicts : list of dict
         As `contents.json` has them; those beyond the most are only counted.
     """
 
@@ -45,6 +47,7 @@ class Recording:
     calculations: list[dict[str, Any]] = field(default_factory=list)
     drawings: list[dict[str, Any]] = field(default_factory=list)
     shapes: list[dict[str, Any]] = field(default_factory=list)
+    verdicts: list[list[dict[str, Any]]] = field(default_factory=list)
     left_out: dict[str, int] = field(default_factory=lambda: {"calculations": 0, "drawings": 0})
 
     @property
@@ -68,8 +71,14 @@ class Recording:
         if len(self.drawings) >= MOST_DRAWINGS:
             self.left_out["drawings"] += 1
             return
-        made = [{**curve, **_thinned(curve["x"], curve["y"])} for curve in curves]
-        self.drawings.append({**drawing, "curves": made})
+        self.drawings.append(thinned_drawing(drawing, curves))
+
+    def judge(self, pictures: list[dict[str, Any]]) -> None:
+        """Take down the pictures of a verdict; beyond the most it is counted."""
+        if len(self.verdicts) >= MOST_VERDICTS:
+            self.left_out["drawings"] += len(pictures)
+            return
+        self.verdicts.append(pictures)
 
     def write(self) -> Path:
         """Write `contents.json`."""
@@ -79,10 +88,17 @@ class Recording:
             "calculations": self.calculations,
             "drawings": self.drawings,
             "shapes": self.shapes,
+            "verdicts": self.verdicts,
             "left_out": self.left_out,
         }
         write_text(path, json.dumps(told, ensure_ascii=False) + "\n")
         return path
+
+
+def thinned_drawing(drawing: Mapping[str, Any], curves: list[dict[str, Any]]) -> dict[str, Any]:
+    """A picture whose curves, `x` and `y` arrays, have few points."""
+    made = [{**curve, **_thinned(curve["x"], curve["y"])} for curve in curves]
+    return {**drawing, "curves": made}
 
 
 def _thinned(x: FloatArray, y: FloatArray) -> dict[str, list[float | None]]:

@@ -1,6 +1,6 @@
 """Results, meshes and pictures looked at: in a window, or as a picture without a screen.
 
-VTK's files are read by VTK, meshes of other programs by meshio.
+VTK's files are read by VTK, meshes of other programs by the door that scripts have.
 """
 
 from __future__ import annotations
@@ -18,21 +18,25 @@ import numpy as np
 
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.mesh_files.reading import ENDINGS, mesh_with_fields
 from ssilang.io.plots.animation import save_animation
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.stage import hidden_plotter, light_up
 from ssilang.io.plots.view import DEFAULT_DIRECTION
+from ssilang.io.vtk.vtkhdf import COMPONENT
 from ssilang.kernel.fields.deformed import round_down
 
 PICTURES = ("png", "jpg", "jpeg", "bmp", "tif", "tiff")
 RESULTS = ("vtkhdf", "pvd", "vtu", "vtk", "vtp", "vti", "vtm")
-MESHES = ("msh", "med", "inp", "bdf", "nas", "xdmf", "e", "exo", "off", "obj", "stl", "ply")
+MESHES = (
+    *(e[1:] for e in ENDINGS if e[1:] not in RESULTS), "xdmf", "e", "exo", "off", "obj", "ply",
+)  # fmt: skip
 DRAWN = ("png", "gif", "jpg", "jpeg")
 
 _SIZE = (1280, 960)
 _SHARE = 0.08  # of a scene's diagonal: largest displacement shown if no scale is asked for
 _MOST_EDGES = 30_000  # cells whose edges are drawn
-# what displacements are called; a .vtkhdf has no names of components
+# what displacements are called
 _FIRST, _CALLED = ("UX", "UR"), ("displacement", "depl", "u")
 _LABELS = ("group", "material", "part", "gmsh:physical", "gmsh:geometrical", "cell_tags")
 _INK = "#1b1f24"
@@ -81,7 +85,9 @@ class Series:
             elif ending in (*RESULTS, *PICTURES, "stl", "ply", "obj"):
                 self._one = pyvista.read(str(self.path))
             else:
-                self._one = _by_meshio(self.path)
+                kind = ENDINGS.get(f".{ending}")
+                read = mesh_with_fields(self.path, kind) if kind else _other(self.path)
+                self._one = pyvista.from_meshio(read)
         except InputError:
             raise
         except Exception as problem:  # whatever a library says of a file that is none of its own
@@ -123,21 +129,33 @@ class _OneFile:
         import pyvista
 
         self._reader.Update()
-        return pyvista.wrap(self._reader.GetOutput())
+        found = pyvista.wrap(self._reader.GetOutput())
+        for part in found if isinstance(found, pyvista.MultiBlock) else (found,):
+            _name_components(part)
+        return found
 
 
-def _by_meshio(path: Path) -> Any:
+def _name_components(data: Any) -> None:
+    """Give arrays the names of their components, which stand in the field data of our files."""
+    for told in data.field_data:
+        array, sign, name = told.rpartition(COMPONENT)
+        for place in (data.point_data, data.cell_data):
+            if sign and array in place:
+                column = int(data.field_data[told][0]) - 1
+                place.VTKObject.GetAbstractArray(array).SetComponentName(column, name)
+
+
+def _other(path: Path) -> Any:
+    """A file that meshio knows by its ending, and scripts do not."""
     import meshio
-    import pyvista
 
     told = io.StringIO()
     try:
         with redirect_stdout(told), redirect_stderr(told):
-            made = meshio.read(path)
+            return meshio.read(path)
     except SystemExit:  # its way to say that no format of that ending fits
         said = " ".join(told.getvalue().split())
         raise InputError("io.not-viewed", path=path, reason=said or "meshio") from None
-    return pyvista.from_meshio(made)
 
 
 def _first_line(problem: Exception) -> str:

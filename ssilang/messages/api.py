@@ -10,6 +10,18 @@ MESSAGES: dict[str, Message] = {
         "this needs {name}: pip install {line}",
         "ceci demande {name} : pip install {line}",
     ),
+    "no-report": Message(
+        "the run has left no report",
+        "le calcul n'a pas laissé de rapport",
+        "ssilang.run(..., report=True)",
+        "ssilang.run(..., report=True)",
+    ),
+    "report-without-folder": Message(
+        "report=True of a sweep needs a folder: nothing would stay of it",
+        "report=True d'un balayage demande un dossier : rien n'en resterait",
+        "ssilang.sweep(..., out='DIR', report=True)",
+        "ssilang.sweep(..., out='DIR', report=True)",
+    ),
     "no-such-name": Message(
         "the script has no {name}", "le jeu de données n'a pas de {name}", _NEAR, _NEAR_FR
     ),

@@ -60,9 +60,11 @@ MESSAGES: dict[str, Message] = {
         "le calcul {number} a échoué : {error} (runs/{folder})",
     ),
     "swept": Message(
-        "{runs} {runs:run|runs}, {failed} failed; {table}, {pictures} {pictures:picture|pictures}",
+        "{runs} {runs:run|runs}, {failed} failed; {table}, {pictures} {pictures:picture|pictures}"
+        "{histories:?, {histories} joined {histories:history|histories}}",
         "{runs} {runs:calcul|calculs}, {failed} en échec ; {table}, {pictures} "
-        "{pictures:image|images}",
+        "{pictures:image|images}{histories:?, {histories} {histories:histoire réunie|histoires "
+        "réunies}}",
     ),
     "no-working-folder": Message(
         "the working folder was removed",
@@ -166,7 +168,8 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "report.html of a folder of results", "report.html d'un répertoire de résultats"
     ),
     "usage-report-folder": Message(
-        "folder of a run, such as results/case", "répertoire d'un calcul, comme results/cas"
+        "folder of a run or a sweep, such as results/case",
+        "répertoire d'un calcul ou d'un balayage, comme results/cas",
     ),
     "usage-report-option": Message(
         "write report.html into the output folder: checks, energies, curves, the footing in "
@@ -184,6 +187,22 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-check": Message("report mistakes without running", "signale les fautes sans exécuter"),
     "usage-help-of": Message(
         "help of a word, or what is known about it", "aide d'un mot, ou ce qu'on en sait"
+    ),
+    "histories-other-columns": Message(
+        "{count} {count:table of a run has|tables of runs have} other columns than those of the "
+        "first run: not joined",
+        "{count} {count:table de calcul a|tables de calculs ont} d'autres colonnes que celles du "
+        "premier : non {count:réunie|réunies}",
+    ),
+    "histories-too-large": Message(
+        "too large to be joined: {names}",
+        "trop gros pour être réunis : {names}",
+    ),
+    "usage-report-sweep": Message(
+        "write report.html of the sweep, and of each run: table of runs, figures over what was "
+        "swept",
+        "écrire report.html du balayage, et de chaque calcul : table des calculs, valeurs selon ce "
+        "qui varie",
     ),
     "usage-sweep": Message(
         "run a script over parameters and motions",

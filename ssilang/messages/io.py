@@ -118,6 +118,10 @@ MESSAGES: dict[str, Message] = {
         "the three points of the plane lie on a line",
         "les trois points du plan sont alignés",
     ),
+    "upright-along-view": Message(
+        "one looks along what is to go upwards in the picture",
+        "on regarde le long de ce qui doit aller vers le haut de l'image",
+    ),
     "curve-asked-evolution": Message(
         "curve {bad} is asked for, the evolution has {count}",
         "la courbe {bad} est demandée, l'évolution en a {count}",
@@ -383,15 +387,73 @@ MESSAGES: dict[str, Message] = {
     "esm-without-step": Message(
         "{name}: the head has no 'SAMPLING_INTERVAL_S: ...'",
         "{name} : l'en-tête n'a pas de 'SAMPLING_INTERVAL_S: ...'",
-        "ESM and ITACA files begin with lines 'KEY: VALUE'; LIRE 'PEER' and 'CSV' read others",
-        "les fichiers ESM et ITACA commencent par des lignes 'CLE: VALEUR' ; LIRE 'PEER' et 'CSV' "
-        "lisent les autres",
+        "ESM and ITACA files begin with lines 'KEY: VALUE'; LIRE 'PEER', 'COSMOS', 'SIGNAL' read "
+        "others",
+        "les fichiers ESM et ITACA commencent par des lignes 'CLE: VALEUR' ; LIRE 'PEER', 'COSMOS' "
+        "et 'SIGNAL' lisent les autres",
     ),
     "esm-other-count": Message(
         "{name}: NDATA says {count} {count:value|values}, the file holds {n_values}",
         "{name} : NDATA annonce {count} {count:valeur|valeurs}, le fichier en contient {n_values}",
         "the file is cut, or has further columns: fetch it again",
         "le fichier est coupé, ou a d'autres colonnes : le reprendre",
+    ),
+    "cosmos-other-version": Message(
+        "{name}: its first line says {version:?version {version}|no version} of the COSMOS format, "
+        "1.20 is read",
+        "{name} : sa première ligne dit {version:?la version {version}|aucune version} du format "
+        "COSMOS, la 1.20 est lue",
+        "'(Format v01.20 with 13 text lines)' stands in a file of that version; LIRE 'SIGNAL' "
+        "reads tables with titles",
+        "'(Format v01.20 with 13 text lines)' est écrit dans un tel fichier ; LIRE 'SIGNAL' lit "
+        "les tables à titres",
+    ),
+    "cosmos-without-step": Message(
+        "{name}: the 34th of the 100 reals, the step, is no positive number",
+        "{name} : le 34e des 100 réels, le pas, n'est pas un nombre positif",
+    ),
+    "cosmos-without-series": Message(
+        "{name}: no line says how many accelerations, velocities or displacements follow",
+        "{name} : aucune ligne ne dit combien d'accélérations, vitesses ou déplacements suivent",
+        "raw counts (.V0) are not read: fetch the volume 1 or 2",
+        "les comptes bruts (.V0) ne sont pas lus : récupérez le volume 1 ou 2",
+    ),
+    "cosmos-duration": Message(
+        "{name}: {said:g} s, says the line above the values, their step makes {duration:.4g} s",
+        "{name} : {said:g} s, dit la ligne au-dessus des valeurs, leur pas donne {duration:.4g} s",
+        "the file is damaged: fetch it again",
+        "le fichier est abîmé : récupérez-le de nouveau",
+    ),
+    "cosmos-too-few": Message(
+        "{name}: line {line} says {count} {count:value|values}, {n_values} "
+        "{n_values:follows|follow}",
+        "{name} : la ligne {line} annonce {count} {count:valeur|valeurs}, {n_values} "
+        "{n_values:suit|suivent}",
+        "the file is cut: fetch it again",
+        "le fichier est tronqué : récupérez-le de nouveau",
+    ),
+    "titled-time-unit": Message(
+        "{name}: '{title}' names no unit of time that is known",
+        "{name} : '{title}' ne nomme pas d'unité de temps connue",
+        "the first column are times, in s or ms: time (s)",
+        "la première colonne contient les temps, en s ou ms : temps (s)",
+    ),
+    "titled-times-fall": Message(
+        "{name}, line {line}: the time is not above that of the line before",
+        "{name}, ligne {line} : le temps ne dépasse pas celui de la ligne d'avant",
+        "the first column are times; values without times: LIRE 'CSV', then EVOL 'MANU'",
+        "la première colonne contient les temps ; sans temps : LIRE 'CSV', puis EVOL 'MANU'",
+    ),
+    "titled-no-table": Message(
+        "{name} has no two lines of numbers in two columns",
+        "{name} n'a pas deux lignes de nombres en deux colonnes",
+        "a line of titles, then times and values: 0.01; 0.25",
+        "une ligne de titres, puis temps et valeurs : 0.01; 0.25",
+    ),
+    "titled-other-columns": Message(
+        "{name}, line {line}: {count} {count:cell|cells}, the first line of numbers has {needed}",
+        "{name}, ligne {line} : {count} {count:case|cases}, la première ligne de nombres en a "
+        "{needed}",
     ),
     "record-not-finite": Message(
         "{name} has values that are too large for a number",

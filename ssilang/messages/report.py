@@ -199,4 +199,48 @@ MESSAGES: dict[str, Message] = {
         "{count} further {count:scene|scenes} left out",
         "{count} {count:autre scène|autres scènes} de côté",
     ),
+    # the verdict of a footing
+    "verdict": Message("Verdict of the footing", "Bilan de la semelle"),
+    "area": Message("area of the footing (m2)", "aire de la semelle (m2)"),
+    "capacity": Message("pressure that the soil bears (Pa)", "pression que le sol supporte (Pa)"),
+    "friction": Message("friction coefficient", "coefficient de frottement"),
+    "motions": Message("uplift and settlement (m)", "soulèvement et enfoncement (m)"),
+    "factors": Message("factors of safety", "coefficients de sécurité"),
+    "floor": Message("floor {number}, {component}", "plancher {number}, {component}"),
+    "broadened": Message("broadened", "élargi"),
+    "floor-head": Message("floor", "plancher"),
+    "component": Message("component", "composante"),
+    "damping": Message("damping", "amortissement"),
+    "acceleration": Message("largest acceleration", "plus grande accélération"),
+    "frequency": Message("frequency (Hz)", "fréquence (Hz)"),
+    "verdict-uplift": Message("uplift (m)", "soulèvement (m)"),
+    "verdict-settlement": Message("settlement (m)", "enfoncement (m)"),
+    "verdict-overturning": Message("overturning", "renversement"),
+    "verdict-sliding": Message("sliding", "glissement"),
+    # a sweep
+    "not-a-sweep": Message(
+        "'{path}' is not the table of a sweep",
+        "'{path}' n'est pas la table d'un balayage",
+        "run the sweep again",
+        "relancez le balayage",
+    ),
+    "sweep-ran": Message("all runs ended well", "tous les calculs ont abouti"),
+    "sweep-failed": Message(
+        "{count} {count:run|runs} failed", "{count} {count:calcul en échec|calculs en échec}"
+    ),
+    "sweep-runs": Message("Runs", "Calculs"),
+    "sweep-figures": Message("Figures over what was swept", "Valeurs selon ce qui varie"),
+    "sweep-histories": Message("Histories of all runs", "Histoires de tous les calculs"),
+    "sweep-joined": Message(
+        "One table each: number of the run, its values, then the columns that the runs wrote.",
+        "Une table chacune : numéro du calcul, ses valeurs, puis les colonnes écrites par les "
+        "calculs.",
+    ),
+    "sweep-seconds": Message("work of all runs", "travail de tous les calculs"),
+    "sweep-error": Message("error", "erreur"),
+    "sweep-rows-left": Message(
+        "The first {count} runs; sweep.csv has all of them.",
+        "Les {count} premiers calculs ; sweep.csv les a tous.",
+    ),
+    "sweep-lines-left": Message("{count} more in sweep.csv", "{count} de plus dans sweep.csv"),
 }

@@ -23,6 +23,76 @@ MESSAGES: dict[str, Message] = {
         "{1} of {2} checks out of tolerance",
         "{1} vérifications sur {2} hors tolérance",
     ),
+    "accord-records": Message(
+        "@ACCORD: SIGNAUX is a table of records numbered from 1",
+        "@ACCORD : SIGNAUX est une table de signaux numérotés à partir de 1",
+    ),
+    "accord-band": Message(
+        "@ACCORD: PERIODES are two, increasing and above zero",
+        "@ACCORD : PERIODES sont deux, croissantes et positives",
+    ),
+    "accord-target": Message(
+        "@ACCORD: CIBLE goes from {1} to {2} Hz, the band from {3} to {4} Hz",
+        "@ACCORD : CIBLE va de {1} à {2} Hz, la bande de {3} à {4} Hz",
+        "PERIODES are in s, CIBLE is over Hz (FREQPERI turns one into the other)",
+        "PERIODES sont en s, CIBLE est en Hz (FREQPERI passe de l'un à l'autre)",
+    ),
+    "accord-floor": Message(
+        "@ACCORD: PLANCHER is from 0 to 2, not {1}",
+        "@ACCORD : PLANCHER est entre 0 et 2, pas {1}",
+    ),
+    "accord-missed": Message(
+        "@ACCORD: record {1} is {2} per cent from the target, TOLERANCE allows {3}",
+        "@ACCORD : le signal {1} est à {2} pour cent du spectre visé, TOLERANCE en admet {3}",
+        "a record nearer to the target, a shorter band or a larger TOLERANCE",
+        "un signal plus proche, une bande plus courte ou une TOLERANCE plus grande",
+        severity="warning",
+    ),
+    "accord-far": Message(
+        "@ACCORD: record {1} is multiplied by {2}: it is none of the target's earthquake",
+        "@ACCORD : le signal {1} est multiplié par {2} : il n'est pas du séisme visé",
+        "codes and authors stay between 0.25 and 4; in g, or in cm/s2?",
+        "codes et auteurs restent entre 0.25 et 4 ; en g, ou en cm/s2 ?",
+        severity="warning",
+    ),
+    "accord-record": Message(
+        "record {1}: times {2}, mean misfit {3} per cent, largest {4} per cent",
+        "signal {1} : fois {2}, écart moyen {3} pour cent, le plus grand {4} pour cent",
+    ),
+    "accord-mean": Message(
+        "mean of {1} records over the target: least {2} at {3} Hz, largest {4} at {5} Hz",
+        "moyenne de {1} signaux sur la cible : au moins {2} à {3} Hz, au plus {4} à {5} Hz",
+    ),
+    "cible-soil": Message(
+        "@CIBLE: SOL is A, B, C, D or E, not {1}",
+        "@CIBLE : SOL est A, B, C, D ou E, pas {1}",
+    ),
+    "cible-type": Message(
+        "@CIBLE: TYPE is 1 or 2, not {1}",
+        "@CIBLE : TYPE est 1 ou 2, pas {1}",
+    ),
+    "cible-needs": Message(
+        "@CIBLE: the spectrum of {1} needs {2}",
+        "@CIBLE : le spectre {1} demande {2}",
+    ),
+    "cible-above-zero": Message(
+        "@CIBLE: {1} must be above zero, it is {2}",
+        "@CIBLE : {1} doit être positif, il vaut {2}",
+    ),
+    "cible-frequency": Message(
+        "@CIBLE: {1} Hz is a period beyond 4 s, where EN 1998-1 3.2.2.2 ends",
+        "@CIBLE : {1} Hz est une période au-delà de 4 s, où s'arrête EN 1998-1 3.2.2.2",
+        "FREQUENCES of 0.25 Hz at least",
+        "FREQUENCES d'au moins 0.25 Hz",
+    ),
+    "cible-damping": Message(
+        "@CIBLE: the spectrum of ASCE 7 is that of 5 per cent, AMORTISSEMENT is {1}",
+        "@CIBLE : le spectre d'ASCE 7 est celui de 5 pour cent, AMORTISSEMENT vaut {1}",
+    ),
+    "cible-corners": Message(
+        "@CIBLE: TL, {1} s, is below the corner SD1/SDS, {2} s",
+        "@CIBLE : TL, {1} s, est sous le coin SD1/SDS, {2} s",
+    ),
     "bilanssi-no-instants": Message(
         "@BILANSSI: no instant of RESULTATS has tractions of joints (CONTRAINTES)",
         "@BILANSSI : aucun instant de RESULTATS n'a de contraintes de joints (CONTRAINTES)",

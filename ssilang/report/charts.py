@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 from ssilang.messages.message import Teller
+from ssilang.report.html import text
 from ssilang.report.results import Calculation, Results
 
 MOST_COLUMNS = 12
@@ -33,7 +35,7 @@ class Chart:
 
     Attributes
     ----------
-    group : 'footing', 'energy', 'curves' or 'tables'
+    group : 'verdict', 'footing', 'energy', 'curves', 'tables' or 'sweep'
     x, y : str
         Names of the axes with their units.
     log : (bool, bool)
@@ -78,7 +80,8 @@ def charts_of(results: Results, told: Teller) -> list[Chart]:
     for i, calculation in enumerate(results.calculations, 1):
         name = f"{calculation.name} {i}" if len(results.calculations) > 1 else ""
         made += _Of(calculation, name, system, told).charts()
-    made += [c for d in results.drawings if (c := _drawing(d)) is not None]
+    made += [c for d in results.drawings if (c := _drawing(d, "curves")) is not None]
+    made += [c for v in results.verdicts for d in v if (c := _drawing(d, "verdict")) is not None]
     for name, columns in results.tables.items():
         made += _table(name, columns)
     return made
@@ -166,8 +169,20 @@ class _Of:
         return [Chart("energy", title, axis, self._axis("report.energy", "J"), lines)]
 
 
-def _drawing(told: dict[str, Any]) -> Chart | None:
-    """A picture that the deck drew."""
+def charts_html(charts: Sequence[Chart], group: str, told: Teller) -> str:
+    """Where the page draws the pictures of a group; nothing without any."""
+    figures = [
+        f'<figure class=chart data-chart="{i}"><figcaption>{text(c.title)}</figcaption>'
+        "<div class=plot></div></figure>"
+        for i, c in enumerate(charts)
+        if c.group == group
+    ]
+    head = f"<p class=note>{text(told('report.zoom'))}</p>"
+    return f"{head}<div class=charts>{''.join(figures)}</div>" if figures else ""
+
+
+def _drawing(told: dict[str, Any], group: str) -> Chart | None:
+    """A picture that the deck drew, or that its verdict has."""
     lines = [
         Line(c["name"] or str(i), _numbers(c["x"]), _numbers(c["y"]))
         for i, c in enumerate(told["curves"], 1)
@@ -176,7 +191,7 @@ def _drawing(told: dict[str, Any]) -> Chart | None:
         return None
     title = told["title"] or (told["files"] or [""])[0]
     log = (bool(told["log"][0]), bool(told["log"][1]))
-    return Chart("curves", title, told["x"], told["y"], lines, log)
+    return Chart(group, title, told["x"], told["y"], lines, log, loop=told.get("loop", False))
 
 
 def _numbers(values: list[float | None]) -> FloatArray:

@@ -7,11 +7,6 @@ stand in it as data, drawn by uPlot and vtk.js, which are in the file too.
 from __future__ import annotations
 
 import base64
-import html
-import json
-from collections.abc import Iterable, Sequence
-from functools import cache
-from importlib import resources
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -19,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.language.say.visible import visible
 from ssilang.messages.message import Teller, teller
-from ssilang.report.charts import Chart, charts_of
+from ssilang.report.charts import Chart, charts_html, charts_of
 from ssilang.report.deck_text import Colours, deck_html
+from ssilang.report.html import asset, json_in_page, number, section, table, text
 from ssilang.report.results import Results
 from ssilang.report.scenes import SceneError, packed_scene
+from ssilang.report.verdict import verdict_html
 
 LARGEST = 20_000_000
 """Bytes of a report."""
@@ -48,43 +44,44 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
     told = teller(language)
     charts = charts_of(results, told)
     sections = [
-        _section("checks", told("report.checks"), _checks(results, told)),
-        _section("warnings", told("report.warnings"), _warnings(results, told)),
+        section("checks", told("report.checks"), _checks(results, told)),
+        section("warnings", told("report.warnings"), _warnings(results, told)),
     ]
     pictures = _pictures(results, told)
     rest = [
+        section("verdict", told("report.verdict"), verdict_html(results, charts, told)),
         *_chart_sections(charts, told),
-        _section("largest", told("report.largest"), _largest(results, told)),
-        _section("pictures", told("report.pictures"), pictures),
-        _section("runs", told("report.calculations"), _calculations(results, told)),
-        _section("deck", told("report.deck"), _deck(results, colours, told)),
-        _section("files", told("report.files"), _files(results)),
+        section("largest", told("report.largest"), _largest(results, told)),
+        section("pictures", told("report.pictures"), pictures),
+        section("runs", told("report.calculations"), _calculations(results, told)),
+        section("deck", told("report.deck"), _deck(results, colours, told)),
+        section("files", told("report.files"), _files(results)),
     ]
-    data = _json([c.told() for c in charts])
+    data = json_in_page([c.told() for c in charts])
     other = "".join([*sections, *rest])
     room = LARGEST - len(other.encode()) - len(data.encode()) - sum(map(len, _assets().values()))
     scenes, faults = _scenes(results, room, told)
-    viewer = _section("scene", told("report.scene"), _viewer(scenes, faults, told))
+    viewer = section("scene", told("report.scene"), _viewer(scenes, faults, told))
     body = [_head(results, told), sections[0], sections[1], viewer, *rest]
-    return Template(_asset("page.html")).substitute(
+    return Template(asset("page.html")).substitute(
         language=language,
-        title=_text(_name(results)),
-        version=_text(results.summary.get("version", "")),
-        style=_asset("uPlot.min.css") + _asset("page.css"),
+        title=text(_name(results)),
+        version=text(results.summary.get("version", "")),
+        style=asset("uPlot.min.css") + asset("page.css"),
         body="\n".join(b for b in body if b),
         charts=data,
-        scenes=_json([scene for scene, _ in scenes]),
+        scenes=json_in_page([scene for scene, _ in scenes]),
         blobs="\n".join(
-            f'<script type="application/octet-stream" id="scene-{i}">{text}</script>'
-            for i, (_, text) in enumerate(scenes)
+            f'<script type="application/octet-stream" id="scene-{i}">{packed}</script>'
+            for i, (_, packed) in enumerate(scenes)
         ),
-        words=_json({w: told(code) for w, code in _WORDS.items()}),
-        vtk=_asset("vtk.js") if scenes else "",
-        uplot=_asset("uPlot.iife.min.js") if charts else "",
-        script=_asset("charts.js") + _asset("scene.js"),
-        licences=_text(_asset("uPlot.LICENSE") + "\n" + _asset("vtk.js.LICENSE")),
-        made=_text(told("report.made")),
-        licence_title=_text(told("report.licences")),
+        words=json_in_page({w: told(code) for w, code in _WORDS.items()}),
+        vtk=asset("vtk.js") if scenes else "",
+        uplot=asset("uPlot.iife.min.js") if charts else "",
+        script=asset("charts.js") + asset("scene.js"),
+        licences=text(asset("uPlot.LICENSE") + "\n" + asset("vtk.js.LICENSE")),
+        made=text(told("report.made")),
+        licence_title=text(told("report.licences")),
     )
 
 
@@ -102,58 +99,9 @@ _WORDS = {
 # ---- pieces --------------------------------------------------------------------------------------
 
 
-def _text(value: object) -> str:
-    return html.escape(visible(str(value)))
-
-
-def _json(value: object) -> str:
-    """JSON that may stand in a script's element."""
-    text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c")
-
-
-@cache
-def _asset(name: str) -> str:
-    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
-
-
 def _assets() -> dict[str, bytes]:
     names = ("vtk.js", "uPlot.iife.min.js", "charts.js", "scene.js", "page.css", "page.html")
-    return {name: _asset(name).encode() for name in names}
-
-
-def _section(name: str, title: str, body: str) -> str:
-    if not body:
-        return ""
-    return f'<section id="{name}"><h2>{_text(title)}</h2>\n{body}</section>'
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], numbers: Sequence[int]) -> str:
-    """A table of cells that are HTML already; `numbers`: the columns that hold numbers."""
-    made = "".join(
-        f"<th scope=col{' class=number' if i in numbers else ''}>{_text(h)}</th>"
-        for i, h in enumerate(heads)
-    )
-    lines = [
-        "<tr>"
-        + "".join(
-            f"<td{' class=number' if i in numbers else ''}>{c}</td>" for i, c in enumerate(row)
-        )
-        + "</tr>"
-        for row in rows
-    ]
-    return (
-        f"<div class=wide><table><thead><tr>{made}</tr></thead><tbody>"
-        + "".join(lines)
-        + "</tbody></table></div>"
-    )
-
-
-def number(value: object) -> str:
-    """A number in five digits, '' for none."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return ""
-    return f"{value + 0.0:.5g}"
+    return {name: asset(name).encode() for name in names}
 
 
 def _head(results: Results, told: Teller) -> str:
@@ -167,12 +115,12 @@ def _head(results: Results, told: Teller) -> str:
     elif code != 0:
         state, word = "bad", told("report.failed", code=code)
     lines = [
-        f"<header><h1>{_text(_name(results))}</h1>",
-        f'<p class="state {state}">{_text(word)}</p>',
+        f"<header><h1>{text(_name(results))}</h1>",
+        f'<p class="state {state}">{text(word)}</p>',
     ]
     for error in summary.get("errors", ()):
         place = told("report.line", line=error["line"]) if error["line"] else ""
-        lines.append(f'<p class="error">{_text(place)} {_text(error["text"])}</p>')
+        lines.append(f'<p class="error">{text(place)} {text(error["text"])}</p>')
     cards = []
     if judged:
         good = f"{len(judged) - len(failed)} / {len(judged)}"
@@ -198,12 +146,10 @@ def _head(results: Results, told: Teller) -> str:
         cards.append((told("report.warnings"), str(count), "warn" if count else ""))
         cards.append((told("report.duration"), f"{summary.get('seconds', 0.0):.3g} s", ""))
     lines.append("<ul class=cards>")
-    lines += [
-        f'<li class="{m}"><b>{_text(v)}</b> <span>{_text(n)}</span></li>' for n, v, m in cards
-    ]
+    lines += [f'<li class="{m}"><b>{text(v)}</b> <span>{text(n)}</span></li>' for n, v, m in cards]
     lines.append("</ul>")
-    lines.append(f"<p class=facts>{_text(_facts(results, told))}</p>")
-    lines += [f"<p class=note>{_text(note)}</p>" for note in _notes(results, told)]
+    lines.append(f"<p class=facts>{text(_facts(results, told))}</p>")
+    lines += [f"<p class=note>{text(note)}</p>" for note in _notes(results, told)]
     return "\n".join([*lines, "</header>"])
 
 
@@ -281,9 +227,9 @@ def _checks(results: Results, told: Teller) -> str:
     marks = {True: told("report.held"), False: told("report.missed"), None: ""}
     rows = [
         (
-            _text(f["name"]), number(f["value"]), number(f["expected"]), number(f["tolerance"]),
+            text(f["name"]), number(f["value"]), number(f["expected"]), number(f["tolerance"]),
             _meter(f),
-            f'<b class="{"good" if f["ok"] else "bad"}">{_text(marks[f["ok"]])}</b>',
+            f'<b class="{"good" if f["ok"] else "bad"}">{text(marks[f["ok"]])}</b>',
         )
         for f in figures
     ]  # fmt: skip
@@ -291,7 +237,7 @@ def _checks(results: Results, told: Teller) -> str:
         told("report.name"), told("report.value"), told("report.expected"),
         told("report.tolerance"), told("report.used"), "",
     ]  # fmt: skip
-    return _table(heads, rows, (1, 2, 3))
+    return table(heads, rows, (1, 2, 3))
 
 
 def _meter(figure: dict[str, Any]) -> str:
@@ -305,7 +251,7 @@ def _meter(figure: dict[str, Any]) -> str:
 def _warnings(results: Results, told: Teller) -> str:
     found = results.summary.get("warnings", ())
     rows = [
-        f"<li>{_text(told('report.line', line=w['line']) if w['line'] else '')} {_text(w['text'])}"
+        f"<li>{text(told('report.line', line=w['line']) if w['line'] else '')} {text(w['text'])}"
         for w in found
     ]
     return f"<ul>{''.join(rows)}</ul>" if rows else ""
@@ -320,15 +266,7 @@ def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
     }
     made = []
     for group, title in titles.items():
-        figures = [
-            f'<figure class=chart data-chart="{i}"><figcaption>{_text(c.title)}</figcaption>'
-            "<div class=plot></div></figure>"
-            for i, c in enumerate(charts)
-            if c.group == group
-        ]
-        head = f"<p class=note>{_text(told('report.zoom'))}</p>"
-        body = f"{head}<div class=charts>{''.join(figures)}</div>" if figures else ""
-        made.append(_section(group, title, body))
+        made.append(section(group, title, charts_html(charts, group, told)))
     return made
 
 
@@ -350,8 +288,8 @@ def _largest(results: Results, told: Teller) -> str:
             place = " ".join(f"{x:.4g}" for x in peak["place"])
             rows.append(
                 (
-                    _text(f"{calculation.name} {i}"), _text(name), number(peak["value"]),
-                    number(peak["time"]), _text(place),
+                    text(f"{calculation.name} {i}"), text(name), number(peak["value"]),
+                    number(peak["time"]), text(place),
                 )
             )  # fmt: skip
     if not rows:
@@ -360,15 +298,15 @@ def _largest(results: Results, told: Teller) -> str:
         told("report.calculation"), told("report.quantity"), told("report.value"),
         told("report.time"), told("report.place"),
     ]  # fmt: skip
-    return _table(heads, rows, (2, 3))
+    return table(heads, rows, (2, 3))
 
 
 def _calculations(results: Results, told: Teller) -> str:
     rows = [
         (
-            _text(f"{c.get('procedure', '')} {i}"), number(c.get("unknowns")),
-            number(c.get("interface_unknowns")), number(c.get("steps")), _text(c.get("method", "")),
-            _text(c.get("solver", "")), number(c.get("most_interface_iterations")),
+            text(f"{c.get('procedure', '')} {i}"), number(c.get("unknowns")),
+            number(c.get("interface_unknowns")), number(c.get("steps")), text(c.get("method", "")),
+            text(c.get("solver", "")), number(c.get("most_interface_iterations")),
             number(c.get("energy_imbalance")), number(c.get("seconds")),
         )
         for i, c in enumerate(_runs(results), 1)
@@ -380,24 +318,24 @@ def _calculations(results: Results, told: Teller) -> str:
         told("report.steps"), told("report.method"), told("report.solver"),
         told("report.iterations"), told("report.energy-imbalance"), told("report.seconds"),
     ]  # fmt: skip
-    return _table(heads, rows, (1, 2, 3, 6, 7, 8))
+    return table(heads, rows, (1, 2, 3, 6, 7, 8))
 
 
 def _deck(results: Results, colours: Colours, told: Teller) -> str:
     if not results.text:
-        return f"<p class=note>{_text(told('report.deck-gone'))}</p>"
+        return f"<p class=note>{text(told('report.deck-gone'))}</p>"
     lines = [m["line"] for m in results.summary.get("errors", ()) if m["line"]]
     return deck_html(results.text, colours, lines)
 
 
 def _files(results: Results) -> str:
     rows = [
-        (_text(f["path"]), f"{f['bytes'] / 1000.0:,.1f} kB")
+        (text(f["path"]), f"{f['bytes'] / 1000.0:,.1f} kB")
         for f in results.summary.get("files", ())
     ]
     if not rows:
         return ""
-    return "<details>" + "<summary>" + str(len(rows)) + "</summary>" + _table(
+    return "<details>" + "<summary>" + str(len(rows)) + "</summary>" + table(
         ("", ""), rows, (1,)
     ) + "</details>"  # fmt: skip
 
@@ -413,13 +351,13 @@ def _pictures(results: Results, told: Teller) -> str:
             left += 1
             continue
         room -= len(data)
-        text = base64.b64encode(data).decode()
+        encoded = base64.b64encode(data).decode()
         made.append(
-            f'<figure><img alt="{_text(path.name)}" src="data:image/png;base64,{text}">'
-            f"<figcaption>{_text(path.name)}</figcaption></figure>"
+            f'<figure><img alt="{text(path.name)}" src="data:image/png;base64,{encoded}">'
+            f"<figcaption>{text(path.name)}</figcaption></figure>"
         )
     if left:
-        made.append(f"<p class=note>{_text(told('report.pictures-left', count=left))}</p>")
+        made.append(f"<p class=note>{text(told('report.pictures-left', count=left))}</p>")
     return f"<div class=charts>{''.join(made)}</div>" if made else ""
 
 
@@ -447,7 +385,7 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
     each = int(0.98 * room / max(min(len(wanted), MOST_SCENES), 1))
     for name, kind, path, frequencies in wanted[:MOST_SCENES]:
         try:
-            scene, text = packed_scene(path, each)
+            scene, packed = packed_scene(path, each)
         except SceneError as problem:
             faults.append(told(problem.code, **problem.data))
             continue
@@ -455,18 +393,18 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
         if scene["left_out"]:
             count = scene["left_out"]
             faults.append(told("report.instants-left", name=path.name, count=count))
-        made.append(({"name": shown, "kind": kind, "frequencies": frequencies, **scene}, text))
+        made.append(({"name": shown, "kind": kind, "frequencies": frequencies, **scene}, packed))
     if len(wanted) > MOST_SCENES:
         faults.append(told("report.scenes-left", count=len(wanted) - MOST_SCENES))
     return made, faults
 
 
 def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
-    notes = "".join(f"<p class=note>{_text(f)}</p>" for f in dict.fromkeys(faults))
+    notes = "".join(f"<p class=note>{text(f)}</p>" for f in dict.fromkeys(faults))
     if not scenes:
         return notes
     words = {
-        w: _text(told(code))
+        w: text(told(code))
         for w, code in {
             "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
             "time": "report.time", "play": "report.play", "reset": "report.reset",
@@ -475,6 +413,6 @@ def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
         }.items()
     }  # fmt: skip
     options = "".join(
-        f"<option value={i}>{_text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
+        f"<option value={i}>{text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
     )
-    return notes + Template(_asset("viewer.html")).substitute(options=options, **words)
+    return notes + Template(asset("viewer.html")).substitute(options=options, **words)

@@ -8,12 +8,13 @@ from ssilang.io.atomic import write_text
 from ssilang.report.deck_text import Colours
 from ssilang.report.page import page_of
 from ssilang.report.results import read_results
+from ssilang.report.sweep_page import is_sweep, read_sweep, sweep_page
 
 NAME = "report.html"
 
 
 def make_report(folder: Path, language: str, colours: Colours) -> Path:
-    """Write the report of a folder into it.
+    """Write the report of a folder, of a run or a sweep, into it.
 
     Parameters
     ----------
@@ -27,5 +28,8 @@ def make_report(folder: Path, language: str, colours: Colours) -> Path:
         If no run has left anything there, or it cannot be written.
     """
     path = folder / NAME
-    write_text(path, page_of(read_results(folder), language, colours))
+    if is_sweep(folder):
+        write_text(path, sweep_page(read_sweep(folder), language))
+    else:
+        write_text(path, page_of(read_results(folder), language, colours))
     return path

@@ -62,6 +62,8 @@ class Results:
         Whether the text is that of a file that has changed since.
     recorded : bool
         Whether the run took down what a report shows.
+    verdicts : list of lists of dict
+        Pictures of each verdict; its figures stand in the summary's statistics.
     series, tables, pictures : lists of Path
         What the deck itself wrote.
     unread : list of str
@@ -78,6 +80,7 @@ class Results:
     drawings: list[dict[str, Any]] = field(default_factory=list)
     shapes: list[Shapes] = field(default_factory=list)
     left_out: dict[str, int] = field(default_factory=dict)
+    verdicts: list[list[dict[str, Any]]] = field(default_factory=list)
     series: list[Path] = field(default_factory=list)
     tables: dict[str, dict[str, FloatArray]] = field(default_factory=dict)
     pictures: list[Path] = field(default_factory=list)
@@ -99,7 +102,7 @@ def read_results(folder: Path) -> Results:
     own = {f["path"] for f in summary.get("files", ())} if summary else {p.name for p in found}
     unread: list[str] = []
     series = [p for p in found if p.suffix in SERIES and p.name in own]
-    tables = _tables([p for p in found if p.name in own], unread)
+    tables = tables_of([p for p in found if p.name in own], unread)
     if not summary and not series and not tables and not (folder / FOLDER).is_dir():
         raise InputError("report.no-run", folder=folder)
     contents = _contents(folder, own, bool(summary), unread)
@@ -118,6 +121,7 @@ def read_results(folder: Path) -> Results:
             for s in contents.get("shapes", ())
         ],
         contents.get("left_out", {}),
+        contents.get("verdicts", []),
         series, tables, pictures, unread,
     )  # fmt: skip
 
@@ -225,7 +229,7 @@ def _calculation(folder: Path, told: dict[str, Any], unread: list[str]) -> Calcu
     )
 
 
-def _tables(paths: list[Path], unread: list[str]) -> dict[str, dict[str, FloatArray]]:
+def tables_of(paths: list[Path], unread: list[str]) -> dict[str, dict[str, FloatArray]]:
     """Tables of histories, CSV and Parquet; those that are no numbers are left alone."""
     found = {}
     for path in paths:

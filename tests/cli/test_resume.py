@@ -215,14 +215,15 @@ def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
     assert started(deck, tmp_path / "truth").wait() == 0
     truth = files_of(tmp_path / "truth")
     assert len(truth) > 10
-    for number in (signal.SIGKILL, signal.SIGKILL, signal.SIGKILL, signal.SIGTERM):
+    for number in (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM):
         out = tmp_path / f"out{draw.random()}"
         process = started(deck, out)
         wait_for(out / "checkpoints" / "1.state", process)
         time.sleep(draw.uniform(0.0, 0.3))
         process.send_signal(number)
         _, told = process.communicate()
-        if number == signal.SIGTERM and process.returncode > 0:  # it was not at its end already
+        if number == signal.SIGTERM and (out / "checkpoints" / "1.state").exists():
+            assert process.returncode > 0  # it was not behind the calculation already
             assert b"is kept in" in told
         again = started(deck, out, "--resume")
         _, told = again.communicate()

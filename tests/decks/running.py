@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,8 @@ def run_changed(path: Path, out: Path, *changes: tuple[str, str]) -> RunResult:
     for old, new in changes:
         assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {path.name}"
         text = text.replace(old, new)
+    if (path.parent / "motions").is_dir():  # records that decks of the folder read
+        shutil.copytree(path.parent / "motions", out / "motions", dirs_exist_ok=True)
     copy = out / path.name
     copy.write_text(text, encoding="utf-8")
     return run_deck(copy, out / "results")

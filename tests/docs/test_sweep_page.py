@@ -35,7 +35,7 @@ def folder(tmp_path: Path, pulse: np.ndarray) -> Path:
     for name in ("motion.AT2", "motions/m1.AT2"):
         (tmp_path / name).write_text("\n".join([*head, *rows]) + "\n")
     table = [f"{_STEP * i:.2f},{9.81 * v:.9g}" for i, v in enumerate(pulse)]
-    (tmp_path / "motion.csv").write_text("\n".join(["time,acceleration", *table]) + "\n")
+    (tmp_path / "motion.csv").write_text("\n".join(["time (s),acceleration (m/s2)", *table]) + "\n")
     return tmp_path
 
 

@@ -36,6 +36,14 @@ def test_every_deck_has_its_page_with_its_picture_and_its_text(web):
     assert "(footing/pictures/strip_uplift.png)" in gallery
 
 
+def test_pictures_of_the_guides_are_shown_and_small():
+    pages = "".join(p.read_text(encoding="utf-8") for p in _DOCS.rglob("*.md"))
+    pictures = list((_DOCS / "pictures").glob("*.png"))
+    assert pictures
+    assert {p.name for p in pictures if f"pictures/{p.name})" not in pages} == set()
+    assert {p.name for p in pictures if p.stat().st_size > 60_000} == set()
+
+
 def test_a_page_belongs_to_the_navigation(web, tmp_path):
     for page in (*_DOCS.glob("*.md"), *_DOCS.glob("fr/*.md")):
         if page.name != "README.md" or page.parent.name == "fr":
@@ -56,6 +64,7 @@ def test_the_site_is_made_and_no_link_leads_nowhere(web, tmp_path, capfd):
     assert "n**2 pi/(2 L**2) sqrt(E I/(rho A))" in gallery  # signs of formulas are no emphasis
     equations = (tmp_path / "site" / "docs" / "physics.html").read_text(encoding="utf-8")
     assert equations.count("<math") > 40
+    assert equations.count('display="block"') == equations.count('<div style="overflow-x: auto">')
     assert "$" not in equations.partition("<article")[2].partition("</article")[0]
     index = json.loads((tmp_path / "site" / "search" / "search_index.json").read_text())
     places = {d["location"].partition("#")[0] for d in index["docs"]}

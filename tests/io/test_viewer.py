@@ -15,6 +15,7 @@ from PIL import Image, ImageSequence
 
 from ssilang.cli.main import main
 from ssilang.cli.run import run_text
+from ssilang.io.errors import InputError
 from ssilang.io.viewer import Series, Wish, chosen_file, draw
 
 BEAM = (
@@ -74,6 +75,20 @@ def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path)
     assert right[1] > right[2]  # green to yellow
 
 
+def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
+    """In a file of the whole series as in one of an instant."""
+    by_name = shown(results / "one", tmp_path / "z.png", field="U:UZ", scale=0.0)
+    assert np.array_equal(
+        by_name, shown(results / "many", tmp_path / "z.png", field="U:UZ", scale=0.0)
+    )
+    assert np.array_equal(
+        by_name, shown(results / "one", tmp_path / "z.png", field="U:3", scale=0.0)
+    )
+    with pytest.raises(InputError) as refused:
+        draw(results / "one", tmp_path / "w.png", Wish("U:9"))
+    assert refused.value.data["names"] == ("UX", "UY", "UZ")
+
+
 def test_a_gif_holds_all_instants(
     results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -99,6 +114,18 @@ def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
         assert (np.asarray(again.convert("L")) < 200).any()
 
 
+def test_meshes_are_read_by_the_door_of_scripts(tmp_path: Path) -> None:
+    """What meshio does not read, or reads wrongly: solids of Abaqus, with two blocks of nodes."""
+    (tmp_path / "two.inp").write_text(
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*NODE\n5, 2., 0.\n6, 2., 1.\n"
+        "*ELEMENT, TYPE=CPS4, ELSET=LEFT\n1, 1, 2, 3, 4\n"
+        "*ELEMENT, TYPE=CPE4, ELSET=RIGHT\n2, 2, 5, 6, 3\n"
+    )
+    data = Series(tmp_path / "two.inp").at(0)
+    assert (data.n_points, data.n_cells, data.area) == (6, 2, pytest.approx(2.0))
+    assert list(data.cell_data["part"]) == [1.0, 2.0]
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -110,7 +137,7 @@ def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
         (["empty", "-o", "x.png"], "holds nothing to show"),
         (["bad.txt", "-o", "x.png"], "of no kind that can be shown"),
         (["bad.vtu", "-o", "x.png"], "no points, or is damaged"),
-        (["bad.msh", "-o", "x.png"], "cannot be shown"),
+        (["bad.msh", "-o", "x.png"], "bad.msh cannot be read as GMSH"),
         (["one"], "ssilang view one -o picture.png"),
         (["one", "--lang", "fr"], "il n'y a pas d'écran"),
     ],

@@ -153,6 +153,24 @@ def test_a_law_that_is_described_nowhere_is_refused_with_that_reason(outcome, la
     assert "BETA (unloading) and CPLG" in result.message
 
 
+def test_a_law_that_differs_from_what_was_published_is_refused_with_that_reason(outcome):
+    result = outcome(SIDES + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'ISS_GRANGE' ;")
+    assert result.exit_code == 1
+    assert "no public text says how" in result.message
+
+
+def test_comp_has_no_answer_for_ground_that_yields_at_many_places(outcome):
+    result = outcome(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PB = 0. 0. ; J = MANU 'SEG2' (0. -1.) PB ;"
+        " M = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;"
+        " A = MATE M 'KN' 8.E7 'KS' 4.E7 'LARG' 4. 'COHE' 5.E4 ;"
+        " U = MANU 'CHPO' PB 1 'UY' -1.E-3 ; Z = (ZERO M 'CONTRAIN') ET (ZERO M 'DEFORMAT') ;"
+        " C = COMP M (A ET Z) (A ET (EPSI M U)) ;"
+    )
+    assert result.exit_code == 1
+    assert "at many places" in result.message
+
+
 def test_contradictory_supports_are_named_in_time_too(outcome):
     result = outcome(
         "OPTI DIME 2 ; P = 0. 0. ; B1 = BLOQ 'UX' P ; B2 = BLOQ 'UX' P ; T = TABL ;"

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from references.masing import Masing, polygon
+from references.soil_column import Column, bundle
 
 from ssilang.cli.run import run_text
-from tests.references.masing import Masing, polygon
-from tests.references.soil_column import Column, bundle
 
 SQUARE = (
     "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; "

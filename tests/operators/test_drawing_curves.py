@@ -74,6 +74,8 @@ PORTION = "T = TABL ; T . '{0}' = TABL ; T . '{0}' . 1 = {1} ; "
         ("T = TABL ; T . 1 = 'MARQ BALL' ; DESS E T ;", "'BALL' is no marker"),
         ("T = TABL ; T . 'INITIAL' = TABL ; T . 'INITIAL' . 1 = 1.5 ; DESS E T ;", "whole numbers"),
         ("DESS E 'XFMT' '(Q3)' ;", "no number format"),
+        ("DESS E 'LOGX' 'XFMT' '(F5.1)' ;", "XFMT does not go with LOGX"),
+        ("DESS E 'YFMT' '(F5.1)' 'LOGY' 'LOGX' ;", "YFMT does not go with LOGY"),
         ("DESS E 'LEGE' 'NO' 'LEGE' 'SE' ;", "'LEGE' stands twice"),
         (PORTION.format("INITIAL", "4") + "DESS E T ;", "points 1 to 3"),
         (PORTION.format("FINAL", "0") + "DESS E T ;", "say 1 to 0"),

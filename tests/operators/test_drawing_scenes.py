@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import RunResult, run_text
+from ssilang.io.errors import NoGraphicsError
+from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 
 PLATE = (
@@ -93,6 +95,44 @@ def test_views_in_space(text: str, tmp_path: Path) -> None:
     result = run_text(SOLID + text, tmp_path)
     assert result.exit_code == 0, result.message
     assert len(list(tmp_path.iterdir())) == 1
+
+
+DIRE = "'DIRE' 'COUP' (0. 0.4 0.) (0. 0.4 1.) (1. 0.4 0.)"
+LYING = "'DIRE' 'COUP' (0. 0.4 0.) (-1. 0.4 0.) (0. 0.4 1.)"
+
+
+def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One looks from the eye at P1; of P1 P2 what is across the view goes upwards."""
+    views: list[View] = []
+
+    def taken(layers: object, seen: tuple[View, ...], *rest: object) -> None:
+        views.extend(seen)
+        raise NoGraphicsError("io.no-drawing-in-space", reason="none")
+
+    monkeypatch.setattr("ssilang.operators.drawing.scenes.draw_scene", taken)
+    result = run_text(
+        f"{SOLID} TRAC X V (0. -19.6 0.) {DIRE} ; TRAC V (3. 0.4 4.) 'DIRE' 'COUP' (0. 0.4 0.) "
+        f"(1. 0.4 0.) (0. 0.4 1.) ; OPTI OEIL (0. 0.4 9.) ; TRAC V {LYING} ;"
+    )
+    assert result.exit_code == 0, result.message
+    first, second, third = (v.axes for v in views)
+    np.testing.assert_allclose(first, [(1, 0, 0), (0, 0, 1), (0, -1, 0)], atol=1e-12)
+    np.testing.assert_allclose(second, [(0, -1, 0), (0.8, 0, -0.6), (0.6, 0, 0.8)], atol=1e-12)
+    np.testing.assert_allclose(third, [(0, 1, 0), (-1, 0, 0), (0, 0, 1)], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (f"{SOLID} TRAC V 'DIRE' ;", "DIRE turns the picture after the plane of COUP"),
+        (f"{SOLID} TRAC V (0. 0.4 -9.) {DIRE} ;", "one looks along what is to go upwards"),
+        (f"{PLATE} TRAC S 'DIRE' 'COUP' (0. 0.) (1. 0.) (0. 1.) ;", "a picture in the plane"),
+    ],
+)
+def test_what_cannot_turn_is_said(text: str, said: str, tmp_path: Path) -> None:
+    result = run_text(text, tmp_path)
+    assert result.exit_code == 1
+    assert said in result.message
 
 
 def test_deformed_shape_keeps_what_is_given() -> None:

@@ -421,3 +421,90 @@ def test_mass_of_fibres_off_the_line_is_that_of_a_beam_beside(found):
     )
     x, y = found(script, "X", "Y")
     assert x == pytest.approx(y, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("law", "given", "strains", "stresses"),
+    [
+        (
+            "ACIER_UNI",
+            "'YOUN' 2.E11 'NU' 0.3 'STSY' 4.E8 'STSU' 6.E8 'EPSH' 0.02 'EPSU' 0.1 'ROFA' 20. "
+            "'BFAC' 0.01 'A1FA' 18.5 'A2FA' 0.15",
+            (0.01, 0.05, 0.0499),
+            # the plateau, the curve of fourth order, the elastic slope behind a reversal
+            (4e8, 6e8 - 2e8 * 0.625**4, 6e8 - 2e8 * 0.625**4 - 2e7),
+        ),
+        (
+            "BETON_UNI",
+            "'YOUN' 3.E10 'NU' 0.2 'STFC' 3.E7 'EZER' 0.002 'STFT' 3.E6 'ZETA' 100. 'ST85' 6.E6 "
+            "'TRAF' 3.",
+            (-0.001, -0.006, -0.02),
+            (-22.5e6, -18e6, -6e6),
+        ),
+    ],
+)
+def test_bars_have_the_laws_of_fibres(found, law, given, strains, stresses):
+    """A bar of 2 m and 1e-3 m2 that is pulled by imposed displacements."""
+    moved = " ".join(repr(2 * e) for e in strains)
+    script = (
+        f"OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; M = MODE L MECANIQUE ELASTIQUE "
+        f"PLASTIQUE {law} BARR ; A = MATE M {given} 'SECT' 1.E-3 ; B = BLOQ 'UX' (POIN 2 L) ; "
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = "
+        "B ET (BLOQ 'UX' (POIN 1 L)) ET (BLOQ 'UY' L) ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B 1.) "
+        f"(EVOL 'MANU' (PROG 0. 1. 2. 3.) (PROG 0. {moved})) ; T . 'TEMPS_CALCULES' = "
+        "PROG 0. 'PAS' 1. 3. ; PASAPAS T ; X = PROG ; REPE B 3 ; "
+        "X = X ET (EXTR (T . 'CONTRAINTES' . &B) 'EFFX' 1 1 1) ; FIN B ; "
+    )
+    np.testing.assert_allclose(found(script, "X").values, 1e-3 * np.array(stresses), rtol=1e-4)
+
+
+def test_bodies_have_no_laws_of_fibres(refused):
+    said = refused(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE ACIER_UNI ; "
+    )
+    assert "ACIER_UNI" in said
+
+
+def test_a_section_of_cracked_concrete_and_steel_has_the_moment_of_its_curves(found):
+    """MOCU against an integral of both first curves over the plane strain that MOCU found."""
+    concrete = (
+        "'YOUN' 3.E10 'NU' 0.2 'STFC' 3.E7 'EZER' 0.002 'STFT' 3.E6 'ZETA' 100. 'ST85' 6.E6 "
+        "'TRAF' 3. 'ALPY' 0. 'ALPZ' 0."
+    )
+    steel = (
+        "'YOUN' 2.E11 'NU' 0.3 'STSY' 4.E8 'STSU' 6.E8 'EPSH' 0.01 'EPSU' 0.1 'ROFA' 20. "
+        "'BFAC' 0.01 'A1FA' 18.5 'A2FA' 0.15 'SECT' 4.E-4 'ALPY' 0. 'ALPZ' 0."
+    )
+    script = (
+        "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (-0.1 -0.2 0.) (0.1 -0.2 0.)) TRAN 200 (0. 0.4 0.) ; "
+        "B = MANU 'POI1' ((0. 0.15 0.) ET (0. -0.15 0.)) ; "
+        "MC = MODE S MECANIQUE ELASTIQUE PLASTIQUE BETON_UNI QUAS ; "
+        "MS = MODE B MECANIQUE ELASTIQUE PLASTIQUE ACIER_UNI POJS ; "
+        f"A = (MATE MC {concrete}) ET (MATE MS {steel}) ; K = PROG 1.E-3 'PAS' 1.E-3 0.08 ; "
+        "N = DIME K ; Z = PROG N * 0. ; "
+        "MY MZ E = MOCU K Z Z (MC ET MS) A 1.E-10 ; "
+    )
+    moments, strains = (v.values for v in found(script, "MY", "E"))
+    z = (np.arange(20000) + 0.5) / 20000 * 0.4 - 0.2
+
+    def pressed(e):
+        x = -e / 0.002
+        return np.where(x <= 1, 3e7 * x * (2 - x), np.maximum(3e7 * (1 - 100 * (-e - 0.002)), 6e6))
+
+    def sheet(e):
+        cracked = np.clip(3e6 * (1 - (e - 1e-4) / 2e-4), 0, None)
+        return np.where(e < 0, -pressed(e), np.where(e <= 1e-4, 3e10 * e, cracked))
+
+    def bar(e):
+        hard = 6e8 - 2e8 * ((0.1 - abs(e)) / 0.09) ** 4
+        return np.sign(e) * (min(2e11 * abs(e), 4e8) if abs(e) <= 0.01 else hard)
+
+    for k in (5, 30, 79):  # before and after cracks, and where the concrete is crushed
+        e = strains[k] + 1e-3 * (k + 1) * z
+        bars = [(y, 4e-4 * bar(strains[k] + 1e-3 * (k + 1) * y)) for y in (-0.15, 0.15)]
+        along = 0.2 * 0.4 * sheet(e).mean() + sum(f for _, f in bars)
+        moment = 0.2 * 0.4 * (sheet(e) * z).mean() + sum(y * f for y, f in bars)
+        # in 400 layers; what was pressed a little before it was pulled cracks a little early
+        assert abs(along) < 1e-2 * sum(abs(f) for _, f in bars)
+        assert moments[k] == pytest.approx(moment, rel=5e-3)

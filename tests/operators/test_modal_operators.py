@@ -52,6 +52,16 @@ def test_matrices_may_come_in_any_order_and_ends_of_an_interval_be_kept():
     assert mode(high, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[1])
 
 
+@pytest.mark.parametrize(("ends", "told"), [("3. 10.", True), ("0. 10.", False), ("-1. 0.", True)])
+def test_an_interval_without_a_mode_is_told(ends, told):
+    result = run_text(f"{TWO_MASSES} T = VIBR 'INTE' {ends} K1 M1 ; N = DIME (T . 'MODES') ;")
+    assert result.exit_code == 0, result.message
+    assert (
+        any(w.code == "operators.modal.no-frequency-between" for w in result.session.warnings)
+        is told
+    )
+
+
 def test_damped_structure_wants_iram_and_gives_complex_entries():
     damped = TWO_MASSES + "C1 = CHAN 'TYPE' (0.2 * M1) 'AMORTISS' ;"
     assert run_text(damped + "T = VIBR 'SIMU' 0. 1 K1 M1 C1 ;").exit_code == 1

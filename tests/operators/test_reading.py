@@ -206,3 +206,128 @@ def test_a_broken_record_of_esm_says_where(tmp_path: Path, content: str, told: s
     result = run("E = LIRE 'ESM' 'a.ASC' ;", tmp_path, a_ASC=content)
     assert result.exit_code == 1
     assert told in result.message
+
+
+# ---- COSMOS, tables with titles
+
+COSMOS = """Corrected acceleration  (Format v01.20 with 13 text lines) Src: made
+Somewhere of 2 January 1990
+{text}
+ 100 Integer-header values follow on  10 lines, Format= (10I8)
+{integers}
+ 100 Real-header values follow on  20 lines, Format= (5F15.6)
+{reals}
+   1 Comment line(s) follow, each starting with a "|":
+| made for a test
+{count} acceleration pts, approx   0 secs, units=cm/sec2 (04),Format=(8f10.5)
+   1.00000 -20.00000   3.50000-400.00000   5.00000   6.00000   7.00000   8.00000
+   9.00000 -10.00000
+End-of-data for Chan  1 acceleration
+"""
+
+
+def cosmos(count: int = 10, step: float = 0.005, version: str = "v01.20") -> str:
+    reals = [-999.0] * 100
+    reals[33] = step
+    lines = ["".join(f"{x:15.6f}" for x in reals[i : i + 5]) for i in range(0, 100, 5)]
+    text = COSMOS.format(
+        text="\n".join(["-"] * 11), integers="\n".join(["    -999" * 10] * 10),
+        reals="\n".join(lines), count=count,
+    )  # fmt: skip
+    return text.replace("v01.20", version)
+
+
+def test_a_record_of_cosmos_whose_numbers_touch(tmp_path: Path) -> None:
+    result = run("E = LIRE 'COSMOS' 'a.V2' 'SI' ;", tmp_path, a_V2=cosmos())
+    (curve,) = values(result, "E")
+    (part,) = curve.parts
+    assert list(part.ordinates) == pytest.approx(
+        [0.01, -0.2, 0.035, -4.0, 0.05, 0.06, 0.07, 0.08, 0.09, -0.1]
+    )
+    assert part.abscissas[-1] == pytest.approx(0.045)
+    assert (part.ordinate_name, curve.title) == ("ACCE", "Somewhere of 2 January 1990")
+    assert result.session.warnings == []
+
+
+def test_several_records_of_cosmos(tmp_path: Path) -> None:
+    both = cosmos() + cosmos(step=0.01)
+    result = run("E = LIRE 'COSMOS' 'a.V2' 1. ; F = LIRE 'COSMOS' 'a.V2' 'CANAL' 2 1. ;", tmp_path,
+                 a_V2=both)  # fmt: skip
+    first, second = values(result, "E", "F")
+    assert (first.parts[0].abscissas[1], second.parts[0].abscissas[1]) == (0.005, 0.01)
+    assert [w.code for w in result.session.warnings] == ["operators.files.several-channels"]
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (cosmos(version="v01.00"), "version 01.00 of the COSMOS format, 1.20 is read"),
+        ("1. 2.\n", "no version of the COSMOS format"),
+        (cosmos(count=11), "says 11 values, 10 follow"),
+        (cosmos(step=-999.0), "the 34th of the 100 reals"),
+        (cosmos(step=1.0), "0 s, says the line above the values, their step makes 10 s"),
+        (cosmos().replace("acceleration pts", "raw counts pts"), "no line says how many"),
+    ],
+)
+def test_a_broken_record_of_cosmos_says_where(tmp_path: Path, content: str, told: str) -> None:
+    result = run("E = LIRE 'COSMOS' 'a.V2' ;", tmp_path, a_V2=content)
+    assert result.exit_code == 1
+    assert told in result.message
+
+
+@pytest.mark.parametrize(
+    ("content", "numbers", "names"),
+    [
+        (
+            "time (s);ax (cm/s2);vel_y [mm/s]\n0.;0.;0.\n0.1;5.;7.\n",
+            [0.05, 0.007],
+            ["ACCE", "VITE"],
+        ),
+        ("# made\nt [ms], a [g]\n0, 0\n100, 0.5\n", [4.905], ["ACCE"]),
+        ("T_s displ_cm\n0 0\n0.1 3\n", [0.03], ["DEPL"]),
+        ("t\tacc in cm/sec/sec\n0\t0\n0.1\t-2\n", [-0.02], ["ACCE"]),
+    ],
+)
+def test_a_table_with_titles_in_metres(
+    tmp_path: Path, content: str, numbers: list[float], names: list[str]
+) -> None:
+    result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv=content)
+    (curve,) = values(result, "E")
+    assert [p.ordinates[1] for p in curve.parts] == pytest.approx(numbers)
+    assert [p.ordinate_name for p in curve.parts] == names
+    units = {"ACCE": "m/s2", "VITE": "m/s", "DEPL": "m"}
+    assert [p.units for p in curve.parts] == [("s", units[n]) for n in names]
+    assert curve.parts[0].abscissas[1] == pytest.approx(0.1)
+
+
+def test_a_table_without_units_is_told_and_taken_as_it_is(tmp_path: Path) -> None:
+    result = run("E = LIRE 'SIGNAL' 'a.csv' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
+    assert values(result, "E")[0].parts[0].ordinates[1] == 5.0
+    assert values(result, "E")[0].parts[0].units == ("", "")
+    assert [w.code for w in result.session.warnings] == ["operators.files.record-without-unit"]
+    result = run("OPTI 'UNIT' 'N-MM' ; E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path,
+                 a_csv="t (s);a (g)\n0;1\n1;2\n")  # fmt: skip
+    assert values(result, "E")[0].parts[0].units == ("", "")  # they are not those of the deck
+    assert [w.code for w in result.session.warnings] == ["operators.files.record-in-other-units"]
+    result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
+    assert "the record names no unit" in result.message
+    result = run("E = LIRE 'SIGNAL' 'a.csv' 2. 'SI' ;", tmp_path, a_csv="t (s);a (g)\n0;1\n1;2\n")
+    assert result.errors[0].code == "operators.files.factor-and-si"
+    result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv="t (s);a (ft)\n0;1\n1;2\n")
+    assert "no factor to SI is known of the unit ft" in result.message
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ("t (s);a (g)\n0.;1.\n0.;2.\n", "line 3: the time is not above"),
+        ("t (h);a (g)\n0.;1.\n1.;2.\n", "'t (h)' names no unit of time"),
+        ("t;a\n0.;1.\n0.1;x\n", "line 3: 'x' is no number"),
+        ("t;a\n0.;1.\n0.1;1.;2.\n", "line 3: 3 cells, the first line of numbers has 2"),
+        ("a\n0.\n1.\n", "no two lines of numbers in two columns"),
+    ],
+)
+def test_a_broken_table_says_where(tmp_path: Path, content: str, told: str) -> None:
+    result = run("E = LIRE 'SIGNAL' 'a.csv' ;", tmp_path, a_csv=content)
+    assert result.exit_code == 1
+    assert told in result.message

@@ -149,3 +149,10 @@ def test_static_links_give_unit_shapes():
     s, r, b = objects(script, "S1", "R1", "PB")
     assert at(s, "UX", b) == pytest.approx(1.0)
     assert at(r, "FX", b) == pytest.approx(10.0)
+
+
+def test_a_spring_named_twice_is_one_spring():
+    script = BAR + "R = APPU 'DEPL' 'UX' 4. PB ; U = MANU 'CHPO' PB 2 'UX' 1. 'UY' 1. ; F = R * U ;"
+    f, b = objects(script, "F", "PB")
+    assert at(f, "FX", b) == pytest.approx(4.0)
+    assert at(f, "FY", b) == pytest.approx(4.0)

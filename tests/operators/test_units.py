@@ -211,11 +211,16 @@ def texts(folder: Path, number: int = 1) -> set[str]:
 
 
 def test_axes_of_curves_carry_the_units_of_the_deck(tmp_path: Path) -> None:
-    moved(tmp_path, "N-MM", "DESS E ; DESS D 'TITX' 'time' ; DESS (1000. * D) ; DESS (E ET D) ;")
+    moved(
+        tmp_path,
+        "N-MM",
+        "DESS E ; DESS D 'TITX' 'time' ; DESS (1000. * D) ; DESS (E ET D) ; DESS (D COUL 'ROUG') ;",
+    )
     assert {"TEMP (s)", "UX (mm/s)"} <= texts(tmp_path, 1)
     assert {"time", "UX (mm)"} <= texts(tmp_path, 2)
     assert {"TEMP", "UX"} <= texts(tmp_path, 3)  # what the script makes of it is its own
     assert {"TEMP", "UX"} <= texts(tmp_path, 4)  # a velocity beside a displacement
+    assert {"TEMP (s)", "UX (mm)"} <= texts(tmp_path, 5)  # a colour changes no unit
 
 
 def test_without_the_option_axes_and_columns_carry_names_alone(tmp_path: Path) -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tests.references.masing import Masing, polygon
-from tests.references.soil_column import Column, bundle
+from references.masing import Masing, polygon
+from references.soil_column import Column, bundle
 
 STRAINS, RATIOS = np.array([1e-5, 1e-4, 1e-3]), np.array([1.0, 0.7, 0.2])
 

@@ -37,6 +37,23 @@ K = (RIGI M A) ET (BLOQ 'DEPL' BAS) ; BASE = VIBR 'SIMU' 1. 3 K (MASS M A) ;
 """
 
 
+VERDICT = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 8 (0. 0.) (4. 0.) ; F = S PLUS (0. 0.) ;
+J = RACC 1.E-3 F S ; M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ; PC = 2. 1. ;
+A = MATE M 'KN' 2.E7 'KS' 2.E7 ; B = (BLOQ 'UX' 'UY' S) ET (RELA 'CORI' 'DEPL' 'ROTA' PC F) ;
+U0 = (MANU 'CHPO' PC 3 'UX' 0. 'UY' -7.5E-3 'RZ' 0.) ET (MANU 'CHPO' F 2 'UX' 0. 'UY' -7.5E-3) ;
+T = TABL ; T . 'DEPL' = U0 ; T . 'VITE' = 0. * U0 ; T . 'RIGI' = B ; T . 'MODELE' = M ;
+T . 'CARACTERISTIQUES' = A ; T . 'MASS' = (MASS 'DEPL' 6.E4 PC) ET (MASS 'ROTA' 1.E5 PC) ;
+LT = PROG 0. 'PAS' 0.005 0.5 ; LA = SIN (LT * 720.) ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. -6.E5) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.))) ET
+  (CHAR 'MECA' (FORC (5.E5 0.) PC) (EVOL 'MANU' LT LA)) ; T . 'TEMPS_CALCULES' = LT ;
+T . 'PAS_SAUVES' = 'TOUS' ; D = DYNAMIC T ; V = TABL ; V . 'RESULTATS' = D ;
+V . 'MODELE' = M ; V . 'CARACTERISTIQUES' = A ; V . 'CAPACITE' = 2.E5 ; V . 'FROTTEMENT' = 0.7 ;
+P = TABL ; P . 'POINT' = PC ; P . 'COMPOSANTE' = 'UX' ;
+V . 'PLANCHERS' = TABL ; V . 'PLANCHERS' . 1 = P ; R = @BILANSSI V ;
+"""
+
+
 def run(folder: Path, text: str, report: bool = True, language: str = "en") -> Path:
     """The folder of results of a deck."""
     (folder / "deck.ssi").write_text(text)
@@ -57,3 +74,9 @@ def rocking(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def modes(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A column's modes in space, with their report."""
     return run(tmp_path_factory.mktemp("modes"), MODES)
+
+
+@pytest.fixture(scope="session")
+def verdict_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A rocking strip and its verdict, with their report in French."""
+    return run(tmp_path_factory.mktemp("verdict"), VERDICT, language="fr")

@@ -101,6 +101,25 @@ def test_a_raft_in_space_has_both_its_axes():
     assert got["PART"] == pytest.approx(1.0)
 
 
+def test_a_disc_in_axisymmetry_has_its_whole_force_and_no_moment():
+    result = run_text(
+        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; S = DROI 8 (0. 0.) (2. 0.) ; F = S PLUS (0. 0.) ;"
+        "J = RACC 1.E-3 F S ; M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ;"
+        f"A = MATE M 'KN' {K} 'KS' {K} ; PC = F POIN 1 ;"
+        "B = (BLOQ 'UR' 'UZ' S) ET (BLOQ 'UR' F) ET (RELA 'ENSE' 'UZ' F) ;"
+        + PUSH.replace("(FORC (1. 0.) PC)", "(FORC (0. -1.) PC)")
+        + VERDICT
+    )
+    assert result.exit_code == 0, result.message
+    got = histories(result)
+    pushed_down = N + np.array([0.0, *SHEARS])
+    np.testing.assert_allclose(got["FORCE"], pushed_down, rtol=1e-9)
+    np.testing.assert_allclose(got["PRESSION"], pushed_down / (4 * np.pi), rtol=1e-9)
+    np.testing.assert_allclose(got["ENFONCEMENT"], pushed_down / (4 * np.pi * K), rtol=1e-9)
+    assert not got["MOMENT"].any()
+    assert "RENVERSEMENT" not in got
+
+
 def test_floor_spectra_are_broadened_and_have_the_ground_added(tmp_path):
     frequencies = np.geomspace(0.5, 20.0, 25)
     listed = " ".join(f"{f:.12g}" for f in frequencies)

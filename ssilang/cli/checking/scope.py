@@ -34,9 +34,11 @@ class Scope:
 
     def join(self, other: Scope) -> None:
         """Keep what holds whichever of two branches was taken."""
-        for name in {*self.values, *other.values}:
-            a, b = self.values.get(name, UNKNOWN), other.values.get(name, UNKNOWN)
-            self.values[name] = same(a, b)
+        for name, value in other.values.items():
+            mine = self.values.get(name, UNKNOWN)
+            if mine is not value:
+                self.values[name] = same(mine, value)
+        self.forget(self.values.keys() - other.values.keys())
         self.open = self.open or other.open
         if self.dimension != other.dimension:
             self.dimension = None

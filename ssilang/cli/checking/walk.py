@@ -9,6 +9,7 @@ from typing import Any
 from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
+from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import unread_entries
 from ssilang.cli.checking.usage import misspelt_names, unused_names
 from ssilang.cli.checking.words import misspelt_words
@@ -26,13 +27,22 @@ _OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "M
 
 
 class Checker:
-    """Checks one script against the operators and procedures of a session."""
+    """Checks one script against the operators and procedures of a session.
 
-    def __init__(self, session: Session) -> None:
+    Parameters
+    ----------
+    sound : SoundStatements, optional
+        What an earlier check of nearly the same text found, which is brought up to date.
+    """
+
+    def __init__(self, session: Session, sound: SoundStatements | None = None) -> None:
         self.session = session
+        self.sound = sound if sound is not None else SoundStatements()
+        self.sound.begin(session)
         self.problems: list[SsiError] = []
         self.types: dict[int, str] = {}  # of what names are given, by where the name stands
         self.phrases = PhraseReader(session, self._report)
+        self._told = 0  # problems, those that were there already among them
         self._procedures: list[tree.Definition] = []
         self._names: set[str] = set()
         self._visit: dict[type, Callable[[Any, Scope], None]] = {
@@ -66,6 +76,7 @@ class Checker:
         return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
 
     def _report(self, problem: SsiError) -> None:
+        self._told += 1
         places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
         if problem.span is None or (problem.code, problem.span.start) not in places:
             self.problems.append(problem)
@@ -171,17 +182,35 @@ class Checker:
             return
         if not statement.assigns:
             self._effects(statement, word, scope)
+        self._assign(statement, self._values(statement, scope), scope)
+
+    def _values(self, statement: tree.Statement, scope: Scope) -> Values:
+        """Values that the names of a statement get, None when unknown; reports what is wrong."""
+        try:
+            key = self.sound.key(statement, scope, self.session.library)
+        except SsiError as error:
+            self._report(error)
+            return None
+        found = self.sound.find(key)
+        if found is not None:
+            return found[0]
+        told = self._told
+        values = self._read(statement, scope)
+        if self._told == told:
+            self.sound.keep(key, values)
+        return values
+
+    def _read(self, statement: tree.Statement, scope: Scope) -> Values:
         self._targets(statement, scope)
         one = len(statement.targets) <= 1
         try:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
-            values = self._outcome(statement, left)
+            return self._outcome(statement, left)
         except SsiError as error:
             word = self.session.evaluator.word_of_entry(statement, error)
             if word is None:
                 self._report(error)
-            values = None
-        self._assign(statement, values, scope)
+            return None
 
     def _jump(self, statement: tree.Statement, scope: Scope) -> None:
         item = statement.items[1] if len(statement.items) == 2 else None
@@ -227,7 +256,7 @@ class Checker:
         if name == found.name or found.full_name.startswith(name):
             self._report(SsiError("shadowed-operator", _head(span), name=name))
 
-    def _outcome(self, statement: tree.Statement, left: Any) -> list[Any] | None:
+    def _outcome(self, statement: tree.Statement, left: Any) -> Values:
         """Values that the names of a statement get, None when unknown; reports leftovers."""
         if left is None or any(o.value is UNKNOWN for o in left):
             return None
@@ -246,7 +275,7 @@ class Checker:
         evaluator.refuse_leftovers(left[count:], left[:count])
         return [o.value for o in left]
 
-    def _assign(self, statement: tree.Statement, values: list[Any] | None, scope: Scope) -> None:
+    def _assign(self, statement: tree.Statement, values: Values, scope: Scope) -> None:
         for i, target in enumerate(statement.targets):
             if isinstance(target, tree.Name):
                 known = values is not None and i < len(values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 
 from ssilang.cli.checking.usage import statements_of
 from ssilang.language import vocabulary
@@ -16,6 +16,7 @@ from ssilang.language.text import tree
 _OWN = frozenset({"component"})  # scripts may have names of their own
 _SHORT, _LONG = 2, 5
 """Letters of a word that may be misspelt, and from which on more than a swap is one slip."""
+_ASKED = 8192  # words whose answers are held: more than a long deck has
 
 
 def misspelt_words(script: tree.Script, names: frozenset[str]) -> Iterator[SsiError]:
@@ -61,7 +62,7 @@ class _Words:
                 yield from self.phrase(i for i in item.indices if isinstance(i, tree.Paren))
             elif isinstance(item, tree.Quoted | tree.Name) and item.text.upper() not in self.names:
                 word = item.text.upper().rstrip()
-                if operator is not None and _knows(operator, word):
+                if operator is not None and _knows(operator.name, word):
                     continue
                 named = find_operator(word)
                 if named is not None:
@@ -82,7 +83,7 @@ class _Words:
     def _near(
         self, operator: Operator, word: str, item: tree.Quoted | tree.Name
     ) -> Iterator[SsiError]:
-        near = _meant(operator, word, self.times[word] == 1)
+        near = _meant(operator.name, word, self.times[word] == 1)
         if near:
             yield SsiError(
                 "near-word", item.span, name=item.text, operator=operator.full_name, near=near
@@ -112,9 +113,10 @@ def _values() -> frozenset[str]:
     return frozenset({*values, *(n[: vocabulary.SHORT] for n in vocabulary.names("element"))})
 
 
-def _knows(operator: Operator, word: str) -> bool:
-    short, kinds = word[: vocabulary.SHORT], _kinds(operator.name)
-    alike = [w for w in _keywords(operator.name) if w[: vocabulary.SHORT] == short]
+@lru_cache(_ASKED)
+def _knows(operator: str, word: str) -> bool:
+    short, kinds = word[: vocabulary.SHORT], _kinds(operator)
+    alike = [w for w in _keywords(operator) if w[: vocabulary.SHORT] == short]
     if "law" in kinds:  # JOINT_SDM and JOINT_SOFT differ behind their fourth letter
         alike = [w for w in alike if w.startswith(word) or word.startswith(w)]
     return (
@@ -124,11 +126,12 @@ def _knows(operator: Operator, word: str) -> bool:
     )
 
 
-def _meant(operator: Operator, word: str, once: bool) -> str:
+@lru_cache(_ASKED)
+def _meant(operator: str, word: str, once: bool) -> str:
     """The word that is meant, '' if none is certain enough; `once`: it stands nowhere else."""
     if len(word) < _SHORT:
         return ""
-    kinds = _kinds(operator.name)
+    kinds = _kinds(operator)
     for kind in sorted(kinds - _OWN):
         found = vocabulary.near(kind, word)
         if found:
@@ -137,10 +140,10 @@ def _meant(operator: Operator, word: str, once: bool) -> str:
         near = [n for n in vocabulary.names("component") if _one_slip(word, n)]
         if near:
             return min(near, key=lambda n: (sorted(n) != sorted(word), n))
-    swapped = [w for w in _keywords(operator.name) if sorted(w) == sorted(word)]
+    swapped = [w for w in _keywords(operator) if sorted(w) == sorted(word)]
     if swapped and once:
         return swapped[0]
-    return nearest(word, _keywords(operator.name), VERY_LIKE) if len(word) >= _LONG else ""
+    return nearest(word, _keywords(operator), VERY_LIKE) if len(word) >= _LONG else ""
 
 
 def _one_slip(word: str, name: str) -> bool:

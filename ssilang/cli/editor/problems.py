@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from ssilang.cli.check import typed_source
+from ssilang.cli.checking.sound import SoundStatements
 from ssilang.language.say.diagnostics import sentence, suggestion
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
@@ -45,9 +46,20 @@ class Findings:
     types: dict[int, str]
 
 
-def find_problems(source: Source, language: str, syntax_only: bool = False) -> Findings:
-    """Everything that can be said of a script without running it, or of its structure alone."""
-    found, names, types = typed_source(source, syntax_only)
+def find_problems(
+    source: Source,
+    language: str,
+    syntax_only: bool = False,
+    sound: SoundStatements | None = None,
+) -> Findings:
+    """Everything that can be said of a script without running it, or of its structure alone.
+
+    Parameters
+    ----------
+    sound : SoundStatements, optional
+        What was found in this script before it was changed, which is brought up to date.
+    """
+    found, names, types = typed_source(source, syntax_only, sound)
     return Findings(tuple(_problems(found, names, source, language)), types)
 
 

@@ -1,15 +1,18 @@
 """`ssilang lsp`: the language server, over standard input and output.
 
 Protocol: https://microsoft.github.io/language-server-protocol. The text is cut anew at each change
-(some milliseconds for a thousand lines); problems are looked for when no key has come for a moment.
+(some milliseconds for a thousand lines); problems are looked for when no key has come for a moment,
+of one text at a time, and statements that stay as they are are not read again.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import gc
 import os
 from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,6 +24,7 @@ from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import TextDocument
 
 from ssilang import __version__
+from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.editor import complete, information, outline
 from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.formatting import formatted
@@ -29,10 +33,11 @@ from ssilang.cli.editor.problems import Findings, Fix, Problem, find_problems
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import Library
 from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text.source import Source
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
-WAIT = 0.15
+WAIT = 0.02
 """Seconds without a key after which problems are looked for."""
 
 _NOTHING = Findings((), {})
@@ -68,6 +73,7 @@ class Open:
     document: Document
     version: int | None
     findings: Findings = _NOTHING
+    sound: SoundStatements = field(default_factory=SoundStatements)
     waiting: asyncio.Task[None] | None = None
     shown: list[lsp.Diagnostic] = field(default_factory=list)
 
@@ -81,6 +87,7 @@ class Server(LanguageServer):
         load_operators()
         self.library = Library(Path())
         self.open: dict[str, Open] = {}
+        self.looker = ThreadPoolExecutor(1)
 
     def document(self, uri: str) -> Document:
         """The text as it is now, cut."""
@@ -133,12 +140,19 @@ class Server(LanguageServer):
             await asyncio.sleep(WAIT)
             source = self.document(uri).source
             loop = asyncio.get_running_loop()
-            found = await loop.run_in_executor(None, find_problems, source, self.language)
+            found = await loop.run_in_executor(self.looker, self._found, uri, source)
             held = self.open.get(uri)
-            if held is None or held.document.source is not source:
+            if held is None or found is None or held.document.source is not source:
                 return  # the text has changed: another look is under way
             held.findings = found
             self.publish(uri, [self._diagnostic(uri, p) for p in found.problems], held.version)
+
+    def _found(self, uri: str, source: Source) -> Findings | None:
+        """What is wrong with a text, None if it has changed before its turn has come."""
+        held = self.open.get(uri)
+        if held is None or held.document.source is not source:
+            return None
+        return find_problems(source, self.language, sound=held.sound)
 
     def publish(
         self, uri: str, diagnostics: list[lsp.Diagnostic], version: int | None = None
@@ -181,7 +195,9 @@ def start(language: str) -> None:
     # the protocol's own streams: nothing that is printed may come between
     with os.fdopen(os.dup(0), "rb") as reads, os.fdopen(os.dup(1), "wb") as writes:
         os.dup2(2, 1)
-        make_server(language).start_io(reads, writes)
+        server = make_server(language)
+        gc.freeze()  # the operators stay: no key waits until all of them are searched for garbage
+        server.start_io(reads, writes)
 
 
 def make_server(language: str = "en") -> Server:

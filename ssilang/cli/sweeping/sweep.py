@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-from ssilang.cli.run import refuse_unknown
+from ssilang.cli.run import refuse_unknown, write_report
 from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
+from ssilang.cli.sweeping.histories import Joined, join_histories
 from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
 from ssilang.cli.sweeping.table import (
     Row,
@@ -47,6 +48,8 @@ class SweepOptions:
     allowed: list[Path] = field(default_factory=list)
     language: str = "en"
     together: int = TOGETHER
+    report: bool = False
+    """Whether each run and the sweep leave a report."""
 
     @property
     def folder(self) -> Path:
@@ -66,6 +69,9 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         err.write(render(error, options.language) + "\n")
         return 2
     made = write_results(rows, list(cases[0].values), options.folder)
+    _tell_left(made, options.language, err)
+    if options.report:
+        out.write(write_reports(rows, options) + "\n")
     out.write(sentence("cli.swept", made, options.language) + "\n")
     return 1 if made["failed"] else 0
 
@@ -123,7 +129,16 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
 def _task(case: Case, options: SweepOptions, folder: Path, key: str) -> Task:
     allowed = tuple(p.resolve() for p in options.allowed)
     deck = options.deck.resolve()
-    return Task(case.number, deck, folder, case.values, allowed, options.language, key=key)
+    return Task(
+        case.number,
+        deck,
+        folder,
+        case.values,
+        allowed,
+        options.language,
+        key=key,
+        report=options.report,
+    )
 
 
 def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
@@ -155,10 +170,33 @@ def write_results(rows: list[Row], swept: list[str], folder: Path) -> dict[str, 
         table = folder / TABLE
         write_table(rows, table)
     pictures = draw_figures(rows, swept, folder)
+    joined = join_histories(rows, swept, folder)
     failed = sum(row["exit_code"] != 0 for row in rows)
     return {
         "runs": len(rows),
         "failed": failed,
         "table": table,
         "pictures": len(pictures),
+        "joined": joined,
+        "histories": len(joined.files),
     }
+
+
+def _tell_left(made: dict[str, object], language: str, err: TextIO) -> None:
+    """Name what was not joined."""
+    joined = made["joined"]
+    assert isinstance(joined, Joined)
+    if joined.others:
+        told = {"count": joined.others}
+        err.write(sentence("cli.histories-other-columns", told, language) + "\n")
+    if joined.large:
+        err.write(sentence("cli.histories-too-large", {"names": joined.large}, language) + "\n")
+
+
+def write_reports(rows: Sequence[Row], options: SweepOptions) -> str:
+    """Write the sweep's report, and those of runs of an earlier sweep that left none."""
+    for row in rows:
+        folder = options.folder / "runs" / str(row["folder"])
+        if (folder / "summary.json").is_file() and not (folder / "report.html").is_file():
+            write_report(folder, options.language)
+    return write_report(options.folder, options.language)

@@ -28,6 +28,8 @@ class Task:
     limits: dict[str, Any] = field(default_factory=dict)
     key: str = ""
     """What the run computes; a row with the same key holds for it."""
+    report: bool = False
+    """Whether the run leaves its report."""
     meeting: Any = None
     """Where its time integrations meet those of other runs; see `gathering`."""
 
@@ -56,6 +58,7 @@ def run_task(task: Task) -> Row:
         allowed=allowed,
         language=task.language,
         summary=True,
+        report=task.report,
         limits=Limits(**task.limits),
         given=dict(task.values),
         integrate=None if task.meeting is None else task.meeting.integrate,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -91,6 +91,20 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
     InputError
         If it cannot be read, or a library for it is missing.
     """
+    with _guarded(path, kind) as said:
+        read = _READERS.get(kind, _by_meshio)(path, kind)
+        return _gathered(read, kind, _remarks(said.getvalue())).sound(path.name, kind)
+
+
+def foreign_mesh(path: Path, kind: str) -> Any:
+    """The same as meshio has it, with its fields."""
+    with _guarded(path, kind):
+        return _READERS.get(kind, _by_meshio)(path, kind)
+
+
+@contextmanager
+def _guarded(path: Path, kind: str) -> Iterator[io.StringIO]:
+    """Keeps what a library prints meanwhile, and makes refusals of what it raises."""
     said = io.StringIO()
     try:
         path.open("rb").close()
@@ -98,8 +112,7 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
         raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     try:
         with redirect_stderr(said), redirect_stdout(said):
-            read = _READERS.get(kind, _by_meshio)(path, kind)
-            return _gathered(read, kind, _remarks(said.getvalue())).sound(path.name, kind)
+            yield said
     except InputError:
         raise
     except ImportError as error:

@@ -72,14 +72,30 @@ def plane_view() -> View:
     return View(np.eye(3), solid=False)
 
 
-def view_along(direction: FloatArray) -> View:
-    """The view from far away in `direction` (3,), z upwards (y if one looks along z)."""
+def view_along(direction: FloatArray, upright: FloatArray | None = None) -> View:
+    """The view from far away in `direction` (3,).
+
+    Parameters
+    ----------
+    upright : array (3,), optional
+        What goes upwards on the sheet; z by default, y if one looks along z.
+
+    Raises
+    ------
+    OutputError
+        If `upright` is along `direction`.
+    """
     towards = np.asarray(direction, dtype=float)
     length = np.linalg.norm(towards)
     towards = (
         DEFAULT_DIRECTION / np.linalg.norm(DEFAULT_DIRECTION) if length == 0 else (towards / length)
     )
     up = np.array([0.0, 0, 1]) if abs(towards[2]) < 1 - 1e-9 else np.array([0.0, 1, 0])
+    if upright is not None:
+        up = upright
     right = np.cross(up, towards)
-    right /= np.linalg.norm(right)
+    width = float(np.linalg.norm(right))
+    if width <= 1e-9 * float(np.linalg.norm(up)):
+        raise OutputError("io.upright-along-view")
+    right /= width
     return View(np.stack([right, np.cross(towards, right), towards]))

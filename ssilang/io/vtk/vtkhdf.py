@@ -31,6 +31,8 @@ from ssilang.io.vtk.labels import Labels
 from ssilang.io.vtk.series import Part, Series
 
 _GRID_VERSION, _BLOCKS_VERSION = (2, 0), (2, 2)
+COMPONENT = ":"
+"""Between the name of an array and that of a component, in the field data."""
 
 
 class VtkHdfWriter(Series):
@@ -172,6 +174,7 @@ class _Fields:
         self._starts: dict[str, Column] = {}
         self._nowhere: dict[str, int] = {}  # row of the block without values
         self.fixed: dict[str, int] = {}
+        self.columns: dict[str, tuple[str, ...]] = {}  # names of the components of arrays
         self.links_changed = False
 
     def write(self, arrays: Mapping[str, DataArray], step: int) -> None:
@@ -179,6 +182,7 @@ class _Fields:
         for name, array in arrays.items():
             if name not in self._stacks and array.values.size:
                 self._add(_plain(array.values), name, step)
+                self.columns[name] = array.columns
         for name, stack in self._stacks.items():
             found = arrays.get(name)
             row = self._gap(name) if found is None else stack.append(_plain(found.values))
@@ -276,6 +280,7 @@ class _OneGrid:
         point_links, point_starts = self._points.links()
         cell_links, cell_starts = self._cells.links()
         cell_starts |= dict.fromkeys(self._cells.fixed, zeros.address)
+        told, told_steps = self._told.groups({**self._points.columns, **self._cells.columns})
         steps = {
             "NumberOfParts": ones.address,
             "PartOffsets": zeros.address,
@@ -284,34 +289,54 @@ class _OneGrid:
             "ConnectivityIdOffsets": self._repeated["zeros1"].address,
             "PointDataOffsets": group_header(file, point_starts),
             "CellDataOffsets": group_header(file, cell_starts),
-            **self._told.steps,
+            **told_steps,
         }
         groups = {
             **self._mesh,
             "PointData": group_header(file, point_links),
             "CellData": group_header(file, cell_links),
-            "FieldData": self._told.address,
+            "FieldData": told,
         }
         self._rest = _behind(file, groups)
         self._steps_rest = _behind(file, steps)
 
 
 class _Told:
-    """Numbers that hold for all steps, by name: the field data of all grids."""
+    """Numbers that hold for all steps, by name: the field data of all grids.
+
+    The format has no names for the components of an array: `displacement:UX` is 1 where UX is its
+    first.
+    """
 
     def __init__(
         self, file: GrowingFile, repeated: Mapping[str, Repeated], told: Mapping[str, float]
     ) -> None:
-        made = {
-            _plain_name(name): file.add(hdf5.header(hdf5.compact(np.array([value], dtype="<f8"))))
-            for name, value in told.items()
+        self._file = file
+        self._made = {_plain_name(name): self._number(value) for name, value in told.items()}
+        self._columns: dict[int, int] = {}
+        self._zeros, self._ones = repeated["zeros"].address, repeated["ones2"].address
+
+    def groups(self, columns: Mapping[str, tuple[str, ...]]) -> tuple[int, dict[str, int]]:
+        """Write the groups of a grid: address of its field data, and of where steps find them.
+
+        Parameters
+        ----------
+        columns : mapping of str to tuple of str
+            Names of the components of each array.
+        """
+        made = dict(self._made)
+        for array, names in columns.items():
+            for k, name in enumerate(names, 1):
+                if k not in self._columns:
+                    self._columns[k] = self._number(k)
+                made.setdefault(f"{array}{COMPONENT}{_plain_name(name)}", self._columns[k])
+        return group_header(self._file, made), {
+            "FieldDataOffsets": group_header(self._file, dict.fromkeys(made, self._zeros)),
+            "FieldDataSizes": group_header(self._file, dict.fromkeys(made, self._ones)),
         }
-        zeros, ones = repeated["zeros"].address, repeated["ones2"].address
-        self.address = group_header(file, made)
-        self.steps = {
-            "FieldDataOffsets": group_header(file, dict.fromkeys(made, zeros)),
-            "FieldDataSizes": group_header(file, dict.fromkeys(made, ones)),
-        }
+
+    def _number(self, value: float) -> int:
+        return self._file.add(hdf5.header(hdf5.compact(np.array([value], dtype="<f8"))))
 
 
 def _mesh_links(file: GrowingFile, grid: Grid) -> dict[str, int]:

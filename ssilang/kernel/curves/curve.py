@@ -33,6 +33,10 @@ class CurvePart:
         object.__setattr__(made, "units", (abscissa, ordinate))
         return made
 
+    def coloured(self, colour: int) -> CurvePart:
+        """The same curve in another colour; it measures what it did."""
+        return replace(self, colour=colour).measured(*self.units)
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:

@@ -1,7 +1,7 @@
 """Joints as a family of elements: layout, jump operator, moduli, mass (RIGI, EPSI, SIGM, MASS).
 
 The strain is the jump in local axes, the stress the traction. JOI1 has relative rotations too,
-with springs QS (2D) or QN, QS1, QS2 (3D), unless its law is JOINT_SDM.
+with springs QS (2D) or QN, QS1, QS2 (3D), unless its law is JOINT_SDM or a bearing's.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ from ssilang.kernel.elements.family import (
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.interface.bed import twisting_stiffness, yields
 from ssilang.kernel.interface.elements import joint_element
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells, point_values
+from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.laws.law_table import elastic_tangent, law_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Mode, Zone
@@ -45,7 +47,9 @@ def displacement_names(zone: Zone) -> tuple[str, ...]:
 
 def has_rotations(zone: Zone) -> bool:
     """True for a joint of two points with rotational springs."""
-    return zone.element == "JOI1" and "JOINT_SDM" not in zone.behaviour
+    if zone.element != "JOI1" or "JOINT_SDM" in zone.behaviour:
+        return False
+    return not law_of(zone.behaviour).two_points
 
 
 def rotational_stiffness(zone: Zone, given: CellField) -> ElementMatrices | None:
@@ -120,7 +124,7 @@ class JointFamily(ElementFamily):
         D = tangent.reshape(n, g, len(order), -1)[:, :, order][..., order]
         if not has_rotations(zone):
             return D
-        springs = _SPRINGS[zone.mode.dimension]
+        springs, d = _SPRINGS[zone.mode.dimension], len(order)
         full = np.zeros((n, g, len(order) + len(springs), len(order) + len(springs)))
         full[..., : len(order), : len(order)] = D
         for i, names in enumerate(springs, start=len(order)):
@@ -131,6 +135,8 @@ class JointFamily(ElementFamily):
             for i, values in enumerate(rocking[: len(springs)]):
                 place = len(order) + i + (len(springs) == 3)
                 full[..., place, place] = values[:, None]
+            if len(springs) == 3:
+                _twist_by_bed(joints, joint_parameters(joints, parameters), full[..., d, d])
         return full
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
@@ -150,6 +156,15 @@ class JointFamily(ElementFamily):
             rows = [i for i, u in enumerate(layout.unknowns) if u == unknown]
             values[:, np.array(rows)[:, None], rows] = scalar
         return values, layout
+
+
+def _twist_by_bed(joints: JointCells, table: FloatArray, spring: FloatArray) -> None:
+    """The spring (n, 1) against twist of macro-elements whose ground yields: that of the bed."""
+    for row, value in zip(table, spring, strict=True):
+        if yields(row) and (row[Parameter.LONG] > 0.0 or row[Parameter.RAYO] > 0.0):
+            if value.any():
+                raise MaterialError("kernel.interface.bed-has-its-own-twist")
+            value[:] = twisting_stiffness(law_of(joints.zone.behaviour).code, row)
 
 
 def _full_moduli(joints: JointCells, given: ZoneField, size: int) -> FloatArray:

@@ -15,6 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.kinematics import JointCells
@@ -75,6 +76,8 @@ class Footing:
         Whether its joints have two points.
     macro : bool
         Whether it is a macro-element, whose jumps are rotations and opening.
+    bed : Bed or None
+        Its bed, where the ground of a macro-element yields.
     """
 
     points: IntArray
@@ -89,6 +92,7 @@ class Footing:
     lengths: FloatArray = field(default_factory=lambda: np.zeros(0))
     pairs: bool = False
     macro: bool = False
+    bed: Bed | None = None
 
     @property
     def area(self) -> float:
@@ -112,6 +116,8 @@ class Footing:
         u : array (k, c)
             Displacements at `unknowns`.
         """
+        if self.bed is not None:
+            return self._bed_loads(self.bed, w, t)
         w, t = w[:, self.points], t[:, self.points]
         wn, tn = w[..., -1], t[..., -1]
         opening, pressure = np.maximum(wn, 0.0).max(axis=1), np.maximum(-tn, 0.0).max(axis=1)
@@ -135,6 +141,16 @@ class Footing:
             np.cross(arms, vectors).sum(axis=1) @ self.axes.T,
             u @ self.turn.T,
         )
+
+    def _bed_loads(self, bed: Bed, w: FloatArray, t: FloatArray) -> Loads:
+        """Of a macro-element whose ground yields: its places know where it presses."""
+        at, t_bed, w_bed = self.points[0], t[:, bed.points], w[:, bed.points]
+        whole = t[:, at] + bed.taken(t_bed)
+        pressures = bed.pressures(w_bed, t_bed)
+        return Loads(
+            bed.in_contact(w_bed, t_bed), -whole[:, -1], pressures.max(axis=1),
+            np.maximum(w[:, at, -1], 0.0), whole[:, :-1], w[:, at, :-1],
+        )  # fmt: skip
 
     def _at_ends(self, values: FloatArray) -> FloatArray:
         """Values (k, g) of the points at both ends of each cell, (k, n_cells, 2)."""
@@ -171,7 +187,7 @@ def footings_of(interface: Interface, numbering: Numbering) -> tuple[Footing, ..
     for j, first in zip(interface.joints, starts, strict=True):
         every = np.arange(len(j.upper))
         if is_macro(j):
-            found += [_macro(j, first + int(c), int(c)) for c in every]
+            found += [_macro(j, first + int(c), int(c), interface) for c in every]
         elif not _is_face(j):
             found.append(_footing([(j, first, every)], numbering))
     return tuple(sorted(found, key=lambda f: -f.area))
@@ -301,13 +317,14 @@ def _axes(footing: Footing, mode: Mode) -> tuple[FloatArray, FloatArray]:
     return axes, lever @ turned[:, kept]
 
 
-def _macro(joints: JointCells, point: int, cell: int) -> Footing:
+def _macro(joints: JointCells, point: int, cell: int, interface: Interface) -> Footing:
     """A macro-element: its law gives force, moments and rotations."""
     nodes = joints.zone.cells.nodes
     place = nodes.coordinates[nodes.resolve(joints.upper[cell])][:1]
     frame, d = joints.frames[cell], joints.element.dimension
     axes = np.array([[0.0, 0.0, 1.0]]) if d == 2 else frame[0, : d - 1]
+    bed = next((b for b in interface.beds if b.owner == point), None)
     return Footing(
         np.array([point]), np.ones(1), frame, place, place[0], axes, np.zeros(0, np.int64),
-        np.zeros((len(axes), 0)), pairs=True, macro=True,
+        np.zeros((len(axes), 0)), pairs=True, macro=True, bed=bed,
     )  # fmt: skip

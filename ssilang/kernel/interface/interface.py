@@ -7,6 +7,7 @@ delta, whose size is that of the interface and not of the model.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -18,6 +19,14 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.interface.bed import Bed, beds_of
+from ssilang.kernel.interface.bed_results import (
+    OF_WHOLE,
+    common_results,
+    places_from,
+    whole_variables,
+    zone_variables,
+)
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
@@ -57,6 +66,8 @@ class Interface:
     codes : array (n_points,)
         Law of each point.
     parameters : array (n_points, N_PARAMETERS)
+    beds : tuple of Bed
+        Places under macro-elements whose ground yields; they are points behind those of all joints.
     """
 
     joints: tuple[JointCells, ...]
@@ -67,6 +78,7 @@ class Interface:
     weights: FloatArray
     codes: IntArray
     parameters: FloatArray
+    beds: tuple[Bed, ...] = ()
 
     @cached_property
     def points(self) -> Joints:
@@ -84,6 +96,33 @@ class Interface:
         """Number of integration points."""
         return len(self.weights)
 
+    @property
+    def n_shown(self) -> int:
+        """Number of points of the joints themselves, without places of beds."""
+        return self.n_points - sum(len(bed.areas) for bed in self.beds)
+
+    def cell_of(self, bed: Bed) -> tuple[JointCells, int]:
+        """The zone and the cell of a bed's macro-element."""
+        zone, cell = _at(self.joints, bed.owner)
+        return self.joints[zone], cell
+
+    @property
+    def pressing(self) -> IntArray:
+        """Points whose tractions are those of one joint: no places, no owners of beds."""
+        return np.setdiff1d(np.arange(self.n_shown), [bed.owner for bed in self.beds])
+
+    def carried(self, t: FloatArray) -> FloatArray:
+        """Tractions (..., n_shown, d) of the joints from those (..., n_points, d) of all points.
+
+        A macro-element carries the forces of the elastic bed and what yielding takes from them.
+        """
+        if not self.beds:
+            return t
+        found = t[..., : self.n_shown, :].copy()
+        for bed in self.beds:
+            found[..., bed.owner, :] += bed.taken(t[..., bed.points, :])
+        return found
+
     def initial_state(self) -> FloatArray:
         """State of joints never loaded, shape (n_points, N_STATE)."""
         return np.zeros((self.n_points, N_STATE))
@@ -97,6 +136,13 @@ class Interface:
         found = np.zeros((self.size, self.size))
         np.add.at(found, (places[:, :, None], places[:, None, :]), blocks)
         return found
+
+
+def _at(joints: Sequence[JointCells], point: int) -> tuple[int, int]:
+    """The number of the zone and the cell of a point of joints of two points."""
+    starts = np.cumsum([0, *(j.weights.size for j in joints)])
+    zone = int(np.searchsorted(starts, point, side="right")) - 1
+    return zone, point - int(starts[zone])
 
 
 def joint_zones(model: Model) -> tuple[Zone, ...]:
@@ -116,29 +162,38 @@ def interface_of(
     MeshError, MaterialError
         For joints without area, reversed, or with inadmissible parameters.
     """
-    joints, tables, codes = [], [], []
+    joints, tables, codes, given_tables = [], [], [], []
     ordered = sorted(zones, key=lambda z: law_of(z.behaviour).macro)
     for zone in ordered:
         given, law = zone_field(zone, characteristics), law_of(zone.behaviour)
         cells = joint_cells(zone, given)
         table = joint_parameters(cells, given)
+        given_tables.append(table)
         if law.rocking is not None:
             _refuse_unfit_macro(zone, law, table)
+            given_tables[-1] = table.copy()
             table[:, Parameter.KS1], table[:, Parameter.KS2] = law.rocking(table)
         joints.append(cells)
         tables.append(table)
         codes.append(np.full(cells.weights.size, law.code, dtype=np.int64))
     d = joints[0].element.dimension
-    J, places, B = _jumps(joints, numbering)
+    beds = beds_of(joints, given_tables)
+    J, places, B = _jumps(joints, numbering, beds)
+    for bed in beds:  # the closed form above knows what its ground bears
+        place, cell = _at(joints, bed.owner)
+        tables[place][cell, Parameter.QULT] = bed.parameters[Parameter.QULT]
+    tables += [np.tile(bed.parameters, (len(bed.areas), 1)) for bed in beds]
+    codes += [np.full(len(bed.areas), LawCode.BED, dtype=np.int64) for bed in beds]
     return Interface(
         tuple(joints),
         d,
         J,
         places,
         B,
-        np.concatenate([j.weights.ravel() for j in joints]),
+        np.concatenate([*(j.weights.ravel() for j in joints), *(bed.areas for bed in beds)]),
         np.concatenate(codes),
         np.concatenate(tables),
+        beds,
     )
 
 
@@ -157,7 +212,7 @@ def is_macro(joints: JointCells) -> bool:
 
 
 def _jumps(
-    joints: list[JointCells], numbering: Numbering
+    joints: list[JointCells], numbering: Numbering, beds: tuple[Bed, ...]
 ) -> tuple[sp.csr_array, IntArray, FloatArray]:
     """Jump matrix, pairs of each point, operators of the points."""
     plain = [j for j in joints if not is_macro(j)]
@@ -171,14 +226,30 @@ def _jumps(
         B = _padded_operators(plain, places.shape[1])
     if macro:
         rows += [macro_jumps(j, numbering) for j in macro]
-        n, width = sum(len(j.upper) for j in macro), places.shape[1]
+        n, width = sum(len(j.upper) for j in macro), max(places.shape[1], 2 if beds else 1)
         first = sum(r.shape[0] for r in rows[: len(rows) - len(macro)]) // d
         own = np.zeros((n, width), dtype=np.int64)
         own[:, 0] = first + np.arange(n)
         unit = np.zeros((n, d, width * d))
         unit[:, :, :d] = np.eye(d)
+        places, B = _wider(places, B, width)
         places, B = np.concatenate([places, own]), np.concatenate([B, unit])
+    if beds:
+        rows.append(sliding_jumps(beds, joints, numbering))
+        n_pairs = sum(r.shape[0] for r in rows) // d - len(beds)
+        for i, bed in enumerate(beds):
+            below = np.zeros((len(bed.areas), places.shape[1]), dtype=np.int64)
+            below[:, 0], below[:, 1] = places[bed.owner, 0], n_pairs + i
+            operators = np.zeros((len(bed.areas), d, B.shape[2]))
+            operators[:, :, : 2 * d] = bed.operator()
+            places, B = np.concatenate([places, below]), np.concatenate([B, operators])
     return sp.csr_array(sp.vstack(rows, format="csr")), places, np.ascontiguousarray(B)
+
+
+def _wider(places: IntArray, B: FloatArray, width: int) -> tuple[IntArray, FloatArray]:
+    """Pairs and operators of points padded to so many pairs."""
+    more, d = width - places.shape[1], B.shape[1]
+    return np.pad(places, ((0, 0), (0, more))), np.pad(B, ((0, 0), (0, 0), (0, more * d)))
 
 
 def macro_jumps(joints: JointCells, numbering: Numbering) -> sp.csr_array:
@@ -196,6 +267,27 @@ def macro_jumps(joints: JointCells, numbering: Numbering) -> sp.csr_array:
             for row in range(d - 1):
                 matrix[cell * d + row, turn] += sign * axes[row]
             matrix[cell * d + d - 1, move] += sign * frames[cell, -1]
+    return sp.csr_array(matrix)
+
+
+def sliding_jumps(
+    beds: tuple[Bed, ...], joints: list[JointCells], numbering: Numbering
+) -> sp.csr_array:
+    """Motions along the base, d rows a bed: the second pair of its places."""
+    d = joints[0].element.dimension
+    matrix = sp.lil_array((len(beds) * d, numbering.size))
+    for i, bed in enumerate(beds):
+        at, cell = _at(joints, bed.owner)
+        j = joints[at]
+        frame, resolve = j.frames[cell, 0], j.zone.cells.nodes.resolve
+        for side, sign in ((j.upper, 1.0), (j.lower, -1.0)):
+            node = int(resolve(side[cell]).ravel()[0])
+            move = _places(numbering, node, displacement_names(j.zone))
+            for row in range(d - 1):
+                matrix[i * d + row, move] += sign * frame[row]
+            if d == 3:
+                turn = _places(numbering, node, ("RX", "RY", "RZ"))
+                matrix[i * d + 2, turn] += sign * frame[-1]
     return sp.csr_array(matrix)
 
 
@@ -312,6 +404,7 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         Which names the components get; joints whose law keeps no plastic jump are left out.
     """
     blocks, start = [], 0
+    values = interface.carried(values) if kind == "traction" else values
     for j in interface.joints:
         n, g = j.weights.shape
         local = values[start : start + n * g].reshape(n, g, -1)
@@ -333,6 +426,8 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
 def point_values(interface: Interface, field: CellField, kind: str) -> FloatArray:
     """Values (n_points, d) at the points of all joints from a field as `interface_field` gives it.
 
+    Places of beds have none: what they take is in the tractions of their macro-element.
+
     Raises
     ------
     FieldError
@@ -351,7 +446,8 @@ def point_values(interface: Interface, field: CellField, kind: str) -> FloatArra
             )
         local = np.stack([given.at(n, "STRESSES") for n in names], axis=-1)
         parts.append(local.reshape(-1, interface.dimension))
-    return np.concatenate(parts)
+    places = interface.n_points - interface.n_shown
+    return np.concatenate([*parts, np.zeros((places, interface.dimension))])
 
 
 def plastic_jumps(interface: Interface, w: FloatArray, t: FloatArray) -> FloatArray:
@@ -369,11 +465,16 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
 
     JOINT_SDM: SAUT (largest irreversible opening), GLI1, GLI2 (slip). Mohr-Coulomb joints: EPSE
     (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (plastic
-    compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump).
+    compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump). Macro-elements whose
+    ground yields: see `bed_results`.
     """
     blocks, start = [], 0
     arrays = (interface.codes, w, t, state, interface.parameters)
     common = np.vstack([point_states(*arrays)[None], energies_of_points(*arrays)])
+    for bed in interface.beds:
+        at_places = tuple(x[None, bed.points] for x in (w, t, state))
+        elastic = common[1:, bed.owner, None]
+        common[:, bed.owner] = common_results(bed, elastic, *at_places)[:, 0]
     for j in interface.joints:
         n, g = j.weights.shape
         local = state[start : start + n * g].reshape(n, g, -1)
@@ -381,6 +482,10 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         start += n * g
         fields = shown_variables(law_of(j.zone.behaviour), local, interface.dimension)
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
+        first = start - n * g
+        beds = {b.owner - first: b for b in interface.beds if first <= b.owner < start}
+        if beds:
+            fields |= zone_variables(beds, n, (w, t, state))
         blocks.append(_block(j, fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
 
@@ -419,11 +524,16 @@ def point_history(
     j, before = interface.joints[zone], sum(a * b for a, b in sizes[:zone])
     at = before + cell * sizes[zone][1] + point
     w, t, state = (np.ascontiguousarray(x[:, at]) for x in (rows.w, rows.t, rows.state))
+    bed = next((b for b in interface.beds if b.owner == at), None)
+    joints = (rows.w, rows.t, rows.state)
+    at_places = () if bed is None else tuple(x[:, bed.points] for x in joints)
     if kind != "variables":
         names = j.element.strains if kind == "jump" else j.element.stresses
         if is_macro(j):
             names = MACRO_NAMES[kind][interface.dimension]
         places = {names[i]: i for i in component_order(j.zone)}
+        if bed is not None and kind == "traction":
+            t = t + bed.taken(at_places[1])
         values = w if kind == "jump" else t
         return values[:, places[component]] if component in places else None
     if component in COMMON_VARIABLES:
@@ -432,8 +542,12 @@ def point_history(
         common = np.vstack(
             [point_states(codes, w, t, state, p)[None], energies_of_points(codes, w, t, state, p)]
         )
+        if bed is not None:
+            common = common_results(bed, common[1:], *at_places)
         found: FloatArray = common[COMMON_VARIABLES.index(component)]
         return found
+    if bed is not None and component in OF_WHOLE:
+        return whole_variables(bed, *at_places)[component]
     shown = shown_variables(law_of(j.zone.behaviour), state[:, None], interface.dimension)
     return shown[component][:, 0] if component in shown else None
 
@@ -447,7 +561,12 @@ def state_from_field(interface: Interface, field: CellField) -> FloatArray:
         state_of(law_of(j.zone.behaviour), zone_field(j.zone, field), j.weights.shape)
         for j in interface.joints
     ]
-    return np.concatenate(parts)
+    places = np.zeros((interface.n_points - interface.n_shown, N_STATE))
+    found = np.concatenate([*parts, places])
+    for bed in interface.beds:
+        j, cell = interface.cell_of(bed)
+        places_from(zone_field(j.zone, field), cell, found[bed.points])
+    return found
 
 
 def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:

@@ -27,7 +27,7 @@ def point_states(
     so far, without traction or on the softening curve; OPEN, everything else: a gap below the
     largest one, or tension below the strength. Mohr-Coulomb joints: CLOSED, OPEN, or OPENING at
     the tensile strength. Macro-elements: CLOSED over the whole area, else OPEN. Elastic joints
-    are CLOSED: they are bonded.
+    and bearings of lead and rubber are CLOSED: they are bonded. Pendulums: CLOSED where they press.
 
     Parameters
     ----------
@@ -66,7 +66,17 @@ def _macro(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> Fl
     return np.where((np.abs(t - whole).max(axis=1) <= WHOLE * size), CLOSED, OPEN)
 
 
-_STATES = {LawCode.SDM: _sdm, LawCode.MOHR: _mohr}
+def _lead(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
+    return np.full(len(w), CLOSED)
+
+
+def _pendulum(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
+    return np.where(t[:, -1] < 0, CLOSED, OPEN)
+
+
+_STATES = {
+    LawCode.SDM: _sdm, LawCode.MOHR: _mohr, LawCode.LEAD: _lead, LawCode.PENDULUM: _pendulum,
+}  # fmt: skip
 """By law; all others are macro-elements."""
 
 

@@ -31,6 +31,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 JOINT_WORDS = (
     "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
     "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
+    "APPUI_PLOMB", "APPUI_PENDULE",
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.interface.laws.point_laws` says what they mean."""
 
@@ -40,8 +41,11 @@ PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "hoop", "fibre", "plate")
 """Families of elements that have plastic laws."""
 
-UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL")
-"""Plastic laws that fibres of sections alone have."""
+UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
+"""Plastic laws of one stress: those of fibres of sections and of bars."""
+UNIAXIAL_FAMILIES = ("fibre", "bar")
+"""Families of elements that have them."""
+
 CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop")
 """Families of elements that creep."""
 
@@ -59,9 +63,9 @@ OTHER_BEHAVIOURS = (
     "CHABOCHE1", "CHABOCHE2", "GAUVAIN", "GURSON", "STEINBERG", "ZERILLI", "PRESTON", "HINTE",
     "BETON", "OTTOSEN", "OTTOVARI", "BETOCYCL", "DRUCKER_PRAGER_2", "ENDOMMAGEABLE", "GLOBAL",
     "TUYAU_FISSURE", "LINESPRING", "BILIN_MOMY", "BILIN_EFFZ", "TAKEDA_MOMY", "TAKEMO_EFFZ",
-    "BA1D", "ACIER_UNI", "ACIER_ANCRAGE", "BETON_UNI", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
+    "BA1D", "ACIER_ANCRAGE", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
     "CISAIL_NL", "INFILL_UNI", "PARFAIT_ANCRAGE", "RICBET_UNI", "OUGLOVA", "LIAISON_ACBE",
-    "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "CAM_CLAY", "HUJEUX", "UBIQUITOUS",
+    "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "HUJEUX", "UBIQUITOUS",
     "MOHR_COULOMB", "MRS_LADE", "DP_SOL", "IWPR3D_SOL", "VMT_FEFP", "RHMC_FEFP",
     "POWDER_FEFP", "POWDERCAP_FEFP",
     # damage
@@ -88,6 +92,9 @@ IMPEDANCE_LAWS = ("VOIGT", "REUSS", "COMPLEXE")
 
 UNDESCRIBED_LAWS = ("JOINT_SOFT", "JOINT_COAT")
 """Joint laws whose parameters BETA and CPLG no public text defines: refused with that reason."""
+
+CHANGED_LAWS = ("ISS_GRANGE",)
+"""Laws of footings whose notice says that they differ from the published model, and not how."""
 
 
 def full_word(word: str, known: tuple[str, ...]) -> str | None:
@@ -168,7 +175,7 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
             raise MaterialError("kernel.materials.beam-fibres-elastique-section", law=law)
         return ("PLASTIQUE", law)
     if (family == "fibre" and law not in FIBRE_LAWS) or (
-        family != "fibre" and law in UNIAXIAL_LAWS
+        family not in UNIAXIAL_FAMILIES and law in UNIAXIAL_LAWS
     ):
         raise MaterialError(
             "kernel.materials.elements-family-no-plastic",

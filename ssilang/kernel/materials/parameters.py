@@ -98,7 +98,8 @@ def material_names(zone: Zone) -> Names:
         return Names(diagonal, (*rest, "RHO", *JOINT_POINT[6:], *JOINT_THERMAL, *AXES))
     if is_joint(zone):
         law = law_of(zone.behaviour)
-        taken = ("RHO", *law.optional, *JOINT_POINT, *JOINT_THERMAL, *AXES)
+        at_points = JOINT_POINT[6:] if law.two_points else JOINT_POINT
+        taken = ("RHO", *law.optional, *at_points, *JOINT_THERMAL, *AXES)
         return Names(law.required, tuple(n for n in dict.fromkeys(taken) if n not in law.required))
     if "IMPEDANCE" in zone.behaviour:
         return _IMPEDANCE[zone.behaviour[-1]]
@@ -115,7 +116,7 @@ def material_names(zone: Zone) -> Names:
     plastic = plastic_law(zone.behaviour)
     if plastic is not None:
         elastic = _ELASTIC[kind]
-        optional = (*elastic.optional, *plastic.optional)
+        optional = (*elastic.optional, *plastic.defaults, *plastic.optional)
         return Names((*elastic.required, *plastic.required), optional)
     return _ELASTIC[kind]
 

@@ -167,7 +167,7 @@ def spectrum(
     oscillators = Oscillators(frequencies, damping)
     sampled(times, signal)
     if wanted is None:
-        times, signal = _rested(times, signal, float(frequencies.min()))
+        times, signal = rested(times, signal, float(frequencies.min()))
     else:
         times, signal = sampled(times, signal, wanted)
     w = oscillators.w
@@ -179,7 +179,7 @@ def spectrum(
     return np.asarray(largest * w**power)
 
 
-def _rested(times: FloatArray, signal: FloatArray, slowest: float) -> tuple[FloatArray, FloatArray]:
+def rested(times: FloatArray, signal: FloatArray, slowest: float) -> tuple[FloatArray, FloatArray]:
     """The signal followed by zeros for half the longest period."""
     step = float(np.diff(times).mean())
     count = min(int(np.ceil(0.5 / slowest / step)) + 1, 200_000)

@@ -104,7 +104,7 @@ class LoadedBulk(Bulk):
         later = self.law(time + self.instant, u).force
         rate = (added.force - later) / self.instant
         after = cast(State, _Loaded(inner.state, u, added.force))
-        return Answer(inner.force - added.force, tangent, after, inner.work, rate)
+        return Answer(inner.force - added.force, lambda: tangent, after, inner.work, rate)
 
     def _follows(self, time: float, u: FloatArray, force: FloatArray) -> sp.csr_array | None:
         """Change of the load with the displacement; None where there is none."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,11 +25,19 @@ from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.large.passes import ZonePass
+    from ssilang.kernel.plasticity.large.pattern import Pattern
+
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""
 
 
 State = tuple[PointState, ...]
+
+
+MANY_POINTS = 2_000
+"""Points from which a zone is worth the loading of compiled code."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +48,8 @@ class Answer:
     ----------
     force : array (n,)
         Internal forces at the end of the step.
-    tangent : csr array (n, n)
+    make_tangent : callable
+        Makes `tangent`, csr (n, n), if it is asked for.
     state : State
     work : float
         Work of the stresses over the step (average of both ends).
@@ -47,10 +58,24 @@ class Answer:
     """
 
     force: FloatArray
-    tangent: sp.csr_array
+    make_tangent: Callable[[], sp.csr_array]
     state: State
     work: float
     rate: FloatArray | None = None
+
+    @cached_property
+    def tangent(self) -> sp.csr_array:
+        """Derivative of the forces by the step, csr (n, n)."""
+        return self.make_tangent()
+
+
+@dataclass(frozen=True, eq=False)
+class _OfZone:
+    """A zone's state after a step, the work over it, and what adds its tangent to terms (nnz,)."""
+
+    state: PointState
+    work: float
+    add_tangent: Callable[[FloatArray], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,23 +127,61 @@ class Bulk:
 
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
-        force, values, after, work = np.zeros(self.size), [], [], 0.0
-        for i, (zone, places, old) in enumerate(zip(self.zones, self.places, state, strict=True)):
-            strain = zone.strains(du[places])
-            free = old.free
-            if i in self.free:
-                free = zone.spread(self.free[i](time))
-                strain = strain - (free - old.free)
-            found, whole = zone.respond(old.stress, strain, old.variables, time - old.time)
-            vectors = zone.forces(found.stress)
-            force += np.bincount(places.ravel(), vectors.ravel(), self.size)
-            values.append(zone.stiffness(found.tangent))
-            elastic = np.einsum("mij,mj->mi", zone.parameters.compliance, found.stress - old.stress)
-            plastic = old.plastic + whole - elastic
-            after.append(PointState(found.stress, plastic, free, found.variables, time))
-            density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
-            work += float(density @ zone.weights.ravel())
-        return Answer(force, self._assembled(values), tuple(after), work)
+        force = np.zeros(self.size)
+        found = [self._respond(i, old, du, time, force) for i, old in enumerate(state)]
+
+        def tangent() -> sp.csr_array:
+            data = self.terms.blank()
+            for one in found:
+                one.add_tangent(data)
+            return self.terms.matrix(data)
+
+        return Answer(force, tangent, tuple(f.state for f in found), sum(f.work for f in found))
+
+    def _respond(
+        self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray
+    ) -> _OfZone:
+        """A zone's answer; its forces are added to `force` (n,)."""
+        free, freed = old.free, np.zeros((0, 6))
+        if i in self.free:
+            free = self.zones[i].spread(self.free[i](time))
+            freed = free - old.free
+        compiled = self.passes[i]
+        if compiled is not None:
+            new, work = compiled.respond(old, du, freed, force)
+
+            def add_tangent(data: FloatArray) -> None:
+                compiled.add_tangent(old, du, freed, self.terms.slots[i], data)
+
+            state = PointState(new.stress, new.plastic, free, new.variables, time)
+            return _OfZone(state, work, add_tangent)
+        zone, places = self.zones[i], self.places[i]
+        strain = zone.strains(du[places])
+        strain = strain - freed if len(freed) else strain
+        found, whole = zone.respond(old.stress, strain, old.variables, time - old.time)
+        force += np.bincount(places.ravel(), zone.forces(found.stress).ravel(), self.size)
+        elastic = found.elastic_strain(zone.parameters, old.stress)
+        plastic = old.plastic + whole - elastic
+        density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
+        return _OfZone(
+            PointState(found.stress, plastic, free, found.variables, time),
+            float(density @ zone.weights.ravel()),
+            lambda data: self.terms.add(data, i, zone.stiffness(found.tangent)),
+        )
+
+    @cached_property
+    def passes(self) -> tuple[ZonePass | None, ...]:
+        """Compiled passes of the zones that have them."""
+        return tuple(_pass_of(*each) for each in zip(self.zones, self.places, strict=True))
+
+    @cached_property
+    def terms(self) -> Pattern:
+        """Where the terms of the tangent stand."""
+        from ssilang.kernel.plasticity.large.pattern import Pattern
+
+        sizes = [p.shape[1] for p in self.places]
+        ones = [np.ones((len(p), k, k)) for p, k in zip(self.places, sizes, strict=True)]
+        return Pattern.of(self._assembled(ones), self.places)
 
     def _assembled(self, values: list[FloatArray]) -> sp.csr_array:
         if sum(v.size for v in values) > MANY_TERMS:
@@ -153,6 +216,15 @@ class Bulk:
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""
         return np.zeros(self.size)
+
+
+def _pass_of(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:
+    plain = type(points) is PlasticPoints and points.law.columns is not None
+    if not plain or points.count < MANY_POINTS:
+        return None
+    from ssilang.kernel.plasticity.large.passes import zone_pass
+
+    return zone_pass(points, places)
 
 
 def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numbering) -> Bulk:

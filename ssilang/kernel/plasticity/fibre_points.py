@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -44,20 +44,22 @@ class FibreGroup:
         At the fibres of one section.
     shear : array (n_fibres, 2)
         ALPY and ALPZ.
+    kept : dict
+        What `tiled` made.
     """
 
     part: SectionZone
     law: PlasticLaw
     parameters: PointParameters
     shear: FloatArray
+    kept: dict[int, tuple[PointParameters, FloatArray]] = field(default_factory=dict)
 
     def respond(
         self, stress: FloatArray, strain: FloatArray, variables: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Stress, variables, tangent of some sections: arrays (n, n_fibres, ...)."""
         n, f, _ = stress.shape
-        parameters = self.parameters.at(np.tile(np.arange(f), n))
-        share = np.tile(self.shear, (n, 1))
+        parameters, share = self.tiled(n)
         own, step = stress.reshape(n * f, 6).copy(), strain.reshape(n * f, 6).copy()
         step[:, 3:5] *= share > 0
         own[:, 3:5] = np.divide(own[:, 3:5], share, out=np.zeros_like(share), where=share > 0)
@@ -65,12 +67,20 @@ class FibreGroup:
         held = () if self.law.uniaxial else (1, 2, 5)
         inner = variables.reshape(n * f, -1)[:, :k]
         found, _ = respond_held(self.law, parameters, own, step, inner, held)
-        after, tangent = found.stress.copy(), found.tangent.copy()
+        after, tangent = found.stress, found.tangent
         after[:, 3:5] *= share
         tangent[:, 3:5] *= share[:, :, None]
         kept = variables.copy()
         kept[..., :k] = found.variables.reshape(n, f, k)
         return after.reshape(n, f, 6), kept, tangent.reshape(n, f, 6, 6)
+
+    def tiled(self, n: int) -> tuple[PointParameters, FloatArray]:
+        """Parameters and shares of shear (n n_fibres, 2) at n sections; the last n is kept."""
+        if n not in self.kept:
+            rows = np.tile(np.arange(len(self.shear)), n)
+            self.kept.clear()
+            self.kept[n] = self.parameters.at(rows), self.shear[rows]
+        return self.kept[n]
 
 
 def fibre_groups(section: FibreSection) -> tuple[FibreGroup, ...]:
@@ -150,6 +160,11 @@ class FibreParameters(PointParameters):
         inverse = np.divide(1.0, moduli, out=np.zeros_like(moduli), where=moduli > 0)
         for i, c in enumerate(COMPONENTS):
             found[:, c, c] = inverse[:, i]
+        return found
+
+    def elastic_energy(self, stress: FloatArray) -> FloatArray:
+        """Energy (m,) that stresses (m, 6) store in a unit of volume."""
+        found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.compliance, stress)
         return found
 
 

@@ -270,7 +270,7 @@ class FiniteBulk(Bulk):
         force = self._sum(u)
         tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
         work = 0.5 * float((self._sum(before) + force) @ du)
-        return Answer(force, self._assembled(tangents), finite_state(u), work)
+        return Answer(force, lambda: self._assembled(tangents), finite_state(u), work)
 
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""

@@ -91,9 +91,7 @@ class YieldingBulk(FiniteBulk):
             points = zone.points
             strain = zone.strains(u[places]) - zone.strains(before[places])
             found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
-            elastic = np.einsum(
-                "mij,mj->mi", points.parameters.compliance, found.stress - last.stress
-            )
+            elastic = found.elastic_strain(points.parameters, last.stress)
             after.append(
                 PointState(
                     found.stress, last.plastic + whole - elastic, last.free, found.variables, time
@@ -104,7 +102,7 @@ class YieldingBulk(FiniteBulk):
             tangents.append(now.tangent(u[places]))
         whole_answer = replace(self, places=(*self.places, *self.at))
         work = 0.5 * float((self.force(state) + force) @ du)
-        return Answer(force, whole_answer._assembled(tangents), _state(u, after), work)
+        return Answer(force, lambda: whole_answer._assembled(tangents), _state(u, after), work)
 
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""

@@ -70,7 +70,9 @@ class BulkSolver(FullNewtonSolver):
         Largest dimension of the bodies.
     """
 
-    remembered = ("forces", "force")
+    remembered: tuple[str, ...] = ("forces", "force")
+    loop, factor, said = "full Newton", "SuperLU", "kernel.stepping.loop-full-newton"
+    """What is told of it: names of method and linear solver, code of the sentence."""
 
     def __init__(
         self, problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State

@@ -121,8 +121,7 @@ class PlasticPoints:
 
     def stored(self, state: PointState) -> float:
         """Elastic energy, with what a law locks in."""
-        strain = np.einsum("mij,mj->mi", self.parameters.compliance, state.stress)
-        density = 0.5 * np.einsum("mi,mi->m", strain, state.stress)
+        density = self.parameters.elastic_energy(state.stress)
         if self.law.locked is not None:
             density = density + self.law.locked(self.parameters, state.stress, state.variables)
         return float(density @ self.weights.ravel())
@@ -225,11 +224,12 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
     """
     shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
 
-    def at_points(name: str) -> FloatArray:
-        return np.broadcast_to(given.at(name, "STRESSES"), shape).ravel()
+    def at_points(name: str, default: float | None = None) -> FloatArray:
+        return np.broadcast_to(given.at(name, "STRESSES", default), shape).ravel()
 
     names = [n for n in ("YOUN", "NU", *law.required) if n not in law.curves]
     values = {name: at_points(name) for name in names}
+    values |= {name: at_points(name, default) for name, default in law.defaults.items()}
     check_isotropic(values["YOUN"], values["NU"])
     if (values["YOUN"] <= 0).any():
         raise MaterialError(

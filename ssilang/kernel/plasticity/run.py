@@ -12,6 +12,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.plasticity.bulk import Bulk, State
@@ -38,16 +39,23 @@ from ssilang.kernel.stepping.state import (
     STORED,
     Motion,
 )
+from ssilang.messages.message import Sentence
 
 HALVINGS = 7
 """How often a step that does not converge is cut in two."""
+MANY = 1_000
+"""Unknowns from which steps keep a factor; below, factors take less than the loading of code."""
 SAME_STEP = 1e-9
 """Relative difference below which two steps of time share their matrix."""
 
 
 @dataclass(eq=False)
 class BulkRun:
-    """A calculation under way: `motion` and `state` are those of the last accepted step."""
+    """A calculation under way: `motion` and `state` are those of the last accepted step.
+
+    Motions carry the bodies' internal `force` (n,) from step to step; `full` asks for Newton's
+    method on all unknowns where steps could keep a factor.
+    """
 
     problem: Problem
     bulk: Bulk
@@ -58,10 +66,13 @@ class BulkRun:
     residuals: list[list[float]] = field(default_factory=list)
     last: tuple[FloatArray, FloatArray] | None = None
     keeper: Keeper | None = None
+    full: bool = False
     motion: Motion = field(init=False)
+    force: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         p = self.problem
+        self.force, self._energy = self.bulk.force(self.state), (self.state, np.nan)
         if p.scheme.conserving or p.scheme.adaptive:
             raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
         joints = joint_state(p)
@@ -71,7 +82,13 @@ class BulkRun:
             joints.state, np.zeros(n), initial_energies(p, np.zeros(n), joints),
             NOTHING if p.contact is None else np.zeros(p.contact.size),
         )  # fmt: skip
-        self.motion.energies[ELASTIC] += self.bulk.stored(self.state)
+        self.motion.energies[ELASTIC] += self.stored()
+
+    def stored(self) -> float:
+        """Energy that the bodies store now."""
+        if self._energy[0] is not self.state or np.isnan(self._energy[1]):
+            self._energy = (self.state, self.bulk.stored(self.state))
+        return self._energy[1]
 
     def imbalance(self, force: FloatArray, factors: FloatArray) -> FloatArray:
         """Internal forces less loads (n,), without inertia; `force` is that of the bodies."""
@@ -82,7 +99,7 @@ class BulkRun:
     def account(self, before: float, work: float) -> None:
         """Energies of bodies and joints after a step; `before` was the bodies' stored energy."""
         p, m = self.problem, self.motion
-        stored = self.bulk.stored(self.state)
+        stored = self.stored()
         self.lost += work - (stored - before)
         m.energies[ELASTIC] = 0.5 * m.u @ (p.K @ m.u) + stored
         joints = p.interface
@@ -96,11 +113,13 @@ class BulkRun:
     def memory(self) -> dict[str, Any]:
         """What the next step depends on beside the motion."""
         last = None if self.last is None else leaves(self.last)
-        return {"lost": self.lost, "last": last, "state": leaves(self.state)}
+        state = leaves(self.state)
+        return {"lost": self.lost, "last": last, "state": state, "force": self.force.copy()}
 
     def recall(self, kept: dict[str, Any]) -> None:
         """Go on with what an earlier run kept."""
         self.lost, self.state = kept["lost"], rebuilt(self.state, kept["state"])
+        self.force = kept["force"]
         self.last = None if kept["last"] is None else (kept["last"][0], kept["last"][1])
 
     def save(self, step: int) -> None:
@@ -139,14 +158,20 @@ def step_bulk_statics(run: BulkRun) -> History:
 def _recorded(run: BulkRun) -> Iterator[History]:
     """The history of a run that begins; where it ends the observers are closed."""
     times, started = run.problem.times, time.perf_counter()
-    history = History(times, np.zeros((len(times), N_ENERGIES)), solver="SuperLU")
-    history.loop = f"full Newton (plastic bodies: {run.bulk.words})"
+    history = History(times, np.zeros((len(times), N_ENERGIES)))
+    _name(run, history, BulkSolver)
     try:
         yield history
     finally:
         for observer in run.observers:
             observer.close()
     history.seconds += time.perf_counter() - started
+
+
+def _name(run: BulkRun, history: History, solver: type[BulkSolver]) -> None:
+    history.loop = f"{solver.loop} (plastic bodies: {run.bulk.words})"
+    history.solver = solver.factor
+    history.method = Sentence(solver.said)
 
 
 def _accept(run: BulkRun, history: History, k: int) -> None:
@@ -191,7 +216,7 @@ def _increment(
     p, m = run.problem, run.motion
     r = -run.imbalance(solver.force, after)
     dd = p.loading.imposed @ after - p.constraints.C @ m.u
-    stored, old = run.bulk.stored(run.state), m.reaction.copy()
+    stored, old = run.stored(), m.reaction.copy()
     driven = run.bulk.pushed(run.state)
     change = after - before
     solver.guess = _carried_on(run.last, change)
@@ -268,6 +293,7 @@ def _moving_step(
             turns=-outcome.turns,
         )
     history.iterations = max(history.iterations, outcome.turns)
+    _name(run, history, loop.kind)
 
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
@@ -276,7 +302,7 @@ def _start(run: BulkRun, factors: FloatArray) -> None:
 
     p, m = run.problem, run.motion
     m.v[:] = admissible_velocity(p)
-    rest = run.imbalance(run.bulk.force(run.state), factors) + p.C @ m.v
+    rest = run.imbalance(run.force, factors) + p.C @ m.v
     m.a[:], m.contact[:] = with_contact(p, m.v, accelerated(p, -rest), closed_at_start(p))
     m.reaction[:] = rest + p.M @ m.a
     m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
@@ -310,7 +336,7 @@ class _BulkLoop(SparseLoop):
                 return solver, impact
         share = 1 - self.problem.scheme.alpha_f
         A = effective_matrix(self.problem, dt)
-        solver = BulkSolver(self.problem, A, share, self.bulk_run.bulk, self.bulk_run.state)
+        solver = self._made(A, dt, share)
         impact = None
         if self.problem.contact is not None:
             effective = effective_of(self.problem, A, dt, share)
@@ -318,12 +344,27 @@ class _BulkLoop(SparseLoop):
         self._solvers = [*self._solvers[-3:], (dt, solver, impact)]
         return solver, impact
 
+    @property
+    def kind(self) -> type[BulkSolver]:
+        """How the last steps were solved."""
+        return type(self._solvers[-1][1])
+
+    def _made(self, A: sp.csr_array, dt: float, share: float) -> BulkSolver:
+        bulk, state = self.bulk_run.bulk, self.bulk_run.state
+        if self.bulk_run.full or self.problem.numbering.size < MANY:
+            return BulkSolver(self.problem, A, share, bulk, state)
+        from ssilang.kernel.plasticity.large.accelerated import AcceleratedSolver, is_accelerated
+
+        if is_accelerated(self.problem, bulk, A):
+            return AcceleratedSolver(self.problem, A, dt, share, bulk, state)
+        return BulkSolver(self.problem, A, share, bulk, state)
+
     def step(self, start: float, end: float, factors: FloatArray) -> StepOutcome:
         """One step of time."""
         p, m, run, dt = self.problem, self.motion, self.bulk_run, end - start
         solver, impact = self._solver(dt)
         solver.state, solver.time = run.state, end
-        solver.force = old = run.bulk.force(run.state)
+        solver.force = old = run.force
         load0, load1 = factors @ p.loading.forces.T
         n = newmark_of(p.scheme, dt)
         r = self._predict(n, load0 - old, load1 - old)
@@ -332,8 +373,8 @@ class _BulkLoop(SparseLoop):
         outcome = solver.solve(m, r, dd, self._gap(factors[1]))
         if outcome.turns <= 0:
             return outcome
-        stored, driven = run.bulk.stored(run.state), run.bulk.pushed(run.state)
-        run.state = solver.state
+        stored, driven = run.stored(), run.bulk.pushed(run.state)
+        run.state, run.force = solver.state, solver.force
         driven = driven + run.bulk.pushed(run.state)
         self._advance(n, outcome.du)
         if impact is not None and p.contact is not None:
@@ -356,7 +397,8 @@ def run_bulk(
     progress: Progress | None = None,
     dynamic: bool = False,
     keeper: Keeper | None = None,
+    full: bool = False,
 ) -> History:
     """Step a problem with plastic bodies through its times."""
-    run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper)
+    run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper, full=full)
     return integrate_bulk(run) if dynamic else step_bulk_statics(run)

@@ -51,7 +51,7 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         section = np.broadcast_to(given.at("SECT", "STRESSES"), weights.shape)
         weights = weights * section
     parameters = law_parameters(zone, law, given)
-    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar else ()
+    held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar and not law.uniaxial else ()
     if zone.mode is Mode.PLANE_STRESS and not bar:
         held = (2,)
     components = (0,) if bar else COMPONENTS[zone.mode]

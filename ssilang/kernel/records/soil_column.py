@@ -46,6 +46,11 @@ class SoilColumn:
         """Depth of the top of each layer, then of the base."""
         return np.concatenate([[0.0], np.cumsum(self.thickness)])
 
+    @property
+    def crossing(self) -> float:
+        """Time (s) that a wave takes from the base to the surface."""
+        return float((self.thickness * np.sqrt(self.density / self.modulus)).sum())
+
     def rayleigh(self) -> tuple[FloatArray, FloatArray]:
         """Factors of mass and of stiffness, one a layer."""
         total = self.f1 + self.f2
@@ -59,7 +64,9 @@ class SoilColumn:
 class FreeField:
     """Motion and stress at depths; rows are depths, columns times.
 
-    `stress` is modulus times derivative along the upward axis (positive in tension).
+    `stress` is modulus times derivative along the upward axis (positive in tension). `begun` is by
+    how much the velocities at the depths differ where the times begin, of the largest one: waves
+    that are in the ground before the given motion begins.
     """
 
     times: FloatArray
@@ -67,6 +74,7 @@ class FreeField:
     velocity: FloatArray
     stress: FloatArray
     strain: FloatArray  # largest absolute value, one a depth
+    begun: float
 
 
 def _layer(soil: SoilColumn, i: int, omega: FloatArray) -> tuple[ComplexArray, ComplexArray]:
@@ -165,7 +173,10 @@ def free_field(
     rows = slice(0, len(depths))
     motion = u[rows] * surface
     speed = history(motion / (1j * omega))
-    drift = mean * times - speed[:, :1]
+    # what makes the given motion start at rest goes to all depths alike: constants of their own
+    # would draw the depths apart all along
+    start = history((given[1:] / (1j * omega))[None])[0, 0]
+    drift = (mean * times - start)[None]
     stress = history(s[rows] * surface / -(omega**2))
     strain = history(e[rows] * surface / -(omega**2))
     return FreeField(
@@ -174,6 +185,7 @@ def free_field(
         speed + drift,
         stress + _slow_stress(soil, depths, mean, drift),
         np.abs(strain).max(axis=1),
+        float(np.ptp(speed[:, 0]) / max(np.abs(speed - speed[:, :1]).max(), 1e-300)),
     )
 
 

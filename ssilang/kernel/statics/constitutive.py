@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
@@ -258,8 +258,12 @@ def _joint(
     from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 
     law, d = law_of(zone.behaviour), None
+    if law.macro and (zone_field(zone, material).at("COHE", "STRESSES", 0.0) > 0.0).any():
+        raise MaterialError("kernel.statics.ground-is-not-at-a-point")
     if law.linear or law.macro:
         return _elastic(zone, material, stress, variables, step)
+    if law.two_points:  # jumps do not follow from forces where the slider has moved
+        raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
     d, m = points.dimension, len(points.table)
     state = joint_state(points, variables)

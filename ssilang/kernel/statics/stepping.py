@@ -10,12 +10,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
+from ssilang.kernel.stepping.problem.capacity import overloads
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.iterated import (
@@ -34,6 +36,8 @@ UNHELD = 1e-5
 """Imbalance over the forces, beyond which a step with joints is no equilibrium."""
 FLOWN = 1e12
 """Traction that jumps would mean in closed joints, over the forces, beyond which nothing holds."""
+HALVINGS = 6
+"""Of a step with macro-elements that is too long."""
 DRIVEN = 1e-9
 """Work of the loads on a free motion, over both norms, beyond which they drive it."""
 
@@ -98,7 +102,7 @@ def _at_load_step(
 ) -> StepOutcome:
     """Equilibrium at time k; what fails says where."""
     try:
-        outcome = _step(problem, solver, motion, factors[k - 1 : k + 1])
+        outcome = _cut_step(problem, solver, motion, factors[k - 1 : k + 1], _cuts(problem))
     except ConvergenceError as failure:
         raise ConvergenceError(
             "kernel.statics.at-load-step", step=k, time=problem.times[k], failure=failure
@@ -106,6 +110,31 @@ def _at_load_step(
     if outcome.turns <= 0:
         raise _lost(problem, motion, k, outcome)
     return outcome
+
+
+def _cuts(problem: Problem) -> int:
+    """How often a step may be halved: whole footings lift off and yield within one."""
+    joints = problem.interface
+    return 0 if joints is None or not any(is_macro(j) for j in joints.joints) else HALVINGS
+
+
+def _cut_step(
+    problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray, cuts: int
+) -> StepOutcome:
+    """Equilibrium for the second of two rows of load factors, on the way in halves if need be."""
+    before = [x.copy() for x in motion] if cuts else []
+    outcome = _step(problem, solver, motion, factors)
+    if outcome.turns > 0 or not cuts:
+        return outcome
+    for array, old in zip(motion, before, strict=True):
+        array[...] = old
+    turns, du, middle = 0, np.zeros_like(motion.u), factors.mean(axis=0)
+    for half in (np.stack([factors[0], middle]), np.stack([middle, factors[1]])):
+        outcome = _cut_step(problem, solver, motion, half, cuts - 1)
+        if outcome.turns <= 0:
+            return outcome
+        turns, du = turns + outcome.turns, du + outcome.du
+    return StepOutcome(du, turns, outcome.residual)
 
 
 def _initial_motion(problem: Problem) -> Motion:
@@ -251,8 +280,37 @@ def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, 
             observer.receive(snapshot)
 
 
+def _ground_gives_way(
+    problem: Problem, joints: Interface, motion: Motion, step: int
+) -> ConvergenceError:
+    """No equilibrium over ground that yields: too much weight, or too far out."""
+    at = {"step": step, "time": problem.times[step]}
+    told = problem.numbering.table.told
+    for found in overloads(problem, problem.loading.at(problem.times)[step]):
+        return ConvergenceError(
+            "kernel.statics.footing-overloaded",
+            **at,
+            node=told(found.node),
+            pressing=found.pressing,
+            capacity=found.capacity,
+        )
+    carried = joints.carried(motion.t)
+    used = [-carried[bed.owner, -1] / bed.capacity for bed in joints.beds]
+    bed = joints.beds[int(np.argmax(used))]
+    j, cell = joints.cell_of(bed)
+    return ConvergenceError(
+        "kernel.statics.footing-gives-way",
+        **at,
+        node=told(int(j.zone.cells.nodes.resolve(j.upper[cell]).ravel()[0])),
+        used=100.0 * max(used),
+        share=100.0 * float(bed.in_contact(motion.w[bed.points], motion.t[bed.points])),
+    )
+
+
 def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
     joints = problem.interface
+    if joints is not None and joints.beds:
+        return _ground_gives_way(problem, joints, motion, step)
     if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
         open_points = int((motion.w[:, -1] > 0).sum())

@@ -19,6 +19,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.contact.solver import step_solver
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -391,7 +392,8 @@ def refuse_combinations(problem: Problem, full: bool) -> None:
     Raises
     ------
     KernelError
-        For adapted steps with others, and for conserving steps with friction or dual relations.
+        For adapted steps with others, and for conserving steps with friction, dual relations
+        or bearings.
     """
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full):
@@ -399,6 +401,9 @@ def refuse_combinations(problem: Problem, full: bool) -> None:
     plain = contact is None or (contact.friction is None and contact.associated)
     if scheme.conserving and not plain:
         raise KernelError("kernel.stepping.conserving-step-no-friction")
+    codes = () if problem.interface is None else problem.interface.codes
+    if scheme.conserving and np.isin(codes, (LawCode.LEAD, LawCode.PENDULUM)).any():
+        raise KernelError("kernel.stepping.conserving-step-no-bearings")
 
 
 def table() -> str:

@@ -128,8 +128,11 @@ class Extremes(Track):
             mine = np.flatnonzero(numbering.codes == code)
             made["DEPL", name] = _largest(to.u, to.when, mine)
             made["REACTIONS", dual] = _largest(self.forces, self.forces_when, mine)
-        points = np.arange(to.joints.shape[1])
+        joints = self.problem.interface
         for i, name in enumerate(JOINTS):
+            if joints is None or not to.joints.shape[1]:
+                break
+            points = np.arange(joints.n_shown) if name == "OUVERTURE" else joints.pressing
             if len(points):
                 peak = _largest(to.joints[i], to.joints_when[i], points)
                 sign = -1.0 if name == "COMPRESSION" else 1.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from functools import cached_property
@@ -38,6 +39,7 @@ class Library:
         self._folder = folder
         self._allowed = allowed
         self._loaded: dict[str, Procedure | None] = {}
+        self._files: dict[str, tuple[Path, float]] = {}  # of what is loaded, and its last change
         self._standard = standard_procedures()
         self._declared: dict[str, Declaration | None] = {}
         self.read: list[Path] = []  # files beside the script
@@ -74,6 +76,20 @@ class Library:
             self._load(path)
         return self._loaded[name]
 
+    def look_again(self) -> None:
+        """Forget what may have changed on the disk: other files, and names that none had."""
+        self.read.clear()
+        self._loaded = {name: p for name, p in self._loaded.items() if p and self._stands(name)}
+
+    def _stands(self, name: str) -> bool:
+        """Whether a procedure is still what was read."""
+        path, changed = self._files[name]
+        if _last_change(path) != changed or self._path(name) not in (None, path):
+            return False
+        if path not in self._standard.values() and path not in self.read:
+            self.read.append(path)
+        return True
+
     def _path(self, name: str) -> Path | None:
         if name.startswith("@"):
             for suffix in _SUFFIXES:
@@ -94,6 +110,16 @@ class Library:
         origin = "stdlib" if path in self._standard.values() else str(path)
         if origin != "stdlib":
             self.read.append(path)
+        changed = _last_change(path)
         for node in parse(read_source(path)).body:
             if isinstance(node, Definition):
                 self._loaded[node.name] = Procedure(node.name, node, origin)
+                self._files[node.name] = path, changed
+
+
+def _last_change(path: Path) -> float:
+    """When a file was written last, NaN where it is not there any more."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return math.nan

@@ -40,11 +40,13 @@ def parse_statements(source: Source, end: int | None = None) -> list[tree.Statem
 
 _COMMA = re.compile(STRING + r"|(?<![\w.,+-])([+-]?\d+),(\d+(?:[ED][+-]?\d+)?)(?![\w.,])", re.I)
 
+_BETWEEN_DIGITS = re.compile(r"\d,\d")
+
 
 def decimal_commas(source: Source) -> list[SsiError]:
     """An error for each `2,5` of what is run; (0,0) and 1,2,3 are lists of numbers."""
     code = source.code
-    if "," not in code:
+    if _BETWEEN_DIGITS.search(code) is None:
         return []
     errors = []
     for m in _COMMA.finditer(code, 0, end_of_run(source) or len(code)):

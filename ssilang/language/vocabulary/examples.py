@@ -28,14 +28,22 @@ _PLASTIC_VALUES = {
     "DRUCKER_PARFAIT": "5.E7 'NU' 0.3 'LTR' 1.E4 'LCS' 3.E4",
     "DRUCKER_PRAGER": "5.E7 'NU' 0.3 'ALFA' 0.2 'BETA' 1. 'K' 1.E4\n"
     "    'ETA' 0.2 'MU' 1. 'KL' 2.E4 'H' 1.E6 'GAMM' 0.1 'DELT' 1.",
+    "CAM_CLAY": "2.E7 'NU' 0.3 'E0' 1. 'M' 1. 'P0' 1.E5 'KAPA' 0.05 'LAMD' 0.2 'G1' 8.E6",
     "RH_COULOMB": "5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52",
 }
 _FIBRE_VALUES = {
     "PARFAIT_UNI": "2.E11 'NU' 0.3 'SIGY' 5.E8 'H' 1.E9 'ALPY' 0. 'ALPZ' 0.",
     "BETON_BAEL": "3.E10 'NU' 0.2 'FC' 3.E7 'ALPY' 0.83 'ALPZ' 0.83",
+    "ACIER_UNI": "2.E11 'NU' 0.3 'STSY' 4.E8 'STSU' 6.E8 'EPSH' 0.02 'EPSU' 0.1\n"
+    "    'ROFA' 20. 'BFAC' 0.01 'A1FA' 18.5 'A2FA' 0.15 'ALPY' 0. 'ALPZ' 0.",
+    "BETON_UNI": "3.E10 'NU' 0.2 'STFC' 3.E7 'EZER' 0.002 'STFT' 3.E6\n"
+    "    'ZETA' 100. 'ST85' 6.E6 'TRAF' 3. 'ALPY' 0.83 'ALPZ' 0.83",
 }
 _FOOTINGS = {
     "MACRO_SEMELLE": "'LARG' 10.", "MACRO_DISQUE": "'RAYO' 10.", "MACRO_RESSORTS": "'LARG' 10.",
+}  # fmt: skip
+_BEARINGS = {
+    "APPUI_PLOMB": "'QD' 2.E5 'KPOS' 1.E6", "APPUI_PENDULE": "'RAYO' 2. 'FROT' 0.06",
 }  # fmt: skip
 _UPRIGHT = "OPTI DIME 3 MODE TRID ELEM SEG2 ;\nL = DROI 1 (0 0 0) (0 0 0.1) ;\n"
 
@@ -85,6 +93,11 @@ EXAMPLES: dict[str, str] = {
         law: _UPRIGHT + f"M = MODE L 'MECANIQUE' 'ELASTIQUE' '{law}' 'JOI1' ;\n"
         f"A = MATE M 'KN' 1.E10 'KS' 1.E10 {rest} ;\nLIST (TYPE A) ;"
         for law, rest in _FOOTINGS.items()
+    },
+    **{
+        law: _UPRIGHT + f"M = MODE L 'MECANIQUE' 'ELASTIQUE' '{law}' 'JOI1' ;\n"
+        f"A = MATE M 'KN' 1.E9 'KS' 1.E7 {rest} ;\nLIST (TYPE A) ;"
+        for law, rest in _BEARINGS.items()
     },
     # elements
     "element body": _SQUARE + _BODY,

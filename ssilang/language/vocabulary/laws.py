@@ -117,6 +117,13 @@ WORDS = (
         "pour un sable",
     ),
     _law(
+        "plastic", "CAM_CLAY",
+        "Modified Cam-Clay: an ellipse that grows with the plastic compression; elasticity that "
+        "stiffens with the pressure, G1 constant",
+        "Cam-Clay modifié : une ellipse qui croît avec la compression plastique ; élasticité qui "
+        "se raidit avec la pression, G1 constant",
+    ),
+    _law(
         "plastic", "PARFAIT_UNI",
         "Yielding along a fibre of a section, such as a steel bar in concrete: SIGY and H",
         "Plasticité le long d'une fibre de section, comme une armature : SIGY et H",
@@ -125,6 +132,18 @@ WORDS = (
         "plastic", "BETON_BAEL",
         "Fibre of concrete: no tension, parabola and rectangle in compression up to FC",
         "Fibre de béton : sans traction, parabole et rectangle en compression jusqu'à FC",
+    ),
+    _law(
+        "plastic", "ACIER_UNI",
+        "Steel of fibres and bars in cycles: curves of Menegotto and Pinto, buckling if wanted",
+        "Acier de fibres et de barres en cycles : courbes de Menegotto et Pinto, flambage au "
+        "besoin",
+    ),
+    _law(
+        "plastic", "BETON_UNI",
+        "Concrete of fibres and bars: Hognestad's parabola, softening, confinement, cracks",
+        "Béton de fibres et de barres : parabole de Hognestad, adoucissement, confinement, "
+        "fissures",
     ),
     _law(
         "plastic", "SECTION",
@@ -160,19 +179,34 @@ WORDS = (
     ),
     _law(
         "joint", "MACRO_SEMELLE",
-        "A whole rectangular footing in one joint of two points: rocking with uplift",
-        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement",
+        "A whole rectangular footing in one joint of two points: rocking with uplift; with COHE "
+        "its ground yields",
+        "Une semelle rectangulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_DISQUE",
-        "A whole circular footing in one joint of two points: rocking with uplift",
-        "Une fondation circulaire entière en un joint de deux points : balancement, décollement",
+        "A whole circular footing in one joint of two points: rocking with uplift; with COHE its "
+        "ground yields",
+        "Une fondation circulaire entière en un joint de deux points : balancement, décollement ; "
+        "avec COHE son sol plastifie",
     ),
     _law(
         "joint", "MACRO_RESSORTS",
         "A footing on two springs at its edges, in one joint of two points: rocking with uplift",
         "Une fondation sur deux ressorts de bord, en un joint de deux points : balancement avec "
         "décollement",
+    ),
+    _law(
+        "joint", "APPUI_PLOMB",
+        "A bearing of rubber with a lead core between two points: hysteresis of Bouc and Wen",
+        "Un appui de caoutchouc à noyau de plomb entre deux points : hystérésis de Bouc et Wen",
+    ),
+    _law(
+        "joint", "APPUI_PENDULE",
+        "A friction pendulum between two points: a slider that its bowl lifts, and that may part",
+        "Un pendule à frottement entre deux points : un patin que sa cuvette soulève et qui peut "
+        "décoller",
     ),
     _law(
         "joint", "CISAILLEMENT_ELASTIQUE",

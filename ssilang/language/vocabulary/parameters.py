@@ -8,6 +8,7 @@ are the laws' own.
 
 from __future__ import annotations
 
+from ssilang.language.vocabulary import law_parameters
 from ssilang.language.vocabulary.terms import (
     ANY_NUMBER,
     NOT_NEGATIVE,
@@ -17,24 +18,17 @@ from ssilang.language.vocabulary.terms import (
     Range,
     between,
 )
-
-
-def _p(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
-    default: float | None = None,
-) -> Quantity:
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
+from ssilang.language.vocabulary.terms import (
+    parameter as _p,
+)
+from ssilang.language.vocabulary.terms import (
+    unused_parameter as _unused,
+)
 
 _MACRO = ("MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS")
-_ONE_POINT = ("JOI1", *_MACRO)
+_YIELDING = ("MACRO_SEMELLE", "MACRO_DISQUE")
+_BEARINGS = ("APPUI_PLOMB", "APPUI_PENDULE")
+_ONE_POINT = ("JOI1", *_MACRO, *_BEARINGS)
 _SHELLS = ("plate", "meridian", "mindlin", "thick")
 _STIFF = between(1e6, 1e12)  # moduli of soft clay to hard metal
 _AXES = {"1": ("first", "premier"), "2": ("second", "deuxième"), "3": ("third", "troisième")}
@@ -42,12 +36,6 @@ _POISSON = (
     "Poisson's ratio, about 0.3 for soils and steel, 0.2 for concrete",
     "Coefficient de Poisson, environ 0.3 pour les sols et l'acier, 0.2 pour le béton",
 )
-
-
-def _unused(name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 _ELASTIC = (
@@ -159,6 +147,10 @@ _JOINTS = (
     _p("FROT", "", "Coulomb's coefficient of friction; negative: shear is not bounded",
        "Coefficient de frottement de Coulomb ; négatif : cisaillement non borné",
        usual=between(-1.0, 2.0)),
+    _p("FROT", "", "Coulomb's coefficient below a footing whose ground yields (with COHE); "
+       "negative: the cohesion alone bounds the shear",
+       "Coefficient de Coulomb sous une fondation au sol plastique (avec COHE) ; négatif : "
+       "seule la cohésion borne le cisaillement", _YIELDING, usual=between(-1.0, 2.0)),
     _p("FRIC", "deg", "Friction angle of the joint", "Angle de frottement du joint",
        range=Range(0.0, 90.0, open_high=True)),
     _p("FTRC", "Pa", "Tensile strength of a Mohr-Coulomb joint; 0: it opens and closes freely",
@@ -170,8 +162,16 @@ _JOINTS = (
     _p("EF", "N/m", "Normal stiffness of a joint of two points beyond the closing ECN",
        "Raideur normale d'un joint de deux points au-delà de la fermeture ECN", ("JOI1",),
        range=NOT_NEGATIVE),
+    _p("COHE", "Pa", "Undrained strength of the ground below the footing; 0: it never yields",
+       "Cohésion non drainée du sol sous la fondation ; 0 : il ne plastifie jamais", _YIELDING,
+       range=NOT_NEGATIVE, usual=between(0.0, 1e8)),
     _p("COHE", "N", "Cohesion of a joint of two points", "Cohésion d'un joint de deux points",
        ("JOI1",), range=NOT_NEGATIVE),
+    _p("QULT", "Pa", "Pressure that the ground bears; default COHE times 5.14 (strip), "
+       "5.14 (1 + 0.2 B/L) (rectangle), 6.05 (disc)",
+       "Pression que le sol supporte ; par défaut COHE fois 5,14 (filante), "
+       "5,14 (1 + 0,2 B/L) (rectangle), 6,05 (disque)", _YIELDING, range=NOT_NEGATIVE,
+       usual=between(0.0, 1e9)),
     _p("EF", "Pa/m", "Normal stiffness beyond the closing ECN",
        "Raideur normale au-delà de la fermeture ECN", range=NOT_NEGATIVE),
     _p("ECN", "m", "Closing beyond which the normal stiffness is EF; 0: never",
@@ -395,4 +395,13 @@ _SECTIONS = (
        "Facteur de la pression dans la contrainte équivalente"),
 )  # fmt: skip
 
-WORDS = (*_ELASTIC, *_ORTHOTROPIC, *_JOINTS, *_PLASTIC, *_CONTACT, *_POINTS, *_SECTIONS)
+WORDS = (
+    *_ELASTIC,
+    *_ORTHOTROPIC,
+    *_JOINTS,
+    *_PLASTIC,
+    *_CONTACT,
+    *_POINTS,
+    *_SECTIONS,
+    *law_parameters.WORDS,
+)

@@ -145,6 +145,29 @@ class Quantity(Word):
     default: float | None = None
 
 
+def parameter(
+    name: str,
+    unit: str | None,
+    en: str,
+    fr: str,
+    of: tuple[str, ...] = (),
+    *,
+    range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
+    default: float | None = None,
+) -> Quantity:
+    """A parameter of a material or section."""
+    return Quantity(name, en, fr, of, "", unit, range, usual, default)
+
+
+def unused_parameter(
+    name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()
+) -> Quantity:
+    """A parameter that scripts may give and that nothing reads here."""
+    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
+    return Quantity(name, en, fr, of, "unused", unit)
+
+
 @dataclass(frozen=True, slots=True)
 class Option(Word):
     """An option of OPTI.

@@ -49,6 +49,12 @@ MESSAGES: dict[str, Message] = {
         "KN > {least:g} with this FU and GF, or FU < {largest:g} with this KN and GF",
         "KN > {least:g} avec ces FU et GF, ou FU < {largest:g} avec ces KN et GF",
     ),
+    "law-two-points": Message(
+        "{name} stands between two points, not on the faces of {element}",
+        "{name} se place entre deux points, pas sur les faces de {element}",
+        "JOI1 on a cell SEG2 from the lower point to the upper one",
+        "JOI1 sur une maille SEG2, du point bas au point haut",
+    ),
     "macro-ressorts-exists-two": Message(
         "MACRO_RESSORTS exists in two dimensions only",
         "MACRO_RESSORTS n'existe qu'en dimension 2",
@@ -58,6 +64,24 @@ MESSAGES: dict[str, Message] = {
     "macro-semelle-needs-long": Message(
         "MACRO_SEMELLE needs LONG, the second width, in three dimensions",
         "MACRO_SEMELLE demande LONG, la seconde largeur, en dimension 3",
+    ),
+    "macro-needs-cohe": Message(
+        "{name} of a macro-element says nothing without COHE, the strength of the ground",
+        "{name} d'un macro-élément ne dit rien sans COHE, la résistance du sol",
+        "give COHE (Pa), or leave {name} out",
+        "donnez COHE (Pa), ou omettez {name}",
+    ),
+    "bed-one-shear-stiffness": Message(
+        "a macro-element whose ground yields has one shear stiffness: KS1 and KS2 differ",
+        "un macro-élément au sol plastique a une seule raideur tangente : KS1 et KS2 diffèrent",
+        "give KS alone",
+        "donnez KS seule",
+    ),
+    "bed-has-its-own-twist": Message(
+        "QN cannot be given with COHE: ground that yields resists twist by KS all over the base",
+        "QN ne va pas avec COHE : un sol plastique résiste à la torsion par KS sur toute la base",
+        "leave QN out",
+        "omettez QN",
     ),
     "joint-needs-node-matrices": Message(
         "a joint needs {missing} at node {node}, which the matrices lack",

@@ -25,6 +25,34 @@ MESSAGES: dict[str, Message] = {
         "FC = 0: concrete needs a strength",
         "FC = 0 : le béton veut une résistance",
     ),
+    "law-condition": Message(
+        "{law} needs {rule}; given {given}",
+        "{law} veut {rule} ; il est donné {given}",
+    ),
+    "clay-cohesion": Message(
+        "CAM_CLAY has no cohesion here: COHE = {value:g} must be 0",
+        "CAM_CLAY n'a pas de cohésion ici : COHE = {value:g} doit être 0",
+        "how a cohesion moves the ellipse is not written in the notice; leave COHE out",
+        "la notice ne dit pas comment une cohésion déplace l'ellipse ; omettre COHE",
+    ),
+    "soft-crack-closing": Message(
+        "BETON_UNI closes its cracks at once: FAMX must be < 0, not {value:g}",
+        "BETON_UNI referme ses fissures d'un coup : FAMX doit être < 0, et non {value:g}",
+        "the gradual closing of cracks (FACL FAM1 FAM2 STPT) is not available; write 'FAMX' -1., "
+        "or leave it out",
+        "la fermeture progressive des fissures (FACL FAM1 FAM2 STPT) n'est pas disponible ; écrire "
+        "'FAMX' -1., ou l'omettre",
+    ),
+    "slope-and-confinement": Message(
+        "BETON_UNI has a slope ZETA and a confinement ALF1 OME1: which of the two says how it "
+        "softens?",
+        "BETON_UNI a une pente ZETA et un confinement ALF1 OME1 : lequel des deux dit "
+        "l'adoucissement ?",
+        "write 'ZETA' 0. for the slope that ALF1 and OME1 give, or 'ALF1' 0. with STFC and EZER "
+        "of the confined concrete",
+        "écrire 'ZETA' 0. pour la pente que donnent ALF1 et OME1, ou 'ALF1' 0. avec STFC et EZER "
+        "du béton confiné",
+    ),
     "no-plastic-law-bodies": Message(
         "no plastic law of bodies is called {after}",
         "aucune loi plastique de corps ne s'appelle {after}",

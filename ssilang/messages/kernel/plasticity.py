@@ -3,6 +3,11 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "loop-kept-factor": Message(
+        "a factor kept over many steps, what yields beyond it iterated on as a load",
+        "un facteur gardé pendant de nombreux pas, ce qui plastifie au-delà étant itéré comme "
+        "une charge",
+    ),
     "load-needs-field-temperatures": Message(
         "the load T needs a field of temperatures",
         "le chargement T demande un champ de températures",

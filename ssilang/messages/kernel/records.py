@@ -123,6 +123,47 @@ MESSAGES: dict[str, Message] = {
         "les abscisses ne sont pas à pas constant : des pas s'écartent de {worst:g} de la "
         "valeur {step:g}",
     ),
+    "filter-order": Message(
+        "the order of a filter is from 1 to 12, not {order}",
+        "l'ordre d'un filtre est entre 1 et 12, pas {order}",
+    ),
+    "filter-corner": Message(
+        "a corner of {corner:g} Hz: it must be above 0 and below {nyquist:g} Hz, half the record's "
+        "sampling frequency",
+        "une coupure de {corner:g} Hz : elle doit dépasser 0 et rester sous {nyquist:g} Hz, la "
+        "moitié de la fréquence d'échantillonnage",
+    ),
+    "filter-corners-cross": Message(
+        "what is slower than {low:g} Hz and what is faster than {high:g} Hz is taken off: nothing "
+        "is left",
+        "ce qui est plus lent que {low:g} Hz et ce qui est plus rapide que {high:g} Hz est ôté : "
+        "il ne reste rien",
+    ),
+    "baseline-degree": Message(
+        "the degree of a base line is from 1 to 6, not {degree}",
+        "le degré d'une ligne de base est entre 1 et 6, pas {degree}",
+    ),
+    "baseline-points": Message(
+        "a record of {n} {n:point|points} has no base line of degree {degree}",
+        "un signal de {n} {n:point|points} n'a pas de ligne de base de degré {degree}",
+    ),
+    "percentile": Message(
+        "a percentile is from 0 to 100, not {percentile:g}",
+        "un centile est entre 0 et 100, pas {percentile:g}",
+    ),
+    "target-not-positive": Message(
+        "a target spectrum is above zero at all frequencies",
+        "un spectre visé est positif à toutes les fréquences",
+    ),
+    "target-too-fast": Message(
+        "the target goes to {frequency:g} Hz, the record's step says nothing above {most:g} Hz",
+        "le spectre visé va jusqu'à {frequency:g} Hz, le pas du signal ne dit rien au-delà de "
+        "{most:g} Hz",
+    ),
+    "record-zero": Message(
+        "the record is zero everywhere",
+        "le signal est nul partout",
+    ),
     "record-no-whole-shock": Message(
         "the record has no whole shock",
         "l'enregistrement n'a pas de choc entier",

@@ -198,6 +198,34 @@ MESSAGES: dict[str, Message] = {
         "look for what was divided by zero, or grew without bound",
         "cherchez ce qui a été divisé par zéro, ou a grandi sans borne",
     ),
+    "ground-is-not-at-a-point": Message(
+        "the ground below a macro-element with COHE yields at many places, which PASAPAS and "
+        "DYNAMIC follow; the law alone has no answer",
+        "le sol sous un macro-élément avec COHE plastifie en beaucoup de points, que PASAPAS et "
+        "DYNAMIC suivent ; la loi seule n'a pas de réponse",
+        "give the model to PASAPAS or DYNAMIC",
+        "donnez le modèle à PASAPAS ou à DYNAMIC",
+    ),
+    "footing-overloaded": Message(
+        "load step {step}, time {time:g}: no equilibrium: the loads press with {pressing:.4g} N on "
+        "the footing at node {node}, whose ground bears {capacity:.4g} N",
+        "pas de charge {step}, temps {time:g} : pas d'équilibre : le chargement presse de "
+        "{pressing:.4g} N la fondation au noeud {node}, dont le sol supporte {capacity:.4g} N",
+        "a larger footing, a lighter structure, or the strength COHE (or QULT) of a better ground",
+        "une fondation plus grande, une structure plus légère, ou la résistance COHE (ou QULT) "
+        "d'un meilleur sol",
+    ),
+    "footing-gives-way": Message(
+        "load step {step}, time {time:g}: no equilibrium: the ground below the footing at node "
+        "{node} gives way; at the last equilibrium it carried {used:.3g} % of its vertical "
+        "capacity on {share:.3g} % of the area",
+        "pas de charge {step}, temps {time:g} : pas d'équilibre : le sol sous la fondation au "
+        "noeud {node} cède ; au dernier équilibre il portait {used:.3g} % de sa capacité "
+        "verticale sur {share:.3g} % de l'aire",
+        "less eccentric or less inclined loads, imposed displacements, or a dynamic calculation",
+        "un chargement moins excentré ou moins incliné, des déplacements imposés, ou un calcul "
+        "dynamique",
+    ),
     "no-equilibrium-full-uplift": Message(
         "load step {step}, time {time:g}: no equilibrium, full uplift: {open_points} of "
         "{n_points} joint points are open and nothing else holds the body at node {node}",

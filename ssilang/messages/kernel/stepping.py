@@ -217,6 +217,12 @@ MESSAGES: dict[str, Message] = {
         "the conserving step has no friction between meshes and no relations with a dual",
         "le pas conservatif n'a ni frottement entre maillages ni relations avec une duale",
     ),
+    "conserving-step-no-bearings": Message(
+        "the conserving step does not have the mean forces of APPUI_PLOMB and APPUI_PENDULE",
+        "le pas conservatif n'a pas les efforts moyens d'APPUI_PLOMB et d'APPUI_PENDULE",
+        "take another scheme (average acceleration is the default) with a smaller step",
+        "prendre un autre schéma (l'accélération moyenne est celui par défaut), à pas plus petit",
+    ),
     "loop-adaptive": Message(
         "condensed, steps halved where one of {q} joint unknowns or a relation opens or closes",
         "condensé, pas divisés où l'une des {q} inconnues de joint ou une relation "

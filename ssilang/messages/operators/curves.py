@@ -3,6 +3,28 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "filter-without-corner": Message(
+        "FILT of a record needs a corner",
+        "FILT d'un signal demande une coupure",
+        "'PHAU' F1 takes off what is slower, 'PBAS' F2 what is faster",
+        "'PHAU' F1 ôte ce qui est plus lent, 'PBAS' F2 ce qui est plus rapide",
+    ),
+    "components-apart": Message(
+        "the components have {n_first} and {n_second} instants, or not the same ones",
+        "les composantes ont {n_first} et {n_second} instants, ou pas les mêmes",
+        "IPOL brings one to the instants of the other",
+        "IPOL porte l'une aux instants de l'autre",
+    ),
+    "tolerance-not-positive": Message(
+        "the largest misfit must be above zero, not {tolerance:g}",
+        "le plus grand écart doit être positif, pas {tolerance:g}",
+    ),
+    "rotd-incomplete": Message(
+        "'ROTD' takes two components, percentiles and the signal's own times",
+        "'ROTD' prend deux composantes, des centiles et les instants du signal",
+        "SPO EVOL1 EVOL2 'ROTD' (PROG 50. 100.) 'AMOR' 0.05 'ACCE'",
+        "SPO EVOL1 EVOL2 'ROTD' (PROG 50. 100.) 'AMOR' 0.05 'ACCE'",
+    ),
     "one-curve-wanted": Message(
         "one curve is needed, here are {n_parts}",
         "il faut une courbe, il y en a {n_parts}",

@@ -27,6 +27,22 @@ MESSAGES: dict[str, Message] = {
         "INITIAL and FINAL hold whole numbers, curve {n} has {value!r}",
         "INITIAL et FINAL contiennent des entiers, la courbe {n} a {value!r}",
     ),
+    "format-of-powers": Message(
+        "{word} does not go with {scale}",
+        "{word} ne va pas avec {scale}",
+        "a logarithmic axis is marked by powers of ten",
+        "un axe logarithmique est gradué en puissances de dix",
+    ),
+    "view-without-plane": Message(
+        "DIRE turns the picture after the plane of COUP, and none is given",
+        "DIRE tourne l'image d'après le plan de COUP, et aucun n'est donné",
+        "'DIRE' 'COUP' P1 P2 P3: one looks from the eye at P1, P1 P2 goes upwards",
+        "'DIRE' 'COUP' P1 P2 P3 : on regarde P1 depuis l'oeil, P1 P2 va vers le haut",
+    ),
+    "view-in-the-plane": Message(
+        "DIRE turns a view in space: a picture in the plane has none",
+        "DIRE tourne une vue dans l'espace : une image plane n'en a pas",
+    ),
     "portion": Message(
         "curve {n} has points 1 to {n_points}: INITIAL and FINAL say {first} to {last}",
         "la courbe {n} a les points 1 à {n_points} : INITIAL et FINAL disent {first} à {last}",

@@ -70,6 +70,16 @@ MESSAGES: dict[str, Message] = {
         "the model has no joints: what stands on the ground is not known",
         "le modèle n'a pas de joints : on ne sait pas ce qui repose sur le sol",
     ),
+    "waves-before-the-record": Message(
+        "the ground moves before the given acceleration begins: at {share:.2g} % of the largest "
+        "velocity, which is cut off",
+        "le sol bouge avant le début de l'accélération donnée : à {share:.2g} % de la plus grande "
+        "vitesse, ce qui est coupé",
+        "begin the record with {rest:.2g} s of zeros: waves cross the layers before they are felt",
+        "commencez l'enregistrement par {rest:.2g} s de zéros : les ondes traversent les couches "
+        "avant d'être ressenties",
+        severity="warning",
+    ),
     "footing-not-kept": Message(
         "the displacements have nothing at {node}, a node of the joints",
         "les déplacements n'ont rien à {node}, un noeud des joints",
@@ -263,6 +273,15 @@ MESSAGES: dict[str, Message] = {
         "la fin (d'au moins {least:.3g} m) : la structure quitte le sol pour de bon",
         "does the weight press it down (MASS times -9.81 along 'UY', or 'UZ' in space)?",
         "le poids la presse-t-il (MASS fois -9.81 selon 'UY', ou 'UZ' dans l'espace) ?",
+        severity="warning",
+    ),
+    "footing-overloaded": Message(
+        "at the start the loads press with {pressing:.4g} N on the footing at node {node}, whose "
+        "ground bears {capacity:.4g} N: it sinks",
+        "au départ le chargement presse de {pressing:.4g} N la fondation au noeud {node}, dont le "
+        "sol supporte {capacity:.4g} N : elle s'enfonce",
+        "check the weight, the size of the footing, and the strength COHE (or QULT)",
+        "vérifiez le poids, la taille de la fondation et la résistance COHE (ou QULT)",
         severity="warning",
     ),
     "joints-out-of-proportion": Message(

@@ -49,8 +49,41 @@ MESSAGES: dict[str, Message] = {
         "read as they are",
         "l'enregistrement est en {unit}, et aucun facteur n'en fait des mètres et des secondes : "
         "ses valeurs sont lues telles quelles",
-        "LIRE '{kind}' '{file}' {factor:g}; LIRE '{kind}' '{file}' 1. to have it so",
-        "LIRE '{kind}' '{file}' {factor:g} ; LIRE '{kind}' '{file}' 1. pour l'avoir ainsi",
+        "LIRE '{kind}' '{file}' 'SI' (times {factor:g}); LIRE '{kind}' '{file}' 1. to have it so",
+        "LIRE '{kind}' '{file}' 'SI' (fois {factor:g}) ; LIRE '{kind}' '{file}' 1. pour l'avoir "
+        "ainsi",
+    ),
+    "factor-and-si": Message(
+        "a factor and 'SI' stand together: one of them makes the values",
+        "un facteur et 'SI' sont donnés ensemble : l'un des deux fait les valeurs",
+    ),
+    "si-without-unit": Message(
+        "{units:?no factor to SI is known of the unit {units}|the record names no unit}",
+        "{units:?aucun facteur vers le SI n'est connu de l'unité {units}|l'enregistrement ne nomme "
+        "pas d'unité}",
+        "give the factor: LIRE '{kind}' '{file}' 9.81 if it is in g, 0.01 in cm/s2, 1. in m/s2",
+        "donner le facteur : LIRE '{kind}' '{file}' 9.81 s'il est en g, 0.01 en cm/s2, 1. en m/s2",
+    ),
+    "record-in-other-units": Message(
+        "the record is read in {unit}, the deck is in {system} (OPTI 'UNIT'): {needed}",
+        "l'enregistrement est lu en {unit}, le jeu de données est en {system} (OPTI 'UNIT') : "
+        "{needed}",
+        "multiply it by {factor:g}",
+        "le multiplier par {factor:g}",
+        severity="warning",
+    ),
+    "no-such-channel": Message(
+        "the file has {count} {count:record|records}",
+        "le fichier a {count} {count:signal|signaux}",
+        "CANAL counts from 1",
+        "CANAL compte à partir de 1",
+    ),
+    "several-channels": Message(
+        "{file} has {count} records: the first is read",
+        "{file} a {count} signaux : le premier est lu",
+        "'CANAL' N1 names another, 'CANAL' 1 this one",
+        "'CANAL' N1 en nomme un autre, 'CANAL' 1 celui-ci",
+        severity="warning",
     ),
     "no-such-format": Message(
         "'{word}' is no format that LIRE reads{near:?; did you mean '{near}'?}",

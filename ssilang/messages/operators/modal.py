@@ -7,6 +7,12 @@ MESSAGES: dict[str, Message] = {
         "the table holds no mode and no static shape",
         "la table ne contient ni mode ni déformée statique",
     ),
+    "no-frequency-between": Message(
+        "no natural frequency lies between {low:g} and {high:g}: the table has no mode",
+        "aucune fréquence propre n'est entre {low:g} et {high:g} : la table n'a pas de mode",
+        "VIBR 'PROCHE' (PROG F1) finds the nearest one to a frequency",
+        "VIBR 'PROCHE' (PROG F1) trouve la plus proche d'une fréquence",
+    ),
     "model-no-zone-modal": Message(
         "the model has no zone MODAL or STATIQUE",
         "le modèle n'a pas de zone MODAL ou STATIQUE",

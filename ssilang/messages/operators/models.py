@@ -184,6 +184,16 @@ MESSAGES: dict[str, Message] = {
         "JOINT_SDM softens in tension with FU and GF; JOINT_DILATANT and COULOMB slide",
         "JOINT_SDM s'adoucit en traction avec FU et GF ; JOINT_DILATANT et COULOMB glissent",
     ),
+    "footing-law-not-built": Message(
+        "the law {said} of a footing is not built: its plasticity and uplift differ from the "
+        "published model (Grange 2008), and no public text says how",
+        "la loi de fondation {said} n'est pas construite : sa plasticité et son décollement "
+        "diffèrent du modèle publié (Grange 2008), et aucun texte public ne dit comment",
+        "MACRO_SEMELLE (LARG, LONG) and MACRO_DISQUE (RAYO) lift off, and yield with COHE; "
+        "QULT is a bearing pressure",
+        "MACRO_SEMELLE (LARG, LONG) et MACRO_DISQUE (RAYO) se décollent, et plastifient avec "
+        "COHE ; QULT est une pression portante",
+    ),
     "element-not-in-mode": Message(
         "element {name} does not exist in mode {mode}",
         "l'élément {name} n'existe pas en mode {mode}",

@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.records.filters import without_trend
 from ssilang.kernel.records.integration import brought_to_rest, integrated
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
@@ -61,28 +62,43 @@ def insi(curve: Curve, rule: str) -> tuple[Curve, Curve]:
     "COSI",
     CURVE,
     _RULE,
+    key(
+        "degree",
+        "POLY",
+        arg("degree", "ENTIER", en="from 1 to 6", fr="de 1 à 6"),
+        en="degree of the velocity's polynomial",
+        fr="degré du polynôme de la vitesse",
+    ),
     family="signals",
     help=Help(
         en="Accelerations corrected, as little as possible in least squares, so that INSI (with "
         "the same 'SIMP' or 'LINE') ends with no velocity, no displacement and no mean "
-        "displacement.",
+        "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
+        "start, that is nearest to the velocity is taken off.",
         fr="Accélérations corrigées, le moins possible au sens des moindres carrés, pour que INSI "
         "(avec le même 'SIMP' ou 'LINE') finisse avec une vitesse, un déplacement et un "
-        "déplacement moyen nuls.",
-        syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ;",
+        "déplacement moyen nuls. Avec 'POLY' la seule ligne de base : le polynôme de degré N1, nul "
+        "au départ, le plus proche de la vitesse est ôté.",
+        syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
         examples=(
+            "T = PROG 0. PAS 0.1 5. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (1. + (2. * T)) ; "
+            "LIST ((MAXI (ABS (EXTR (COSI A 'LINE' 'POLY' 2) 'ORDO'))) < 1.E-10) ;",
             "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (SIN (PROG 0. PAS 70. 700.)) ; "
             "D V = INSI (COSI A) ; MESS (ABS (EXTR (EXTR D 'ORDO') 11) < 1.E-12) ;",
         ),
     ),
 )
-def cosi(curve: Curve, rule: str) -> Curve:
+def cosi(curve: Curve, rule: str, degree: int | None) -> Curve:
     """Correct records."""
     linear = rule == "LINE"
+
+    def corrected(values: FloatArray, step: float) -> FloatArray:
+        if degree is None:
+            return brought_to_rest(values, step, linear)
+        return without_trend(values, step, degree, linear)
+
     parts = [
-        dataclasses.replace(
-            p, ordinates=brought_to_rest(p.ordinates, constant_step(p.abscissas), linear)
-        )
+        dataclasses.replace(p, ordinates=corrected(p.ordinates, constant_step(p.abscissas)))
         for p in curve.parts
     ]
     return Curve(tuple(parts), curve.title)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
-from ssilang.language.registry import Help, arg, choice, key, operator
+from ssilang.kernel.records.directions import rotated_spectra
+from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.operators.curves.words import check_together
 
 _TIMES = key(
     "times",
@@ -104,33 +109,58 @@ def osci(
         en="displacement, pseudo-velocity, pseudo-acceleration, absolute acceleration",
         fr="déplacement, pseudo-vitesse, pseudo-accélération, accélération absolue",
     ),
+    key(
+        "percentiles",
+        "ROTD",
+        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", fr="50 : médiane"),
+        en="percentiles over all directions of two components",
+        fr="centiles sur toutes les directions de deux composantes",
+    ),
     arg("signal", "EVOLUTIO", en="acceleration", fr="accélération"),
+    opt("second", "EVOLUTIO", en="its other component", fr="son autre composante"),
     family="modal",
     help=Help(
         "Response spectrum of an acceleration: for each damping, the largest relative displacement "
         "('DEPL'), pseudo-velocity ('VITE'), pseudo-acceleration ('ACCE') or absolute acceleration "
-        "('ACCA') of oscillators against their frequency.",
+        "('ACCA') of oscillators against their frequency. Of two horizontal components with "
+        "'ROTD': percentiles of these over all directions (RotD50, RotD100; Boore 2010).",
         "Spectre d'oscillateurs d'une accélération : pour chaque amortissement, plus grand "
         "déplacement relatif ('DEPL'), pseudo-vitesse ('VITE'), pseudo-accélération ('ACCE') ou "
-        "accélération absolue ('ACCA') des oscillateurs en fonction de leur fréquence.",
+        "accélération absolue ('ACCA') des oscillateurs en fonction de leur fréquence. De deux "
+        "composantes horizontales avec 'ROTD' : leurs centiles sur toutes les directions (RotD50, "
+        "RotD100 ; Boore 2010).",
         "EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
-        "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
+        "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;\nEVOL2 = SPO EVOL1 EVOL3 'ROTD' LREEL4 'AMOR' LREEL1 "
+        "('FREQ' LREEL2) ('COUL' MOT2) 'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
         (
+            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
+            " LIST (SPO G1 (0. * G1) 'ROTD' (PROG 50. 100.) 'AMOR' 0.05 'FREQ' (PROG 2.) 'ACCE') ;",
             "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
             " S1 = SPO G1 'AMOR' (PROG 0.05) 'FREQ' (PROG 1. 2. 4.) 'ACCE' ; LIST S1 ;",
         ),
     ),
 )
 def spo(
+    call: Call,
     signal: Curve,
+    second: Curve | None,
     dampings: ListReel | float,
     frequencies: ListReel | None,
     times: ListReel | None,
     colour: str,
     kind: str,
+    percentiles: ListReel | float | None,
 ) -> Curve:
     part = signal.parts[0]
     values = [dampings] if isinstance(dampings, float) else dampings.values
+    if second is not None or percentiles is not None:
+        if second is None or percentiles is None or times is not None:
+            raise call.error("operators.curves.rotd-incomplete")
+        check_together(call, signal, second)
+        several = [percentiles] if isinstance(percentiles, float) else percentiles.values
+        return _all_directions(
+            signal, second, values, frequencies, np.asarray(several, float), kind, colour
+        )
     wanted = None if times is None else times.values
     made = []
     for xi in values:
@@ -139,6 +169,27 @@ def spo(
         legend = f"{100.0 * xi:g} %"
         made.append(CurvePart(f, y, "FREQ", kind, legend, index_of(colour)).measured("Hz"))
     return Curve(tuple(made), signal.title)
+
+
+def _all_directions(
+    first: Curve,
+    second: Curve,
+    dampings: Iterable[float],
+    frequencies: ListReel | None,
+    percentiles: FloatArray,
+    kind: str,
+    colour: str,
+) -> Curve:
+    """Spectra of two components over all directions: a curve for each damping and percentile."""
+    x, y = first.parts[0], second.parts[0]
+    t, made = x.abscissas, []
+    for xi in dampings:
+        f = default_frequencies(t, xi) if frequencies is None else frequencies.values
+        rows = rotated_spectra(t, x.ordinates, y.ordinates, f, float(xi), kind, percentiles)
+        for p, row in zip(percentiles, rows, strict=True):
+            legend = f"RotD{p:g} {100.0 * xi:g} %"
+            made.append(CurvePart(f, row, "FREQ", kind, legend, index_of(colour)).measured("Hz"))
+    return Curve(tuple(made), first.title)
 
 
 def _valp(

@@ -48,6 +48,22 @@ def one_part(call: Call, curve: Curve) -> CurvePart:
     return curve.parts[0]
 
 
+def check_together(call: Call, first: Curve, second: Curve) -> None:
+    """Refuse two components that have not the same instants.
+
+    Raises
+    ------
+    SsiError
+        'operators.curves.components-apart'.
+    """
+    t, other = first.parts[0].abscissas, second.parts[0].abscissas
+    scale = float(np.abs(t).max(initial=1e-300))
+    if len(t) != len(other) or float(np.abs(t - other).max(initial=0.0)) > 1e-9 * scale:
+        raise call.error(
+            "operators.curves.components-apart", second, n_first=len(t), n_second=len(other)
+        )
+
+
 def read_colour(call: Call) -> int | None:
     """Index of the colour word that stands next, None if there is none."""
     word = call.keyword(NAMES)

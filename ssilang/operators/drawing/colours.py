@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.kernel.curves.curve import CurvePart
 from ssilang.language.registry import Like, main, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
@@ -50,8 +51,13 @@ def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any
             )
     else:
         colours = [_colour(call, given)] * len(value.parts)
-    parts = tuple(replace(p, colour=c) for p, c in zip(value.parts, colours, strict=False))
+    parts = tuple(_coloured(p, c) for p, c in zip(value.parts, colours, strict=False))
     return replace(value, parts=parts)
+
+
+def _coloured(part: Any, colour: int) -> Any:
+    is_curve = isinstance(part, CurvePart)
+    return part.coloured(colour) if is_curve else replace(part, colour=colour)
 
 
 def _colour(call: Call, given: str | int) -> int:

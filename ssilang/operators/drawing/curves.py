@@ -175,6 +175,11 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     for name in ("x_limits", "y_limits"):
         if name in found and found[name][0] == found[name][1]:
             raise call.error("operators.drawing.equal-bounds", low=found[name][0])
+    for axis in "XY":
+        if {f"log_{axis.lower()}", f"{axis.lower()}_format"} <= {*found}:
+            raise call.error(
+                "operators.drawing.format-of-powers", word=f"{axis}FMT", scale=f"LOG{axis}"
+            )
     if table is not None:
         found |= _styles(call, table, [len(part.abscissas) for part in parts])
     # the title of the evolution, else the one in force

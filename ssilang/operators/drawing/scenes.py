@@ -18,6 +18,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.support import support_mesh
@@ -58,6 +59,7 @@ class _Said:
     subjects: Subjects = field(default_factory=Subjects)
     options: dict[str, Any] = field(default_factory=dict)
     eye: Point | None = None
+    aimed: tuple[FloatArray, FloatArray] | None = None  # what one looks at, what goes upwards
     names: list[str] = field(default_factory=list)
     qualify: bool = False
     animation: str = ""
@@ -108,7 +110,12 @@ _OPTIONS: tuple[Entry, ...] = (
         en="the first mesh hides, without its cells' edges",
         fr="le premier maillage cache, sans les arêtes de ses éléments",
     ),
-    flag("direct", "DIRE", en="changes nothing", fr="sans effet"),
+    flag(
+        "direct",
+        "DIRE",
+        en="one looks from the eye at the first point of COUP, the second one upwards",
+        fr="on regarde depuis l'oeil le premier point de COUP, le deuxième vers le haut",
+    ),
     flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
 )
 
@@ -194,8 +201,9 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "OSCIL un GIF aller et retour. Un champ à plusieurs composantes a plusieurs vignettes, "
         "une contrainte par éléments est tracée en von Mises ; des triangles marquent la plus "
         "petite et la plus grande valeur.",
-        syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') ('FACE') "
-        "('ECLA' (FLOT1)) ('COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) ('BOIT' MAIL2) ;\n"
+        syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') "
+        "('FACE') ('ECLA' (FLOT1)) (('DIRE') 'COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) "
+        "('BOIT' MAIL2) ;\n"
         "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
         "TRAC (N1 | LISTREEL1) CHPO1 (MAIL1 | DEFO1) (MAIL2) (VEC1) ('LEGE' T) ('NOLE') ... ;\n"
         "TRAC (N1 | LISTREEL1) MODEL1 MCHAML1 (DEFO1) (MAIL1) ... ; TRAC 'ARET' MAIL1 MAIL2 ;",
@@ -208,6 +216,10 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
 )
 def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:
     """Draw and write."""
+    if options["direct"] and options["beyond"] is None:
+        raise call.error("operators.drawing.view-without-plane")
+    if options["direct"] and _is_flat(workspace(call.session)):
+        raise call.error("operators.drawing.view-in-the-plane")
     said = _said(**options)
     for operand in objects:
         _OBJECTS[type_of(operand.value)](said, operand.value)
@@ -222,12 +234,17 @@ def _said(
     filled: str | None,
     no_legend: bool,
     animation: str | None,
+    direct: bool,
     **plain: Any,
 ) -> _Said:
     """Options of the picture from what TRAC has read."""
     options = {
         k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE
     }
+    aimed = None
+    if direct:
+        a, b, _ = (p.coordinates for p in options["beyond"])
+        aimed = a, b - a
     for plane in {"beyond", "section"} & {*options}:
         options[plane] = Plane.through(*(p.coordinates for p in options[plane]))
     if one_colour is not None:
@@ -237,10 +254,10 @@ def _said(
         options["filled"] = filled
     if no_legend:
         options["legend"] = False
-    return _Said(options=options, qualify=names, animation=animation or "")
+    return _Said(options=options, qualify=names, animation=animation or "", aimed=aimed)
 
 
-_IDLE = frozenset({"no_click", "direct", "logo"})  # of other programs' windows
+_IDLE = frozenset({"no_click", "logo"})  # of other programs' windows
 
 
 def _keep_name(said: _Said, operand: Operand) -> None:
@@ -317,15 +334,24 @@ def _unit_of(ws: Workspace) -> Callable[[str], str] | None:
 def _view(session: Session, said: _Said, meshes: list[Mesh]) -> View:
     """The plane in two dimensions; in space from the eye, OPTI OEIL or the usual direction."""
     ws = workspace(session)
-    if ws.mode is not Mode.THREE_DIMENSIONAL and ws.dimension < 3:
+    if _is_flat(ws):
         return plane_view()
     eye = said.eye or ws.options.get("OEIL")
+    if said.aimed is not None:
+        place, upright = said.aimed
+        return view_along(
+            eye.coordinates - place if isinstance(eye, Point) else DEFAULT_DIRECTION, upright
+        )
     if not isinstance(eye, Point):
         return view_along(DEFAULT_DIRECTION)
     clouds = [m.nodes.coordinates[m.sorted_node_ids] for m in meshes if m.n_cells]
     points = np.concatenate(clouds) if clouds else np.zeros((1, 3))
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     return view_along(eye.coordinates - middle)
+
+
+def _is_flat(ws: Workspace) -> bool:
+    return ws.mode is not Mode.THREE_DIMENSIONAL and ws.dimension < 3
 
 
 def _labels(session: Session, meshes: list[Mesh]) -> tuple[tuple[str, Mesh], ...]:

@@ -152,7 +152,7 @@ def _integrated(
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
         from ssilang.kernel.plasticity.run import run_bulk
 
-        return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper)
+        return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper, full=full)
     if tolerance is None and not full and driver is None:
         return integrated(entries.call.session, problem, observers, line, keeper)
     if tolerance is None:

@@ -163,12 +163,15 @@ def _mean_motion(
 
 
 def _arms(joints: tuple[JointCells, ...], footing: Footing) -> FloatArray:
-    """Levers (m, 2) of the edges about each axis, the lowest and the highest."""
+    """Levers (m, 2) of the edges about each axis, the lowest and the highest.
+
+    None in axisymmetry, which carries no moment.
+    """
     places = [
         j.zone.cells.nodes.coordinates[j.zone.cells.nodes.resolve(j.upper).ravel()]
         for j in joints
         if not is_macro(j)
     ]
     arms = np.concatenate(places) - footing.centre
-    levers = np.stack([np.cross(axis, arms) @ footing.normal for axis in footing.axes])
+    levers = np.cross(footing.axes[:, None], arms[None]) @ footing.normal  # (m, nodes)
     return np.stack([levers.min(axis=1), levers.max(axis=1)], axis=1)

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.records.soil_column import FreeField
 
+_CODE = "operators.dynamics.waves-before-the-record"
+_BEGUN = 0.05
+"""Share of the largest velocity that is in the ground before a motion begins, unheard."""
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 
@@ -58,14 +61,17 @@ def zcol(call: Call, table: Table) -> Table:
     steps = np.diff(signal.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.error("operators.dynamics.equal-steps-wanted")
+    soil = SoilColumn(thickness, density, modulus, damping, f1, f2)
     field = free_field(
-        SoilColumn(thickness, density, modulus, damping, f1, f2),
+        soil,
         float(steps.mean()),
         signal.ordinates,
         depths,
         cutoff,
         None if control < 0 else control,
     )
+    if field.begun > _BEGUN and all(w.code != _CODE for w in call.session.warnings):
+        entries.warn(_CODE, share=100 * field.begun, rest=1.5 * soil.crossing)
     return _results(field, float(signal.abscissas[0]))
 
 

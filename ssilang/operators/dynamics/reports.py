@@ -92,6 +92,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
 
     warn_contrast(entries, problem)
     warn_massless(entries, problem)
+    warn_overloaded(entries, problem)
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
@@ -102,6 +103,19 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
         wanted_dt=found.wanted_dt,
         conserving=problem.scheme.conserving,
     )
+
+
+def warn_overloaded(entries: Entries, problem: Problem) -> None:
+    """Warn of footings that the loads of the start already press into ground that yields."""
+    from ssilang.kernel.stepping.problem.capacity import overloads
+
+    for found in overloads(problem, problem.loading.at(problem.times[:1])[0]):
+        entries.warn(
+            "operators.dynamics.footing-overloaded",
+            node=problem.numbering.table.told(found.node),
+            pressing=found.pressing,
+            capacity=found.capacity,
+        )
 
 
 def warn_massless(entries: Entries, problem: Problem) -> None:

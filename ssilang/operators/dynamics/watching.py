@@ -66,7 +66,9 @@ def extremes_later(problem: Problem, again: Callable[[Extremes], object]) -> Laz
             found.append(extremes_table(extremes))
         return found[0].get(kind)
 
-    return LazyTable(find, promises(*KINDS[: 2 if problem.interface is None else None]))
+    joints = problem.interface
+    known = 2 if joints is None else None if len(joints.pressing) else 3
+    return LazyTable(find, promises(*KINDS[:known]))
 
 
 def joint_places(joints: Interface) -> FloatArray:

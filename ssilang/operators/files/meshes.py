@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Iterator
 from typing import Any, NoReturn
 
 import numpy as np
 
-from ssilang.io.mesh_files.abaqus import read_abaqus
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part
-from ssilang.io.mesh_files.foreign import FOREIGN, read_foreign
-from ssilang.io.mesh_files.geo import read_geo
-from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.mesh_files.unv import read_unv
+from ssilang.io.mesh_files.reading import ENDINGS, Asked, read_mesh_file
 from ssilang.io.mesh_files.writing import WRITTEN, write_mesh_file
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.model import Mode
@@ -33,35 +28,6 @@ from ssilang.operators.workspace import workspace
 
 PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
 """What Abaqus calls plane solids, by the mode; CPE in all others."""
-
-Reader = Callable[[Call, Path], FileMesh]
-
-
-def _stl(call: Call, path: Path) -> FileMesh:
-    corners = read_stl(path)
-    count = len(corners)
-    return FileMesh(corners.reshape(-1, 3), {"TRI3": np.arange(3 * count).reshape(-1, 3)})
-
-
-def _abaqus(call: Call, path: Path) -> FileMesh:
-    beside = path.parent
-    return read_abaqus(path, lambda name: input_path(call, str(beside / name)))
-
-
-def _geo(call: Call, path: Path) -> FileMesh:
-    return read_geo(path, workspace(call.session).dimension or 3)
-
-
-_OWN: dict[str, tuple[tuple[str, ...], Reader]] = {
-    "ABAQUS": ((".inp",), _abaqus),
-    "UNV": ((".unv",), lambda call, path: read_unv(path)),
-    "STL": ((".stl",), _stl),
-    "GEO": ((".geo",), _geo),
-}
-ENDINGS = {e: kind for kind, f in FOREIGN.items() for e in f.endings} | {
-    e: kind for kind, (endings, _) in _OWN.items() for e in endings
-}
-"""Formats by the ending of the file."""
 
 _FILE = lead("file", "MOT", en="file", fr="fichier")
 
@@ -140,7 +106,8 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
             "operators.files.no-such-ending", name, ending=path.suffix, endings=list(ENDINGS),
             near=nearest(path.suffix, ENDINGS, 0.5),
         )  # fmt: skip
-    read = _OWN[kind][1](call, path) if kind in _OWN else read_foreign(path, kind)
+    asked = Asked(workspace(call.session).dimension or 3, lambda name: input_path(call, name))
+    read = read_mesh_file(path, kind, asked)
     for remark in read.remarks:
         call.warn("operators.files.reader-says", name=path.name, remark=remark)
     if read.left_out:

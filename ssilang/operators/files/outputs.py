@@ -54,6 +54,15 @@ def input_path(call: Call, name: str) -> Path:
     return path
 
 
+def file_to_read(call: Call, name: str, suffix: str) -> Path:
+    """An existing file to read, by its name or, where there is none, its name with a suffix."""
+    output = run_output(call.session)
+    with_suffix, plain = output.source(name + suffix), output.source(name)
+    if with_suffix is not None and with_suffix.is_file() and not (plain and plain.is_file()):
+        return with_suffix
+    return input_path(call, name)
+
+
 def forbidden_path(call: Call, name: str) -> SsiError:
     """The refusal of a file outside of the script's folder and of the output folder."""
     return _forbidden(call, name, run_output(call.session).inputs)

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
 from ssilang.io.csv_tables import as_columns, read_csv
-from ssilang.io.esm_records import read_esm
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.peer_records import PeerRecord, read_peer
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
@@ -23,7 +18,7 @@ from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
 from ssilang.operators.dispatch import shared_operator
-from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
 LIRE = shared_operator(
@@ -72,15 +67,6 @@ LIRE = shared_operator(
 _FILE = lead("file", "MOT", en="file", fr="fichier")
 
 
-def _file(call: Call, name: str, suffix: str) -> Path:
-    output = run_output(call.session)
-    with_suffix = output.source(name + suffix) if suffix else None
-    plain = output.source(name)
-    if with_suffix is not None and with_suffix.is_file() and not (plain and plain.is_file()):
-        return with_suffix
-    return input_path(call, name)
-
-
 @LIRE.form(
     said("CSV"),
     _FILE,
@@ -101,7 +87,7 @@ def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     sign = str(separator) or ";"
     if len(sign) > 1:
         sign = sign.strip()[:1] or " "
-    rows = read_csv(_file(call, str(file), ".csv"), sign, first)
+    rows = read_csv(file_to_read(call, str(file), ".csv"), sign, first)
     made = Table()
     for i, values in enumerate(rows if by == "LIGN" else as_columns(rows), start=1):
         made.set(i, ListReel(values))
@@ -198,58 +184,7 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     fr="STL : un maillage de TRI3, texte ou binaire ; ELIM réunit ses noeuds.",
 )
 def _stl(call: Call, file: str) -> Mesh:
-    corners = read_stl(_file(call, str(file), ".stl"))
+    corners = read_stl(file_to_read(call, str(file), ".stl"))
     nodes = workspace(call.session).nodes
     ids = nodes.add(corners.reshape(-1, 3))
     return Mesh.of(nodes, "TRI3", ids.reshape(-1, 3))
-
-
-@LIRE.form(
-    said("PEER"),
-    _FILE,
-    opt("factor", "FLOTTANT", en="factor of the values", fr="facteur des valeurs"),
-    syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1) ;",
-    en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
-    "evolution in time, times FLOT1 (9.81 makes m/s2 of g).",
-    fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
-    "temps, multipliée par FLOT1 (9.81 fait des m/s2 de g).",
-)
-def _peer(call: Call, file: str, factor: float | None) -> Curve:
-    return _record(call, "PEER", file, read_peer(_file(call, str(file), ".AT2")), factor)
-
-
-@LIRE.form(
-    said("ESM"),
-    _FILE,
-    opt("factor", "FLOTTANT", en="factor of the values", fr="facteur des valeurs"),
-    syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1) ;",
-    en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC), times FLOT1 "
-    "(0.01 makes m/s2 of cm/s2).",
-    fr="ESM : un accélérogramme au format texte des bases ESM et ITACA (.ASC), multiplié par FLOT1 "
-    "(0.01 fait des m/s2 de cm/s2).",
-    examples=(
-        "OPTI SORT 'quake.asc' ;\n"
-        "SORT 'CHAI' 'SAMPLING_INTERVAL_S: 0.01' ; SORT 'CHAI' 'NDATA: 3' ;\n"
-        "SORT 'CHAI' 'UNITS: cm/s^2' ; SORT 'CHAI' '0.' ; SORT 'CHAI' '12.' ;\n"
-        "SORT 'CHAI' '-7.' ; E = LIRE 'ESM' 'quake.asc' 0.01 ; LIST E ;",
-    ),
-)
-def _esm(call: Call, file: str, factor: float | None) -> Curve:
-    return _record(call, "ESM", file, read_esm(_file(call, str(file), ".ASC")), factor)
-
-
-def _record(call: Call, kind: str, file: str, record: PeerRecord, factor: float | None) -> Curve:
-    """The curve of a record; a unit that is not SI, or that the file does not name, is told."""
-    if factor is None:
-        factor = 1.0
-        if record.in_si != 1.0:
-            call.warn(
-                "operators.files.record-not-in-si", file=file, unit=record.unit.lower(),
-                factor=record.in_si, kind=kind,
-            )  # fmt: skip
-        elif not record.has_unit:
-            call.warn("operators.files.record-without-unit", file=file, kind=kind)
-    part = CurvePart(
-        record.times, factor * record.values, "TEMP", record.quantity, record.event[:40]
-    )
-    return Curve((part,), record.event[:72])

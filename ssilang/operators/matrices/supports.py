@@ -135,7 +135,7 @@ class _Held:
             names += made.rotations(self.ws.mode)
         if not names:
             raise self.call.error("operators.matrices.no-unknown")
-        return tuple(names)
+        return tuple(dict.fromkeys(names))  # each once: a spring named twice is no stiffer
 
     def directed(self) -> bool:
         """True if the condition is along a direction of its own at each node."""

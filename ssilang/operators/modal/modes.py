@@ -63,6 +63,8 @@ def _vibr(
     if method.word == "INTERVALLE":
         ends = sorted((method["low"], method["high"]))
         modes = modes_between(stiffness, mass, ends[0], ends[1], solver_of(call.session))
+        if not modes and mass.inertial:  # a factor of buckling is no frequency
+            call.warn("operators.modal.no-frequency-between", low=ends[0], high=ends[1])
         if lowest:
             modes = modes[:lowest]
         elif highest:

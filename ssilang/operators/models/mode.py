@@ -13,6 +13,7 @@ from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
 from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
+    CHANGED_LAWS,
     CREEP_WORDS,
     ELASTICITIES,
     FORMULATIONS,
@@ -124,12 +125,14 @@ MODE = shared(
         "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
         "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
         "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), "
+        "CAM_CLAY, "
         "IWAN or IWAN_PRESSION (cyclic soil), or "
         "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
         "their thickness. Beams TIMO "
         "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
         "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
-        "fibre; BETON_BAEL: concrete without tension; or von Mises). MODAL and "
+        "fibre; BETON_BAEL: concrete without tension; ACIER_UNI, BETON_UNI: steel and concrete in "
+        "cycles; or von Mises); bars have these laws too. MODAL and "
         "STATIQUE make a point stand for a mode or a static shape. IMPEDANCE puts a spring and a "
         "dashpot on a point (POI1) or between two (SEG2): ELASTIQUE (default), VOIGT (side by "
         "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
@@ -157,19 +160,22 @@ MODE = shared(
         "JOINT_SDM, CISAILLEMENT_ELASTIQUE keeps shear elastic when the joint is open, "
         "FROTTEMENT_SYMETRIQUE makes the tangent of Coulomb's friction (FROT) symmetric: the "
         "same solution in more iterations. Other laws of joints are JOINT_DILATANT, COULOMB, "
-        "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
+        "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (footings), APPUI_PLOMB, "
+        "APPUI_PENDULE (bearings of isolated structures).",
         fr="Donne à un maillage ses éléments finis et sa loi.\n"
         "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
         "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
         "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
         "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
+        "CAM_CLAY, "
         "IWAN ou IWAN_PRESSION (sol cyclique), "
         "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
         "l'épaisseur. Les poutres "
         "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
         "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
-        "(PARFAIT_UNI : le long de la fibre ; BETON_BAEL : béton sans traction ; ou von "
-        "Mises). MODAL et "
+        "(PARFAIT_UNI : le long de la fibre ; BETON_BAEL : béton sans traction ; ACIER_UNI, "
+        "BETON_UNI : acier et béton en cycles ; ou von Mises) ; les barres ont aussi ces lois. "
+        "MODAL et "
         "STATIQUE font d'un point un mode ou une déformée statique. IMPEDANCE met un ressort et "
         "un amortisseur en un point (POI1) ou entre deux (SEG2) : ELASTIQUE (par défaut), VOIGT "
         "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
@@ -198,7 +204,8 @@ MODE = shared(
         "JOINT_SDM, CISAILLEMENT_ELASTIQUE garde le cisaillement élastique à l'ouverture, "
         "FROTTEMENT_SYMETRIQUE rend symétrique la tangente du frottement (FROT) : même solution "
         "en plus d'itérations. Autres lois des joints : JOINT_DILATANT, COULOMB et, en un "
-        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS.",
+        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (fondations), APPUI_PLOMB, "
+        "APPUI_PENDULE (appuis de structures isolées).",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
         "('PLASTIQUE' (LOI1) | 'FLUAGE' 'NORTON') (ELEM1 ...) "
         "('INTEGRE' N1) ('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
@@ -446,6 +453,8 @@ def _unknown(call: Call, said: str) -> Exception:
     known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
     if said in UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
+    if said in CHANGED_LAWS:
+        raise call.error("operators.models.footing-law-not-built", said, said=said)
     if said in UNPUBLISHED:
         names = UNPUBLISHED[said]
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)

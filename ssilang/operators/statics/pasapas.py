@@ -168,7 +168,8 @@ def _stretch(
             if path:
                 history = follow(entries, _path_run(problem, inputs, bodies, observers))
             elif made is not None:
-                history = run_bulk(problem, *made, observers, line, dynamic, keeper)
+                full = work.flag("NEWTON_COMPLET")
+                history = run_bulk(problem, *made, observers, line, dynamic, keeper, full)
             elif dynamic:
                 full = work.flag("NEWTON_COMPLET")
                 if full or work is not entries:  # a procedure of the script's steps in its own turn

@@ -26,6 +26,7 @@ from ssilang.kernel.materials.behaviours import (
     FIBRE_LAWS,
     LAYER_LAWS,
     PLASTIC_FAMILIES,
+    UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
 from ssilang.kernel.materials.model import Mode, Zone
@@ -82,7 +83,8 @@ def sample_of_law(law: Word) -> Zone | None:
     """A zone that has a law; None for words that bring no parameters of their own."""
     name, plane, space = law.name, Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL
     if law.kind == "joint" and name in JOINT_LAWS:
-        element = "JOI1" if JOINT_LAWS[name].macro else "JOI2"
+        own = JOINT_LAWS[name].macro or JOINT_LAWS[name].two_points
+        element = "JOI1" if own else "JOI2"
         return sample(element, plane, ("ELASTIQUE", name))
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
         element = "POJS" if name in UNIAXIAL_LAWS else "QUA4"
@@ -225,10 +227,11 @@ def known_components() -> tuple[str, ...]:
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
     from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
+    from ssilang.kernel.interface.bed_results import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
-    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES]
+    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES]
     for element in ELEMENTS:
         for part in components_of(element):
             names += [*part.unknowns, *part.strains, *part.stresses]
@@ -266,8 +269,9 @@ def laws_of(element: str) -> tuple[str, ...]:
     family = ELEMENTS[element].family
     laws = [name for name, families in ELASTICITIES.items() if family in families]
     if family == "joint":
-        macro = [n for n, law in JOINT_LAWS.items() if law.macro and element != "JOI1"]
-        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and n not in macro]
+        points = [n for n, law in JOINT_LAWS.items() if law.macro or law.two_points]
+        faces = element != "JOI1"
+        laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and not (faces and n in points)]
     laws += [f"PLASTIQUE {n}" for n in _plastic(family)]
     laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in CREEP_FAMILIES]
     return tuple(laws)
@@ -277,6 +281,7 @@ def _plastic(family: str) -> tuple[str, ...]:
     if family not in PLASTIC_FAMILIES:
         return ("SECTION",) if family == "timoshenko" else ()
     bodies = tuple(n for n in PLASTIC_LAWS if n not in (*UNIAXIAL_LAWS, "SECTION"))
+    bodies += UNIAXIAL_LAWS if family in UNIAXIAL_FAMILIES else ()
     return {"fibre": FIBRE_LAWS, "plate": LAYER_LAWS}.get(family, bodies)
 
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from references.masing import Masing, hyperbola_damping, polygon
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters
-from tests.references.masing import Masing, hyperbola_damping, polygon
 
 G, K = 40.0, 100.0
 YOUNG, POISSON = 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (2 * (3 * K + G))

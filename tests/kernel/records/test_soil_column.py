@@ -107,3 +107,23 @@ def test_bad_soils_are_refused():
         column(-1.0)
     with pytest.raises(MaterialError, match="outside"):
         free_field(column(5.0), 0.01, np.zeros(10), np.array([7.0]), 10.0)
+
+
+def test_waves_that_are_in_the_ground_before_a_record_begins_are_told():
+    """A jump at the surface was below one crossing ago: with that much rest it is all there."""
+    step, soil, depths = 0.02, column(20.0, 20.0), np.array([0.0, 20.0, 40.0])
+    jump = np.cos(4 * np.pi * np.arange(200) * step)
+    assert soil.crossing == pytest.approx(40.0 / SPEED)
+    rest = np.zeros(round(1.5 * soil.crossing / step))
+    begun = [free_field(soil, step, a, depths, 20.0).begun for a in (jump, np.append(rest, jump))]
+    assert begun[0] > 0.1
+    assert begun[1] < 0.01
+
+
+def test_depths_do_not_drift_apart_behind_a_record_that_begins_with_a_jump() -> None:
+    """The displacement between two depths, from their velocities, is the strain between them."""
+    step, soil = 0.02, column(20.0, 20.0, damping=0.03)
+    jump = np.cos(4 * np.pi * np.arange(400) * step) * np.linspace(1.0, 0.2, 400)
+    field = free_field(soil, step, jump, np.array([9.9, 10.0, 10.1]), 20.0)
+    apart = np.cumsum(field.velocity[0] - field.velocity[2]) * field.times[1] / 0.2
+    assert np.ptp(apart) / 2 <= 1.02 * field.strain[1]

@@ -51,10 +51,10 @@ RESULTS = {
 class Apart:
     """A compiled function; called from Python as any other, from compiled code by its address."""
 
-    def __init__(self, dispatcher: Any) -> None:
+    def __init__(self, dispatcher: Any, expected: bool = True) -> None:
         functools.update_wrapper(self, dispatcher)
         self.name: str = dispatcher.py_func.__qualname__
-        self.dispatcher = dispatcher
+        self.dispatcher, self.expected = dispatcher, expected
         self.py_func = dispatcher.py_func
         self.result = RESULTS[self.py_func.__annotations__["return"]]
         dispatcher.targetoptions["no_cpython_wrapper"] = True  # half of what is compiled for some
@@ -96,9 +96,18 @@ def apart(function: Function) -> Function:
 
     Without compilation (NUMBA_DISABLE_JIT=1), or by plain numba alone, it stays what it is.
     """
+    return _made(function, True)
+
+
+def seldom(function: Function) -> Function:
+    """As `apart`, for one of several that few runs enter: a second process does not compile it."""
+    return _made(function, False)
+
+
+def _made(function: Function, expected: bool) -> Function:
     if PLAIN or numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
-    made = Apart(function)
+    made = Apart(function, expected)
     template = make_intrinsic_template(made, _typing_of(made), made.name)
     infer(template)
     infer_global(made, types.Function(template))
@@ -135,7 +144,7 @@ def _call(function: Apart, context: Any, builder: Any, sig: Any, args: Any) -> A
     conv, int64 = context.call_conv, ir.IntType(64)
     name = f"{function.__module__}.{function.name}"
     wanted = pickle.dumps((function.__module__, function.name, sig.args))
-    if sig.args not in function.dispatcher.overloads:
+    if function.expected and sig.args not in function.dispatcher.overloads:
         BESIDE.tell(title(function.__module__, function.name, sig.args), wanted)
     place = cgutils.add_global_variable(builder.module, int64, f"address of {name}{sig.args}")
     place.linkage, place.initializer = "internal", int64(0)

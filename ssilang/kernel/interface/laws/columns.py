@@ -17,6 +17,9 @@ class LawCode(IntEnum):
     STRIP = 3  # macro-elements: a whole footing at one point
     DISC = 4
     SPRINGS = 5
+    BED = 6  # a place under a macro-element whose ground yields
+    LEAD = 7  # bearings of isolated structures
+    PENDULUM = 8
 
 
 class Parameter(IntEnum):
@@ -40,14 +43,21 @@ class Parameter(IntEnum):
     QT = 15  # its tangent stiffness then
     LARG = 16  # width of a footing (macro-elements), along t1 in 3D
     LONG = 17  # its other width
-    RAYO = 18  # its radius
+    RAYO = 18  # its radius; of a pendulum's bowl
     SYMMETRIC = 19  # 1: tangent of friction without its unsymmetric part
+    QULT = 20  # pressure that the ground bears under a footing, Pa
+    BED_KN = 21  # elastic stiffness of the bed at a place under a footing, Pa/m
+    BED_KS = 22  # its shear stiffness
+    QD = 23  # force of a lead core at no displacement
+    KPOS = 24  # shear stiffness once it yields
+    ETA = 25  # how sharply it does
+    BETA = 26  # share of the hysteresis that unloads as it loads
 
 
 class Variable(IntEnum):
     """Columns of the state of a point, its internal variables."""
 
-    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint
+    XI = 0  # largest irreversible opening; plastic normal jump of a Mohr-Coulomb joint or a bed
     SLIP1 = 1  # along t1
     SLIP2 = 2  # along t2
     DAMAGE = 3  # share of the shear stiffness lost; plastic compression of a Mohr-Coulomb joint
@@ -57,6 +67,8 @@ class Variable(IntEnum):
     STATUS = 7  # of a Mohr-Coulomb joint: untouched (0), IS_OPEN or IN_CONTACT
     OPENING = 8  # of an open Mohr-Coulomb joint
     CUMULATED = 9  # length of its plastic jump
+    HYSTERETIC1 = 8  # of a lead core, along t1: shares of its force
+    HYSTERETIC2 = 9
 
 
 N_PARAMETERS = len(Parameter)

@@ -12,8 +12,10 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.parameters import (
+    check_lead_parameters,
     check_macro_parameters,
     check_mohr_parameters,
+    check_pendulum_parameters,
     check_sdm_parameters,
 )
 
@@ -41,6 +43,8 @@ class Law:
         stiffness in full contact about t1 and t2 (the same in 2D), each (n,), from the parameters.
     in_space : tuple of str or None
         Parameters that it needs in three dimensions beside; None if it is plane.
+    two_points : bool
+        Stands between two points alone (JOI1).
     """
 
     code: LawCode
@@ -52,6 +56,7 @@ class Law:
     variables: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
     rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     in_space: tuple[str, ...] | None = ()
+    two_points: bool = False
 
     @property
     def macro(self) -> bool:
@@ -80,6 +85,8 @@ _PLASTIC = {
     "LAM1": (Variable.DAMAGE,), "PLA1": (Variable.SLIP1,), "PLA2": (Variable.SLIP2,),
     "PLA3": (Variable.XI, Variable.OPENING),
 }  # fmt: skip
+
+_SLIPS: dict[str, tuple[Variable, ...]] = {"GLI1": (Variable.SLIP1,), "GLI2": (Variable.SLIP2,)}
 
 LAWS: dict[str, Law] = {
     "ELASTIQUE": Law(LawCode.ELASTIC, ("KN", "KS"), linear=True),
@@ -113,13 +120,17 @@ LAWS: dict[str, Law] = {
     "MACRO_SEMELLE": Law(
         LawCode.STRIP,
         ("KN", "KS", "LARG"),
-        ("LONG",),
+        ("LONG", "COHE", "QULT", "FROT"),
         check_macro_parameters,
         rocking=_rocking_rectangle,
         in_space=("LONG",),
     ),
     "MACRO_DISQUE": Law(
-        LawCode.DISC, ("KN", "KS", "RAYO"), (), check_macro_parameters, rocking=_rocking_disc
+        LawCode.DISC,
+        ("KN", "KS", "RAYO"),
+        ("COHE", "QULT", "FROT"),
+        check_macro_parameters,
+        rocking=_rocking_disc,
     ),
     "MACRO_RESSORTS": Law(
         LawCode.SPRINGS,
@@ -128,6 +139,22 @@ LAWS: dict[str, Law] = {
         check_macro_parameters,
         rocking=_rocking_springs,
         in_space=None,
+    ),
+    "APPUI_PLOMB": Law(
+        LawCode.LEAD,
+        ("KN", "KS", "QD", "KPOS"),
+        ("ETA", "BETA"),
+        check_lead_parameters,
+        variables={**_SLIPS, "HYS1": (Variable.HYSTERETIC1,), "HYS2": (Variable.HYSTERETIC2,)},
+        two_points=True,
+    ),
+    "APPUI_PENDULE": Law(
+        LawCode.PENDULUM,
+        ("KN", "KS", "RAYO", "FROT"),
+        (),
+        check_pendulum_parameters,
+        variables=_SLIPS,
+        two_points=True,
     ),
 }
 """Laws by the last word of a model's behaviour; the purely elastic joint under 'ELASTIQUE'."""
@@ -162,7 +189,7 @@ def shown_variables(law: Law, state: FloatArray, dimension: int) -> dict[str, Fl
     return {
         name: state[..., list(columns)].sum(axis=-1)
         for name, columns in law.variables.items()
-        if dimension == 3 or Variable.SLIP2 not in columns
+        if dimension == 3 or not name.endswith("2")
     }
 
 

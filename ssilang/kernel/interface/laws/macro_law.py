@@ -16,11 +16,12 @@ import math
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.places import pressed_at_places
 
 
 @compiled
@@ -108,7 +109,7 @@ def rectangle_contact(
         out[I22] += cross * (y1 * y1 + y1 * y2 + y2 * y2) / 12.0
 
 
-@apart
+@seldom
 @compiled
 def macro_point(
     code: int,
@@ -121,12 +122,88 @@ def macro_point(
 ) -> None:
     """Moments and force t, tangent D, written in place."""
     copy_state(state, new)
+    _elastic(code, w, p, t, D)
+    if p[Par.COHE] > 0.0:
+        _over_places(code, w, p, t, D)
+
+
+@compiled
+def _elastic(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    """The bed in closed form."""
     if w.shape[0] == 2:
         _plane(code, w, p, t, D)
     elif code == LawCode.DISC:
         _disc(w, p, t, D)
     else:
         _rectangle(w, p, t, D)
+
+
+FAR = 8.0
+"""Rotation times k B over the pressure that the ground bears, from which places alone count."""
+
+
+@compiled
+def _share(w: FloatArray, p: FloatArray) -> tuple[float, float]:
+    """Share of what the closed form has over the places, and the square of a rotation."""
+    width = 2.0 * p[Par.RAYO] if p[Par.RAYO] > 0.0 else p[Par.LARG]
+    area = math.pi * p[Par.RAYO] ** 2
+    if p[Par.RAYO] == 0.0:
+        area = p[Par.LARG] * (p[Par.LONG] if p[Par.LONG] > 0.0 else 1.0)
+    far = (FAR * p[Par.QULT] * area / (p[Par.KN] * width)) ** 2
+    turned = 0.0
+    for i in range(w.shape[0] - 1):
+        turned += w[i] * w[i]
+    return far / (far + turned), far
+
+
+@compiled
+def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    """The closed form over ground that yields at places (`bed_law`), which take off theirs.
+
+    Closed form and places differ where the edge of contact lies between two of these, by a force
+    E that grows with the rotation. The ground bears no such force: its energy 1/2 w.E enters with
+    the share 1/(1 + (theta/theta_1)^2), 1 while the ground is elastic. In place.
+    """
+    d = w.shape[0]
+    at, Da, fade = np.zeros(d), np.zeros((d, d)), np.zeros(d)
+    pressed_at_places(code, w, p, at, Da)
+    share, far = _share(w, p)
+    energy = 0.0
+    for i in range(d):
+        t[i] -= at[i]
+        energy += 0.5 * w[i] * t[i]
+    for i in range(d - 1):
+        fade[i] = -2.0 * w[i] * share * share / far
+    for i in range(d):
+        for j in range(d):
+            more = t[i] * fade[j] + fade[i] * t[j]
+            if i < d - 1 and j < d - 1:
+                more += 8.0 * energy * w[i] * w[j] * share**3 / far**2
+                if i == j:
+                    more -= 2.0 * energy * share * share / far
+            D[i, j] = Da[i, j] + share * (D[i, j] - Da[i, j]) + more
+    for i in range(d):
+        t[i] = at[i] + share * t[i] + energy * fade[i]
+
+
+@seldom
+@compiled
+def macro_energy(code: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
+    """Stored energy of a macro-element, without what its ground takes."""
+    d = w.shape[0]
+    stored: float = 0.0
+    for i in range(d):
+        stored += 0.5 * w[i] * t[i]
+    if p[Par.COHE] == 0.0:
+        return stored
+    exact, at, D = np.zeros(d), np.zeros(d), np.zeros((d, d))
+    _elastic(code, w, p, exact, D)
+    pressed_at_places(code, w, p, at, D)
+    share, _ = _share(w, p)
+    stored = 0.0
+    for i in range(d):
+        stored += 0.5 * w[i] * (at[i] + share * (exact[i] - at[i]))
+    return stored
 
 
 @compiled

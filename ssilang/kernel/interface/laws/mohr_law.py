@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
@@ -52,7 +52,7 @@ def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) 
     return stored
 
 
-@apart
+@seldom
 @compiled
 def mohr_point(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray

@@ -12,7 +12,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.interface.kinematics import JointCells, point_values
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
-from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.model import Zone
 
@@ -34,6 +34,7 @@ def joint_parameters(joints: JointCells, given: ZoneField) -> FloatArray:
         If KN or KS is missing, or the law refuses the values.
     """
     law = law_of(joints.zone.behaviour)
+    _refuse_faces(joints.zone)
     n, g = joints.weights.shape
     _refuse_turning_slip(point_values(given, "TYPE", n, joints.shape))
     table = np.zeros((n, g, N_PARAMETERS))
@@ -90,6 +91,7 @@ def check_given(zone: Zone, values: Mapping[str, NDArray[np.generic]]) -> None:
         If the law refuses the values.
     """
     law = law_of(zone.behaviour)
+    _refuse_faces(zone)
     if any(v.dtype == object for v in values.values()):
         return
     given = {name: np.asarray(v, dtype=float) for name, v in values.items()}
@@ -114,6 +116,13 @@ def check_given(zone: Zone, values: Mapping[str, NDArray[np.generic]]) -> None:
                 steep, np.inf, np.tan(np.radians(given[name]))
             )
     law.check(table.reshape(-1, N_PARAMETERS))
+
+
+def _refuse_faces(zone: Zone) -> None:
+    law = law_of(zone.behaviour)
+    if law.two_points and zone.element != "JOI1":
+        name = next(n for n, other in LAWS.items() if other is law)
+        raise MaterialError("kernel.interface.law-two-points", name=name, element=zone.element)
 
 
 def _refuse_turning_slip(kind: FloatArray | None) -> None:

@@ -8,8 +8,9 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import Parameter
 
-DEFAULTS: dict[str, float] = {"FROT": -1.0}
-"""What laws take for the parameters that are not given, if not 0: a joint without tension."""
+DEFAULTS: dict[str, float] = {"FROT": -1.0, "ETA": 1.0, "BETA": 0.5}
+"""What laws take for the parameters that are not given, if not 0: a joint without tension, the
+plainest hysteresis."""
 
 
 def check_sdm_parameters(parameters: FloatArray) -> None:
@@ -73,6 +74,53 @@ def check_macro_parameters(parameters: FloatArray) -> None:
     _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("LARG", "LONG", "RAYO"):
         _refuse(columns[name] < 0, columns[name], name, "> 0")
+    for name in ("COHE", "QULT"):
+        _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    strong = columns["COHE"] == 0.0
+    for name, idle in (("QULT", 0.0), ("FROT", -1.0)):
+        if (strong & (columns[name] > idle)).any():
+            raise MaterialError("kernel.interface.macro-needs-cohe", name=name)
+
+
+def check_lead_parameters(parameters: FloatArray) -> None:
+    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    columns = _bearing_columns(parameters)
+    _refuse(columns["QD"] <= 0, columns["QD"], "QD", "> 0")
+    _refuse(columns["KPOS"] < 0, columns["KPOS"], "KPOS", ">= 0")
+    _refuse(columns["KPOS"] >= columns["KS1"], columns["KPOS"], "KPOS", "< KS")
+    _refuse(columns["ETA"] < 1, columns["ETA"], "ETA", ">= 1")
+    _refuse((columns["BETA"] < 0) | (columns["BETA"] > 0.5), columns["BETA"], "BETA", "0 ... 0.5")
+
+
+def check_pendulum_parameters(parameters: FloatArray) -> None:
+    """Refuse a friction pendulum without bowl or friction.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    columns = _bearing_columns(parameters)
+    _refuse(columns["RAYO"] <= 0, columns["RAYO"], "RAYO", "> 0")
+    _refuse(columns["FROT"] < 0, columns["FROT"], "FROT", ">= 0")
+
+
+def _bearing_columns(parameters: FloatArray) -> dict[str, FloatArray]:
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    columns = {p.name: parameters[:, p] for p in Parameter}
+    for name in ("KN", "KS1"):
+        _refuse(columns[name] <= 0, columns[name], name, "> 0")
+    # KS2 is 0 in the plane, where there is no second direction
+    other = (columns["KS2"] != columns["KS1"]) & (columns["KS2"] != 0)
+    _refuse(other, columns["KS2"], "KS2", "= KS1")
+    return columns
 
 
 def _refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:

@@ -14,10 +14,17 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
+from ssilang.kernel.interface.laws.bearing_law import (
+    lead_energy,
+    lead_point,
+    pendulum_energy,
+    pendulum_point,
+)
+from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_point
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.macro_law import macro_point
+from ssilang.kernel.interface.laws.macro_law import macro_energy, macro_point
 from ssilang.kernel.interface.laws.mohr_law import mohr_energy, mohr_point
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss, sdm_point
 
@@ -54,6 +61,12 @@ def point_response(
         mohr_point(w, state, p, t, new, D)
     elif code == LawCode.ELASTIC:
         elastic_point(w, state, p, t, new, D)
+    elif code == LawCode.LEAD:
+        lead_point(w, state, p, t, new, D)
+    elif code == LawCode.PENDULUM:
+        pendulum_point(w, state, p, t, new, D)
+    elif code == LawCode.BED:
+        bed_point(w, state, p, t, new, D)
     else:
         macro_point(code, w, state, p, t, new, D)
 
@@ -87,6 +100,14 @@ def point_energies(
     stored = 0.0
     if code == LawCode.MOHR:
         return mohr_energy(w, t, state, p), state[Var.SHEAR_LOSS]
-    for i in range(n + 1):
-        stored += 0.5 * w[i] * t[i]
-    return stored, 0.0
+    if code == LawCode.LEAD:
+        return lead_energy(w, state, p), state[Var.SHEAR_LOSS]
+    if code == LawCode.PENDULUM:
+        return pendulum_energy(w, state, p), state[Var.SHEAR_LOSS]
+    if code == LawCode.BED:
+        return bed_energy(w, t, p), state[Var.SHEAR_LOSS]
+    if code == LawCode.ELASTIC:
+        for i in range(n + 1):
+            stored += 0.5 * w[i] * t[i]
+        return stored, 0.0
+    return macro_energy(code, w, t, p), 0.0

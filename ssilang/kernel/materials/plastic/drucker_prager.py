@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.cone import Cone, cone_return
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
@@ -14,9 +14,8 @@ def perfect(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """Cone through the simple strengths LTR (tension) and LCS (compression); variable EPSE."""
-    tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
-    alpha = (compression - tension) / (compression + tension)
-    limit = 2 * compression * tension / (compression + tension)
+    numbers = perfect_columns(parameters)
+    alpha, limit = numbers["ALPHA"], numbers["FIRST"]
     one = np.ones(len(stress))
 
     def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -24,6 +23,14 @@ def perfect(
 
     cone = Cone(alpha, one, alpha, one, 0 * one, strength)
     return _respond(parameters, cone, stress, strain, variables)
+
+
+def perfect_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`perfect` in numbers."""
+    tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
+    alpha = (compression - tension) / (compression + tension)
+    limit = 2 * compression * tension / (compression + tension)
+    return {"ALPHA": alpha, "GAMMA": alpha, "FIRST": limit}
 
 
 def hardening(
@@ -34,10 +41,7 @@ def hardening(
     The ultimate strength bounds K from above. One that falls (H < 0) ends at an ultimate strength
     below the first, else at zero.
     """
-    limit, slope = parameters["K"], parameters["H"]
-    last = parameters["KL"] * parameters["BETA"] / parameters["MU"]
-    falls = slope < 0
-    last = np.where(falls & (last >= limit), 0.0, last)
+    limit, slope, last, falls = _strengths(parameters)
 
     def strength(rows: IntArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
         value = limit[rows] + slope[rows] * p
@@ -50,6 +54,24 @@ def hardening(
     alpha, beta, gamma, delta = (parameters[n] for n in names)
     cone = Cone(alpha, beta, gamma, delta, zero, strength)
     return _respond(parameters, cone, stress, strain, variables)
+
+
+def _strengths(
+    parameters: PointParameters,
+) -> tuple[FloatArray, FloatArray, FloatArray, BoolArray]:
+    """First strength, its slope, the last one, and where it falls."""
+    limit, slope = parameters["K"], parameters["H"]
+    last = parameters["KL"] * parameters["BETA"] / parameters["MU"]
+    falls = slope < 0
+    return limit, slope, np.where(falls & (last >= limit), 0.0, last), falls
+
+
+def hardening_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`hardening` in numbers."""
+    limit, slope, last, falls = _strengths(parameters)
+    numbers = {"FIRST": limit, "SLOPE": slope, "LAST": last, "SINKS": falls.astype(float)}
+    words = {"ALPHA": "ALFA", "BETA": "BETA", "GAMMA": "GAMM", "DELTA": "DELT"}
+    return numbers | {column: parameters[word] for column, word in words.items()}
 
 
 def _respond(

@@ -53,4 +53,4 @@ def respond_held(
     tangent[:, free[:, None], free[None, :]] = reduced - cross @ np.linalg.solve(own + ridge, back)
     final = found.stress.copy()
     final[:, h] = 0.0
-    return Response(final, found.variables, tangent), whole
+    return Response(final, found.variables, tangent, found.elastic), whole

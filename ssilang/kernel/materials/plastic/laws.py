@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic import (
+    cam_clay,
     creep,
     drucker_prager,
+    hognestad,
     iwan,
+    menegotto_pinto,
     rounded_coulomb,
     uniaxial,
     von_mises,
@@ -20,6 +23,8 @@ from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
 """Response from parameters, stress (m, 6), step of strain (m, 6), variables (m, k)."""
+Columns = Callable[[PointParameters], dict[str, FloatArray]]
+"""Numbers (m,) of a cone at m points."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +50,13 @@ class PlasticLaw:
         A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
+    defaults : mapping of str to float
+        Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
+    columns : callable or None
+        Of a cone of revolution: its numbers (m,) by the names of `cone_rows.ConeColumn`, for
+        compiled passes over many points.
     locked : callable or None
         Energy density (m,) that stress (m, 6) and variables store beyond the elastic energy of
         the stress.
@@ -64,7 +74,9 @@ class PlasticLaw:
     symmetric: bool = True
     uniaxial: bool = False
     optional: tuple[str, ...] = ()
+    defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
+    columns: Columns | None = None
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
 
@@ -89,24 +101,42 @@ _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
 _CONE = ("ALFA", "BETA", "K", "ETA", "MU", "KL", "H", "GAMM", "DELT")
 
 PLASTIC_LAWS: dict[str, PlasticLaw] = {
-    "PARFAIT": PlasticLaw(von_mises.perfect, ("SIGY",), positive=("SIGY",)),
+    "PARFAIT": PlasticLaw(
+        von_mises.perfect, ("SIGY",), positive=("SIGY",), columns=von_mises.perfect_columns
+    ),
     "ISOTROPE": PlasticLaw(
-        von_mises.isotropic, ("ECRO",), curves=("ECRO",), check=von_mises.check_strengths
+        von_mises.isotropic,
+        ("ECRO",),
+        curves=("ECRO",),
+        check=von_mises.check_strengths,
+        columns=von_mises.isotropic_columns,
     ),
     "CINEMATIQUE": PlasticLaw(
-        von_mises.kinematic, ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
+        von_mises.kinematic,
+        ("SIGY", "H"),
+        ("EPSE", *_CENTRE),
+        positive=("SIGY",),
+        columns=von_mises.kinematic_columns,
     ),
     "J2": PlasticLaw(
         von_mises.saturating,
         ("SIG0", "SIGI", "KISO", "VELO"),
         positive=("SIG0",),
         check=von_mises.check_saturating,
+        columns=von_mises.saturating_columns,
     ),
     "DRUCKER_PARFAIT": PlasticLaw(
-        drucker_prager.perfect, ("LTR", "LCS"), check=drucker_prager.check_perfect
+        drucker_prager.perfect,
+        ("LTR", "LCS"),
+        check=drucker_prager.check_perfect,
+        columns=drucker_prager.perfect_columns,
     ),
     "DRUCKER_PRAGER": PlasticLaw(
-        drucker_prager.hardening, _CONE, check=drucker_prager.check_hardening, symmetric=False
+        drucker_prager.hardening,
+        _CONE,
+        check=drucker_prager.check_hardening,
+        symmetric=False,
+        columns=drucker_prager.hardening_columns,
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
     "IWAN": PlasticLaw(
@@ -121,11 +151,40 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         symmetric=False,
         shaped=_iwan,
     ),
+    "CAM_CLAY": PlasticLaw(
+        cam_clay.respond,
+        cam_clay.REQUIRED,
+        cam_clay.VARIABLES,
+        positive=("M", "P0", "KAPA", "LAMD", "G1"),
+        check=cam_clay.check,
+        symmetric=False,
+        defaults={"COHE": 0.0},
+        locked=cam_clay.locked,
+    ),
     "PARFAIT_UNI": PlasticLaw(
         uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
     ),
     "BETON_BAEL": PlasticLaw(
         uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+    ),
+    "ACIER_UNI": PlasticLaw(
+        menegotto_pinto.respond,
+        menegotto_pinto.REQUIRED,
+        menegotto_pinto.VARIABLES,
+        positive=("STSY",),
+        check=menegotto_pinto.check,
+        uniaxial=True,
+        defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
+    ),
+    "BETON_UNI": PlasticLaw(
+        hognestad.respond,
+        hognestad.REQUIRED,
+        hognestad.VARIABLES,
+        positive=("STFC", "EZER"),
+        check=hognestad.check,
+        uniaxial=True,
+        optional=hognestad.UNUSED,
+        defaults=hognestad.DEFAULTS,
     ),
     "SECTION": PlasticLaw(uniaxial.elastic, ()),
 }

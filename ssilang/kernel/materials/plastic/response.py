@@ -62,6 +62,13 @@ class PointParameters:
         """Elastic compliance (m, 6, 6)."""
         return isotropic_compliance(self["YOUN"], self["NU"])
 
+    def elastic_energy(self, stress: FloatArray) -> FloatArray:
+        """Energy (m,) that stresses (m, 6) store in a unit of volume."""
+        trace = stress[:, 0] + stress[:, 1] + stress[:, 2]
+        square = np.vecdot(stress, stress) + np.vecdot(stress[:, 3:], stress[:, 3:])
+        own: FloatArray = (square - trace**2 / 3) / (4 * self.shear) + trace**2 / (18 * self.bulk)
+        return own
+
     def at(self, points: IntArray) -> PointParameters:
         """The same for some of the points."""
         values = {name: v[points] for name, v in self.values.items()}
@@ -96,11 +103,21 @@ class Response:
         Internal variables at the end.
     tangent : array (m, 6, 6)
         Derivative of the stress by the strain of the step (consistent with the integration).
+    elastic : array (m, 6) or None
+        Elastic strain of the step, where YOUN and NU do not give it.
     """
 
     stress: FloatArray
     variables: FloatArray
     tangent: FloatArray
+    elastic: FloatArray | None = None
+
+    def elastic_strain(self, parameters: PointParameters, before: FloatArray) -> FloatArray:
+        """Elastic strain (m, 6) of a step from the stress `before`."""
+        if self.elastic is not None:
+            return self.elastic
+        found: FloatArray = np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
+        return found
 
 
 def mises(stress: FloatArray) -> tuple[FloatArray, FloatArray]:

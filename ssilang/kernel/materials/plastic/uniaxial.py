@@ -9,14 +9,15 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 
-def _elastic_shear(p: PointParameters, stress: FloatArray, strain: FloatArray) -> FloatArray:
+def elastic_shear(p: PointParameters, stress: FloatArray, strain: FloatArray) -> FloatArray:
     """Stresses (m, 6) at the end of a step, XX not yet."""
     found = np.zeros_like(stress)
     found[:, 3:5] = stress[:, 3:5] + p.shear[:, None] * strain[:, 3:5]
     return found
 
 
-def _tangent(p: PointParameters, along: FloatArray) -> FloatArray:
+def fibre_tangent(p: PointParameters, along: FloatArray) -> FloatArray:
+    """Tangent (m, 6, 6) of fibres from the slope along them."""
     D = np.zeros((len(along), 6, 6))
     D[:, 0, 0] = along
     D[:, 3, 3] = D[:, 4, 4] = p.shear
@@ -27,9 +28,9 @@ def elastic(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """`s = YOUN e`."""
-    found = _elastic_shear(parameters, stress, strain)
+    found = elastic_shear(parameters, stress, strain)
     found[:, 0] = stress[:, 0] + parameters["YOUN"] * strain[:, 0]
-    return Response(found, variables, _tangent(parameters, parameters["YOUN"]))
+    return Response(found, variables, fibre_tangent(parameters, parameters["YOUN"]))
 
 
 def kinematic(
@@ -37,7 +38,7 @@ def kinematic(
 ) -> Response:
     """`|s - X| <= SIGY`, `dX = H dep`; variables EPSE (cumulated) and X."""
     E, limit, H = (parameters[n] for n in ("YOUN", "SIGY", "H"))
-    found = _elastic_shear(parameters, stress, strain)
+    found = elastic_shear(parameters, stress, strain)
     trial = stress[:, 0] + E * strain[:, 0]
     over = trial - variables[:, 1]
     slip = np.maximum(np.abs(over) - limit, 0.0) / (E + H)
@@ -45,7 +46,7 @@ def kinematic(
     found[:, 0] = trial - E * slip * sense
     after = np.column_stack([variables[:, 0] + slip, variables[:, 1] + H * slip * sense])
     slope = np.where(slip > 0, E * H / (E + H), E)
-    return Response(found, after, _tangent(parameters, slope))
+    return Response(found, after, fibre_tangent(parameters, slope))
 
 
 BAEL_PEAK = 2e-3
@@ -62,7 +63,7 @@ def concrete(
     (strain).
     """
     E, strength = parameters["YOUN"], np.abs(parameters["FC"])
-    found = _elastic_shear(parameters, stress, strain)
+    found = elastic_shear(parameters, stress, strain)
     plastic, e = variables[:, 0], variables[:, 1] + strain[:, 0]
     x = np.clip(-e / BAEL_PEAK, 0.0, 1.0)
     curve, rise = -strength * x * (2 - x), 2 * strength * (1 - x) / BAEL_PEAK
@@ -71,7 +72,7 @@ def concrete(
     found[:, 0] = np.where(yields, curve, line)
     slope = np.where(yields, rise, np.where(line < 0, E, 0.0))
     after = np.column_stack([np.where(yields, e - curve / E, plastic), e])
-    return Response(found, after, _tangent(parameters, slope))
+    return Response(found, after, fibre_tangent(parameters, slope))
 
 
 def check_concrete(parameters: PointParameters) -> None:

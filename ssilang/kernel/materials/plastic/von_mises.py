@@ -27,6 +27,31 @@ def perfect(
     return _isotropic(parameters, stress, strain, variables, strength)
 
 
+def perfect_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`perfect` in numbers."""
+    return {"FIRST": parameters["SIGY"]}
+
+
+def isotropic_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`isotropic` in numbers: all is in its curve."""
+    return {}
+
+
+def kinematic_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`kinematic` in numbers."""
+    return {"FIRST": parameters["SIGY"], "KINEMATIC": parameters["H"]}
+
+
+def saturating_columns(parameters: PointParameters) -> dict[str, FloatArray]:
+    """`saturating` in numbers."""
+    return {
+        "FIRST": parameters["SIG0"],
+        "SLOPE": parameters["KISO"],
+        "RISE": parameters["SIGI"] - parameters["SIG0"],
+        "RATE": parameters["VELO"],
+    }
+
+
 def isotropic(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:

@@ -42,20 +42,20 @@ class DissectedFactor:
         nothing = np.zeros(0, np.int64)
         self.tree: Tree = dissection(A, points, nothing if last is None else last)
         self.panels = factorise_panels(A, self.tree, most)
-        self._local = np.empty(longest(self.panels))
+        self.room = np.empty(longest(self.panels))
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, b (n,) or (n, k)."""
         x = np.empty(b.shape)
         y = np.ascontiguousarray(b[self.tree.order], dtype=float)
         if y.ndim == 1:
-            solve_column(self.panels, y, self._local)
+            solve_column(self.panels, y, self.room)
         elif y.shape[1] >= MANY:
             solve_columns(self.panels, y, 0, len(self.panels.first) - 1)
         else:
             for j in range(y.shape[1]):
                 column = y[:, j].copy()
-                solve_column(self.panels, column, self._local)
+                solve_column(self.panels, column, self.room)
                 y[:, j] = column
         x[self.tree.order] = y
         return x

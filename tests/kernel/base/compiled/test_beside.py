@@ -1,5 +1,7 @@
 """The process that compiles beside a run: who compiles what, how it ends, what it is told ahead."""
 
+from __future__ import annotations
+
 import os
 import pickle
 import subprocess
@@ -7,9 +9,13 @@ import sys
 import time
 
 import pytest
+from numba.core.caching import NullCache
 
 from ssilang.kernel.base.compiled import PLAIN, beside
+from ssilang.kernel.base.compiled import apart as apart_module
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.solvers.cholesky import multifrontal
 from ssilang.kernel.stepping.rests.sparse import interleaved_loop
 from ssilang.kernel.stepping.run import integrate
@@ -35,6 +41,33 @@ def pair(folder, turns=10**9):
     run._claims = other._claims = folder
     run._process, other.found = Living(turns), []
     return run, other
+
+
+@apart
+@compiled
+def half(x: float) -> float:
+    return 0.5 * x
+
+
+@seldom
+@compiled
+def twice(x: float) -> float:
+    return 2.0 * x
+
+
+@compiled
+def chosen(x: float, often: bool) -> float:
+    return half(x) if often else twice(x)
+
+
+@pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
+def test_what_few_runs_enter_is_not_compiled_beside_them(monkeypatch):
+    told = []
+    monkeypatch.setattr(apart_module.BESIDE, "tell", lambda name, task: told.append(name))
+    monkeypatch.setattr(chosen, "_cache", NullCache())
+    assert chosen(3.0, False) == 6.0
+    assert [name for name in told if "half" in name]
+    assert not [name for name in told if "twice" in name]
 
 
 def test_alone_all_is_compiled_by_the_run():

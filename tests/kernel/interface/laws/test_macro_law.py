@@ -146,6 +146,15 @@ def test_strip_and_disc_follow_their_closed_forms(mode):
     np.testing.assert_allclose(found[1:], exact[1:], rtol=1e-10)
 
 
+def test_turns_too_large_for_one_step_are_cut():
+    """From far on one side to far on the other in one step, where Newton alone flies off."""
+    strip = Strip(4.0, 1.0, 2e7, 6e5)
+    theta = np.array([0.0, 5.0, 0.0, -10.0, 10.0, -0.5]) * strip.uplift_rotation
+    found = pushed(Mode.PLANE_STRAIN, "MACRO_SEMELLE", "RZ", 6e5, theta, KN=8e7, KS=1e8, LARG=4.0)
+    exact = np.sign(theta) * strip.moment(np.abs(theta))
+    np.testing.assert_allclose(found[1:], exact[1:], rtol=1e-9, atol=1e-9 * strip.uplift_moment)
+
+
 def test_two_springs_carry_a_constant_moment_once_lifted():
     theta = np.array([0.0, 1e-3, 0.05, 0.1])
     found = pushed(Mode.PLANE_STRAIN, "MACRO_RESSORTS", "RZ", 6e5, theta, KN=8e7, KS=1e8, LARG=3.0)

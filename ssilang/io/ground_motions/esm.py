@@ -8,12 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.peer_records import PeerRecord
+from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of
+from ssilang.kernel.base.arrays import FloatArray
 
 _QUANTITIES = {"ACCELERATION": "ACCE", "VELOCITY": "VITE", "DISPLACEMENT": "DEPL"}
 
 
-def read_esm(path: Path) -> PeerRecord:
+def read_esm(path: Path) -> GroundMotion:
     """Read a record: lines 'KEY: VALUE', then a value a line.
 
     Raises
@@ -22,10 +23,7 @@ def read_esm(path: Path) -> PeerRecord:
         If the file cannot be read, its head has no SAMPLING_INTERVAL_S, a value is no number, or
         it holds fewer values than NDATA says.
     """
-    try:
-        lines = path.read_text(encoding="latin-1").splitlines()
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=error.strerror) from error
+    lines = lines_of(path)
     begin = next((i for i, line in enumerate(lines) if _is_number(line)), len(lines))
     head = {k.strip().upper(): v.strip() for k, _, v in (x.partition(":") for x in lines[:begin])}
     try:
@@ -41,7 +39,7 @@ def read_esm(path: Path) -> PeerRecord:
         )
     quantity = _QUANTITIES.get(head.get("DATA_TYPE", "").upper(), "ACCE")
     event = " ".join(head[k] for k in ("EVENT_NAME", "STATION_CODE", "STREAM") if head.get(k))
-    return PeerRecord(values, dt, event, quantity, head.get("UNITS", "").upper())
+    return GroundMotion(values, dt, event, quantity, head.get("UNITS", "").upper())
 
 
 def _is_number(text: str) -> bool:
@@ -52,9 +50,7 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _values(
-    path: Path, lines: list[str], begin: int
-) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def _values(path: Path, lines: list[str], begin: int) -> FloatArray:
     found = []
     for number, line in enumerate(lines[begin:], start=begin + 1):
         if not (text := line.strip()):
@@ -62,7 +58,4 @@ def _values(
         if not _is_number(text):
             raise InputError("io.line-no-number-2", name=path.name, number=number, rest=text[:20])
         found.append(float(text))
-    values = np.array(found)
-    if not np.isfinite(values).all():
-        raise InputError("io.record-not-finite", name=path.name)
-    return values
+    return finite(path, np.array(found))

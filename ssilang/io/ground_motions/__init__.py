@@ -1,0 +1,1 @@
+"""Ground motions in the formats of databases (PEER, ESM, ITACA, COSMOS) and tables with titles."""

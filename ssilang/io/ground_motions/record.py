@@ -1,0 +1,111 @@
+"""A ground motion as a file has it: values, step or times, quantity, and the unit it names."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ssilang.io.errors import InputError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.system_reasons import system_reason
+
+G = 9.81
+"""Standard gravity as the rest of the house takes it (m/s2)."""
+_IN_SI = {
+    "G": G, "%G": G / 100.0, "MG": G / 1000.0, "GAL": 0.01,
+    "CM/S2": 0.01, "CM/S": 0.01, "CM": 0.01, "MM/S2": 1e-3, "MM/S": 1e-3, "MM": 1e-3,
+    "IN/S2": 0.0254, "IN/S": 0.0254, "IN": 0.0254, "M/S2": 1.0, "M/S": 1.0, "M": 1.0,
+}  # fmt: skip
+
+
+def plain_unit(said: str) -> str:
+    """A unit by its one spelling: 'cm/sec/sec', 'CM/S**2' and 'cm/s^2' are CM/S2."""
+    unit = re.sub(r"\s|\^|\*", "", said.upper()).replace("SEC", "S").replace("\u00b2", "2")
+    return unit.replace("S/S", "S2")
+
+
+@dataclass(frozen=True)
+class GroundMotion:
+    """A record.
+
+    Attributes
+    ----------
+    values : array (n,)
+        In the file's unit.
+    dt : float
+        Step (s); 0 if `given` has the times.
+    event : str
+    quantity : 'ACCE', 'VITE' or 'DEPL'
+    unit : str
+        What the file says it is, '' where it says nothing.
+    given : array (n,), optional
+        Times (s) of a file that lists them.
+    """
+
+    values: FloatArray
+    dt: float
+    event: str
+    quantity: str
+    unit: str = ""
+    given: FloatArray | None = None
+
+    @property
+    def in_si(self) -> float:
+        """Factor that makes SI of its unit, 1 for those not known."""
+        return _IN_SI.get(plain_unit(self.unit), 1.0)
+
+    @property
+    def has_unit(self) -> bool:
+        """Whether the file names a unit that is known."""
+        return plain_unit(self.unit) in _IN_SI
+
+    @property
+    def times(self) -> FloatArray:
+        """Times (n,); the first is 0 where the file has a step."""
+        if self.given is not None:
+            return self.given
+        return np.asarray(self.dt * np.arange(len(self.values)), dtype=np.float64)
+
+
+def is_unit(said: str) -> bool:
+    """Whether a unit is known."""
+    return plain_unit(said) in _IN_SI
+
+
+def lines_of(path: Path) -> list[str]:
+    """Lines of a text file, whatever its letters.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
+    try:
+        return path.read_text(encoding="latin-1").splitlines()
+    except OSError as error:
+        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+
+
+def real(text: str) -> float:
+    """A number as Fortran writes it, NaN for what is none."""
+    try:
+        return float(text.upper().replace("D", "E"))
+    except ValueError:
+        return math.nan
+
+
+def finite(path: Path, values: FloatArray) -> FloatArray:
+    """The same values.
+
+    Raises
+    ------
+    InputError
+        If one is too large for a number.
+    """
+    if not np.isfinite(values).all():
+        raise InputError("io.record-not-finite", name=path.name)
+    return values

@@ -1,0 +1,159 @@
+"""Places under macro-elements whose ground yields: where they stand, what they give together.
+
+The macro-element gives forces of the elastic no-tension bed in closed form, its places what
+yielding takes from it (`laws/bed_law`). A place sees the rotations and the opening of the
+element's own pair and, on a second pair, the motions along the base: `u_t` in 2D (its second row
+stays empty), `u_t1, u_t2` and the twist about n in 3D.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter
+from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.places import n_places, place
+
+
+@dataclass(frozen=True, eq=False)
+class Bed:
+    """Places under one macro-element.
+
+    Attributes
+    ----------
+    owner : int
+        Point of the macro-element in the interface.
+    first : int
+        Its first place among the points of the interface; the others follow.
+    arms : array (g, d - 1)
+        Where they are, along t1 and t2 from the centre; in 2D along the base, so that the place
+        opens by `v + theta s`.
+    areas : array (g,)
+    parameters : array (N_PARAMETERS,)
+        The same at all places.
+    """
+
+    owner: int
+    first: int
+    arms: FloatArray
+    areas: FloatArray
+    parameters: FloatArray
+
+    @property
+    def points(self) -> slice:
+        """Its places among the points of the interface."""
+        return slice(self.first, self.first + len(self.areas))
+
+    @property
+    def capacity(self) -> float:
+        """Vertical force that the ground bears (N)."""
+        return float(self.parameters[Parameter.QULT] * self.areas.sum())
+
+    def operator(self) -> FloatArray:
+        """Local jumps of the places from those of both pairs, (g, d, 2 d)."""
+        g, m = self.arms.shape
+        B, one = np.zeros((g, m + 1, 2 * (m + 1))), np.ones(g)
+        if m == 1:
+            B[:, 0, 2] = one
+            B[:, 1, 0], B[:, 1, 1] = self.arms[:, 0], one
+            return B
+        s1, s2 = self.arms.T
+        B[:, 0, 3], B[:, 0, 5] = one, -s2
+        B[:, 1, 4], B[:, 1, 5] = one, s1
+        B[:, 2, 0], B[:, 2, 1], B[:, 2, 2] = s2, -s1, one
+        return B
+
+    def taken(self, t: FloatArray) -> FloatArray:
+        """Moments and force (..., d) that yielding takes, from tractions (..., g, d) there."""
+        found: FloatArray = np.einsum(
+            "g,...gi,gij->...j", self.areas, t, self.operator()[:, :, : t.shape[-1]]
+        )
+        return found
+
+    def in_contact(self, w: FloatArray, t: FloatArray) -> FloatArray:
+        """Share (...) of its area that presses, from w, t (..., g, d) at its places."""
+        return np.asarray((self.pressures(w, t) > 0.0) @ self.areas / self.areas.sum())
+
+    def pressures(self, w: FloatArray, t: FloatArray) -> FloatArray:
+        """Pressures (..., g) of the bed itself from jumps and what yielding takes (..., g, d)."""
+        elastic = self.parameters[Parameter.BED_KN] * np.minimum(w[..., -1], 0.0)
+        return np.asarray(-(t[..., -1] + elastic))
+
+
+def yields(table: FloatArray) -> bool:
+    """Whether the ground below a macro-element of these parameters (N_PARAMETERS,) yields."""
+    return bool(table[Parameter.COHE] > 0.0)
+
+
+def bed_of(code: LawCode, table: FloatArray, dimension: int, owner: int, first: int) -> Bed:
+    """The places of a macro-element.
+
+    Parameters
+    ----------
+    code : LawCode
+    table : array (N_PARAMETERS,)
+        Its parameters as given, KN and KS1 those of the whole footing.
+
+    Raises
+    ------
+    MaterialError
+        If both shear stiffnesses differ: slip has no direction of its own.
+    """
+    if dimension == 3 and table[Parameter.KS1] != table[Parameter.KS2]:
+        raise MaterialError("kernel.interface.bed-one-shear-stiffness")
+    found = np.array([place(code, dimension, i, table) for i in range(n_places(dimension))])
+    arms, areas = found[:, : dimension - 1], found[:, 2]
+    p = np.zeros(N_PARAMETERS)
+    p[Parameter.COHE], p[Parameter.FROT] = table[Parameter.COHE], table[Parameter.FROT]
+    p[Parameter.QULT] = table[Parameter.QULT] or bearing_factor(code, table) * table[Parameter.COHE]
+    p[Parameter.BED_KN] = table[Parameter.KN] / areas.sum()
+    p[Parameter.BED_KS] = table[Parameter.KS1] / areas.sum()
+    return Bed(owner, first, arms, areas, p)
+
+
+def twisting_stiffness(code: LawCode, table: FloatArray) -> float:
+    """Stiffness against twist of the places of a macro-element in space."""
+    bed = bed_of(code, table, 3, 0, 0)
+    return float(bed.parameters[Parameter.BED_KS] * (bed.areas @ (bed.arms**2).sum(axis=1)))
+
+
+# --- what they bear --------------------------------------------------------------------------
+
+PRANDTL = 2.0 + np.pi
+"""Bearing pressure of a strip on clay over its cohesion (Prandtl 1920)."""
+
+DISC = 6.05
+"""The same of a rough disc (Eason and Shield 1960)."""
+
+SHAPE = 0.2
+"""A rectangle bears 1 + SHAPE B/L times what a strip does (Skempton 1951; Eurocode 7)."""
+
+
+def bearing_factor(code: LawCode, table: FloatArray) -> float:
+    """Pressure that clay bears under a footing, over its cohesion."""
+    if code == LawCode.DISC:
+        return DISC
+    width, length = table[Parameter.LARG], table[Parameter.LONG]
+    if not length > 0.0:
+        return PRANDTL
+    return float(PRANDTL * (1.0 + SHAPE * min(width, length) / max(width, length)))
+
+
+def beds_of(joints: list[JointCells], tables: list[FloatArray]) -> tuple[Bed, ...]:
+    """The beds of the macro-elements of zones, whose tables (n, N_PARAMETERS) are as given."""
+    first = sum(len(t) for t in tables)
+    found: list[Bed] = []
+    owner = 0
+    for j, table in zip(joints, tables, strict=True):
+        law = law_of(j.zone.behaviour)
+        for i in np.flatnonzero([yields(row) for row in table]) if law.macro else ():
+            bed = bed_of(law.code, table[i], j.element.dimension, owner + int(i), first)
+            found.append(bed)
+            first += len(bed.areas)
+        owner += len(table)
+    return tuple(found)

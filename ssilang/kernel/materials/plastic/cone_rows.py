@@ -1,0 +1,219 @@
+"""Laws on a cone of revolution as rows of numbers, and their return at one point, compiled.
+
+The same equations as `cone`, for passes over many points: a law gives its parameters at all points
+as columns (`PlasticLaw.columns`), points with equal ones share a row.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
+from ssilang.kernel.curves.curve import Curve
+from ssilang.kernel.materials.plastic.laws import PlasticLaw
+from ssilang.kernel.materials.plastic.response import PointParameters
+
+TURNS = 60
+YIELDS = 1e-14  # share of the stresses at play by which the surface must be passed
+
+
+class ConeColumn(IntEnum):
+    """Columns of a row.
+
+    `alpha tr(s) + beta q <= K(p)`, flow along `gamma tr(s) + delta q`; KINEMATIC moves the centre.
+    K(p) is `FIRST + SLOPE p + RISE (1 - exp(-RATE p))`, LAST where it has come there (SINKS: from
+    above), or the curve number CURVE (none: -1).
+    """
+
+    SHEAR = 0
+    BULK = 1
+    ALPHA = 2
+    BETA = 3
+    GAMMA = 4
+    DELTA = 5
+    KINEMATIC = 6
+    FIRST = 7
+    SLOPE = 8
+    RISE = 9
+    RATE = 10
+    LAST = 11
+    SINKS = 12
+    CURVE = 13
+
+
+N_COLUMNS = len(ConeColumn)
+_CYLINDER = {ConeColumn.BETA: 1.0, ConeColumn.DELTA: 1.0, ConeColumn.LAST: np.inf}
+_CYLINDER |= {ConeColumn.CURVE: -1.0}
+
+
+class ConeRows(NamedTuple):
+    """Rows (n_rows, N_COLUMNS), the row of each point (m,), and all curves one behind the other.
+
+    `start` (n_curves + 1,) says where each begins in x, y.
+    """
+
+    rows: FloatArray
+    of: IntArray
+    start: IntArray
+    x: FloatArray
+    y: FloatArray
+
+
+def cone_rows(law: PlasticLaw, parameters: PointParameters) -> ConeRows | None:
+    """Rows of a law that is a cone; columns that it does not give are a perfect cylinder's."""
+    if law.columns is None:
+        return None
+    table = np.zeros((len(parameters["YOUN"]), N_COLUMNS))
+    for column, value in _CYLINDER.items():
+        table[:, column] = value
+    table[:, ConeColumn.SHEAR], table[:, ConeColumn.BULK] = parameters.shear, parameters.bulk
+    for name, values in law.columns(parameters).items():
+        table[:, ConeColumn[name]] = values
+    curves: list[Curve] = []
+    for name in law.curves:
+        curves, which = parameters.curves[name]
+        table[:, ConeColumn.CURVE] = which
+    rows, of = np.unique(table, axis=0, return_inverse=True)
+    x = [np.asarray(c.parts[0].abscissas, float) for c in curves]
+    y = [np.asarray(c.parts[0].ordinates, float) for c in curves]
+    start = np.concatenate([[0], np.cumsum([len(v) for v in x])]).astype(np.int64)
+    none = [np.zeros(0)]
+    return ConeRows(
+        np.ascontiguousarray(rows),
+        of.ravel().astype(np.int64),
+        start,
+        np.concatenate(x or none),
+        np.concatenate(y or none),
+    )
+
+
+@compiled
+def _on_curve(cone: ConeRows, which: int, p: float) -> tuple[float, float]:
+    """Ordinate and slope, constant beyond the ends."""
+    a, b = cone.start[which], cone.start[which + 1] - 1
+    if p < cone.x[a]:
+        return cone.y[a], 0.0
+    if p >= cone.x[b]:
+        return cone.y[b], 0.0
+    while b - a > 1:
+        middle = (a + b) // 2
+        if p >= cone.x[middle]:
+            a = middle
+        else:
+            b = middle
+    slope = (cone.y[b] - cone.y[a]) / max(cone.x[b] - cone.x[a], 1e-300)
+    return cone.y[a] + slope * (p - cone.x[a]), slope
+
+
+@compiled
+def strength_at(cone: ConeRows, row: int, p: float) -> tuple[float, float]:
+    """Strength K and its slope for a cumulated strain p."""
+    c = cone.rows[row]
+    if c[ConeColumn.CURVE] >= 0.0:
+        return _on_curve(cone, int(c[ConeColumn.CURVE]), p)
+    value, slope = c[ConeColumn.FIRST] + c[ConeColumn.SLOPE] * p, c[ConeColumn.SLOPE]
+    if c[ConeColumn.RISE] != 0.0:
+        left = math.exp(-c[ConeColumn.RATE] * p)
+        value += c[ConeColumn.RISE] * (1.0 - left)
+        slope += c[ConeColumn.RISE] * c[ConeColumn.RATE] * left
+    last = c[ConeColumn.LAST]
+    if (value <= last) if c[ConeColumn.SINKS] != 0.0 else (value >= last):
+        return last, 0.0
+    return value, slope
+
+
+@compiled
+def _multiplier(cone: ConeRows, row: int, trace: float, q: float, p: float, growth: float) -> float:
+    """Plastic multiplier by Newton's method on a function without kinks but the curve's own."""
+    c, x = cone.rows[row], 0.0
+    elastic = c[ConeColumn.BETA] * c[ConeColumn.DELTA]
+    elastic *= 3.0 * c[ConeColumn.SHEAR] + c[ConeColumn.KINEMATIC]
+    elastic += 9.0 * c[ConeColumn.BULK] * c[ConeColumn.ALPHA] * c[ConeColumn.GAMMA]
+    for _ in range(TURNS):
+        K, slope = strength_at(cone, row, p + growth * x)
+        f = c[ConeColumn.ALPHA] * trace + c[ConeColumn.BETA] * q - elastic * x - K
+        step = f / max(elastic + slope * growth, 1e-9 * elastic)
+        x = max(x + step, 0.0)
+        if abs(step) <= 1e-15 * abs(x):
+            break
+    return x
+
+
+@compiled
+def _apex(
+    cone: ConeRows, row: int, trial: float, q: float, p: float
+) -> tuple[float, float, float, float]:
+    """Trace of the stress, cumulated strain, its rate by volume, lost shear, at the tip."""
+    c = cone.rows[row]
+    shear, trace, grown, rate = q / (3.0 * c[ConeColumn.SHEAR]), trial, p, 0.0
+    for _ in range(TURNS):
+        volume = (trial - trace) / (3.0 * c[ConeColumn.BULK])
+        dp = math.sqrt(2.0 / 9.0 * volume**2 + shear**2)
+        grown = p + dp
+        K, slope = strength_at(cone, row, grown)
+        rate = (2.0 / 9.0) * volume / max(dp, 1e-300)
+        stiff = c[ConeColumn.ALPHA] + slope * rate / (3.0 * c[ConeColumn.BULK])
+        step = (K - c[ConeColumn.ALPHA] * trace) / stiff
+        trace += step
+        if abs(step) <= 1e-14 * (abs(trace) + abs(trial)):
+            break
+    return trace, grown, rate, shear
+
+
+@compiled_inline
+def cone_point(
+    cone: ConeRows, row: int, s: FloatArray, p: float, N: FloatArray, t: FloatArray, tangent: bool
+) -> float:
+    """Return a trial stress s (6,) to the cone, in place; the cumulated strain.
+
+    Where it flows N (6,) is 3/2 of the deviator over q. With `tangent`, t (5,) are the factors of
+    `1 x 1`, of the deviatoric part, of `N x N`, `1 x N`, `N x 1` in the tangent.
+    """
+    c = cone.rows[row]
+    G, B = c[ConeColumn.SHEAR], c[ConeColumn.BULK]
+    alpha, beta = c[ConeColumn.ALPHA], c[ConeColumn.BETA]
+    trace = s[0] + s[1] + s[2]
+    mean, square = trace / 3.0, 0.0
+    for i in range(6):
+        N[i] = s[i] - mean if i < 3 else s[i]
+        square += N[i] * N[i] if i < 3 else 2.0 * N[i] * N[i]
+    q = math.sqrt(1.5 * square)
+    if tangent:
+        t[0], t[1], t[2], t[3], t[4] = B, 2.0 * G, 0.0, 0.0, 0.0
+    K = strength_at(cone, row, p)[0]
+    size = abs(K) + beta * q + abs(alpha * trace)
+    if alpha * trace + beta * q - K <= YIELDS * size:
+        return p
+    gamma, delta = c[ConeColumn.GAMMA], c[ConeColumn.DELTA]
+    growth = math.sqrt(delta**2 + 2.0 * gamma**2)
+    x = _multiplier(cone, row, trace, q, p, growth)
+    for i in range(6):
+        N[i] *= 1.5 / max(q, 1e-300)
+    if q < 3.0 * G * delta * x and alpha > 0.0:
+        end, grown, rate, shear = _apex(cone, row, trace, q, p)
+        for i in range(6):
+            s[i] = end / 3.0 if i < 3 else 0.0
+        if tangent:
+            slope = strength_at(cone, row, grown)[1]
+            change = slope / (alpha + slope * rate / (3.0 * B))
+            t[0], t[1] = change * rate / 3.0, 0.0
+            t[3] = change * (2.0 / 9.0) * shear / max(grown - p, 1e-300)
+        return grown
+    for i in range(6):
+        s[i] -= x * (2.0 * G * delta * N[i] + (3.0 * B * gamma if i < 3 else 0.0))
+    if tangent:
+        slope = strength_at(cone, row, p + growth * x)[1]
+        stiff = beta * delta * (3.0 * G + c[ConeColumn.KINEMATIC]) + 9.0 * B * alpha * gamma
+        stiff += slope * growth
+        turn = 6.0 * G**2 * delta * x / max(q, 1e-300)
+        t[0] = B - 9.0 * B**2 * alpha * gamma / stiff
+        t[1] = 2.0 * G - turn
+        t[2] = (2.0 / 3.0) * turn - 4.0 * G**2 * beta * delta / stiff
+        t[3] = -6.0 * B * gamma * G * beta / stiff
+        t[4] = -6.0 * G * delta * B * alpha / stiff
+    return p + growth * x

@@ -1,0 +1,1 @@
+"""Many plastic points: compiled passes over elements, steps that keep their factor."""

@@ -1,0 +1,155 @@
+"""ZBIL: what @BILANSSI found, for the summary and the report of a run."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+
+from ssilang.io.recording import thinned_drawing
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.session import Session
+from ssilang.language.values import ListReel, Table
+from ssilang.messages.message import Teller, teller
+from ssilang.operators.files.outputs import run_output
+
+QUANTITIES = (
+    "PART", "PRESSION", "TAUX", "OUVERTURE", "MOMENT", "ROTATION", "ENFONCEMENT", "RENVERSEMENT",
+    "GLISSEMENT",
+)  # fmt: skip
+_NAMES = {
+    "PRESSION": "report.toe-pressure",
+    "OUVERTURE": "report.verdict-uplift",
+    "ENFONCEMENT": "report.verdict-settlement",
+    "RENVERSEMENT": "report.verdict-overturning",
+    "GLISSEMENT": "report.verdict-sliding",
+}
+"""How curves are called."""
+LEFT = ("ROTATION", "ENFONCEMENT")
+_TOP = 1000.0
+"""Value at which @BILANSSI cuts its factors: there is no moment or shear."""
+
+
+@operator(
+    "ZBIL",
+    arg("given", "TABLE", en="what @BILANSSI was given", fr="ce que @BILANSSI a reçu"),
+    arg("found", "TABLE", en="what it found", fr="ce qu'il a trouvé"),
+    family="dynamics",
+    help=Help(
+        en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
+        "its curves into the run's report.",
+        fr="Met les valeurs trouvées par @BILANSSI dans le bilan du calcul (statistics, verdicts) "
+        "et ses courbes dans le rapport du calcul.",
+        syntax="ZBIL TAB1 TAB2 ;",
+    ),
+)
+def zbil(session: Session, given: Table, found: Table) -> None:
+    """Keep a verdict."""
+    peaks = cast(Table, found.get("PICS"))
+    told: dict[str, Any] = {
+        "area": found.get("AIRE"),
+        "capacity": given.get("CAPACITE") if given.has("CAPACITE") else None,
+        "friction": given.get("FROTTEMENT") if given.has("FROTTEMENT") else None,
+        "peaks": {
+            name: {"value": peak.get("VALEUR"), "time": peak.get("TEMPS")}
+            for name in QUANTITIES
+            if peaks.has(name) and (peak := cast(Table, peaks.get(name)))
+        },
+        "left": {name: cast(Table, found.get("RESIDUS")).get(name) for name in LEFT},
+        "floors": _floors(given, found),
+    }
+    session.statistics.setdefault("verdicts", []).append(told)
+    recording = run_output(session).recording
+    if recording is not None:
+        recording.judge(_pictures(given, found, teller(session.language)))
+
+
+def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
+    """Peaks of the floors' spectra, a row for each floor and damping."""
+    rows = []
+    for number, floor, spectra, _ in _each_floor(given, found):
+        for part in spectra.parts:
+            top = int(np.argmax(part.ordinates))
+            rows.append(
+                {
+                    "floor": number,
+                    "component": str(floor.get("COMPOSANTE")),
+                    "damping": part.legend,
+                    "acceleration": float(part.ordinates[top]),
+                    "frequency": float(part.abscissas[top]),
+                }
+            )
+    return rows
+
+
+def _each_floor(given: Table, found: Table) -> list[tuple[int, Table, Curve, Curve]]:
+    """Number, description, spectra and broadened spectra of the floors."""
+    if not found.has("SPECTRES"):
+        return []
+    floors, plain, wide = (
+        cast(Table, t)
+        for t in (given.get("PLANCHERS"), found.get("SPECTRES"), found.get("SPECTRES_ELARGIS"))
+    )
+    return [
+        (i, cast(Table, floors.get(i)), cast(Curve, plain.get(i)), cast(Curve, wide.get(i)))
+        for i in range(1, len(plain) + 1)
+    ]
+
+
+def _pictures(given: Table, found: Table, told: Teller) -> list[dict[str, Any]]:
+    """Pictures of a verdict: pressure and capacity, motions, factors, floors.
+
+    Contact, moment and rotation stand in the report beside it, with those of all footings.
+    """
+    histories = cast(Table, found.get("HISTOIRES"))
+    t = cast(ListReel, histories.get("TEMPS")).values
+    time = f"{told('report.time')} (s)"
+    made = []
+    for code, unit, names in (
+        ("report.toe-pressure", " (Pa)", ("PRESSION",)),
+        ("report.motions", "", ("OUVERTURE", "ENFONCEMENT")),
+        ("report.factors", "", ("RENVERSEMENT", "GLISSEMENT")),
+    ):
+        lines = [
+            _line(told(_NAMES[n]), t, _known(n, cast(ListReel, histories.get(n)).values))
+            for n in names
+            if histories.has(n)
+        ]
+        lines = [line for line in lines if not np.isnan(line["y"]).all()]
+        if code == "report.toe-pressure" and given.has("CAPACITE"):
+            level = np.full(len(t), float(cast(float, given.get("CAPACITE"))))
+            lines.append(_line(told("report.capacity"), t, level))
+        if lines:
+            made.append(_picture(told(code), time, told(code) + unit, lines))
+    for number, floor, plain, wide in _each_floor(given, found):
+        title = told("report.floor", number=number, component=floor.get("COMPOSANTE"))
+        lines = [_spectrum(p, p.legend) for p in plain.parts]
+        for part, raw in zip(wide.parts, plain.parts, strict=True):
+            lines.append(_spectrum(part, f"{raw.legend}, {told('report.broadened')}"))
+        axis = f"{told('report.acceleration')} (m/s2)"
+        made.append(
+            {**_picture(title, told("report.frequency"), axis, lines), "log": [True, False]}
+        )
+    return made
+
+
+def _known(name: str, values: FloatArray) -> FloatArray:
+    """Factors where there is one; other values as they are."""
+    if name not in ("RENVERSEMENT", "GLISSEMENT"):
+        return values
+    return np.where(values >= _TOP, np.nan, values)
+
+
+def _line(name: str, x: FloatArray, y: FloatArray) -> dict[str, Any]:
+    return {"name": name, "x": x, "y": y}
+
+
+def _spectrum(part: CurvePart, name: str) -> dict[str, Any]:
+    return _line(name, part.abscissas, part.ordinates)
+
+
+def _picture(title: str, x: str, y: str, lines: list[dict[str, Any]]) -> dict[str, Any]:
+    told = {"title": title, "x": x, "y": y, "log": [False, False], "files": []}
+    return thinned_drawing(told, lines)

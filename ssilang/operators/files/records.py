@@ -1,0 +1,166 @@
+"""LIRE: ground motions as evolutions in time."""
+
+from __future__ import annotations
+
+from ssilang.io.ground_motions.cosmos import read_cosmos
+from ssilang.io.ground_motions.esm import read_esm
+from ssilang.io.ground_motions.peer import read_peer
+from ssilang.io.ground_motions.record import GroundMotion
+from ssilang.io.ground_motions.titled import read_titled
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.registry import Entry, arg, flag, key, lead, opt, said
+from ssilang.language.run.call import Call
+from ssilang.operators.files.outputs import file_to_read
+from ssilang.operators.files.reading import LIRE
+from ssilang.operators.workspace import workspace
+
+_ENTRIES: tuple[Entry, ...] = (
+    lead("file", "MOT", en="file", fr="fichier"),
+    opt(
+        "factor",
+        "FLOTTANT",
+        en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2",
+        fr="facteur des valeurs : 9.81 fait des m/s2 de g, 0.01 de cm/s2",
+    ),
+    flag(
+        "in_si",
+        "SI",
+        en="metres and seconds, by the unit that the file names",
+        fr="mètres et secondes, selon l'unité que nomme le fichier",
+    ),
+)
+"""What every format of records reads: file, then a factor or 'SI'."""
+
+
+@LIRE.form(
+    said("PEER"),
+    *_ENTRIES,
+    syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1 | 'SI') ;",
+    en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
+    "evolution in time, times FLOT1, or in metres and seconds ('SI').",
+    fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
+    "temps, multipliée par FLOT1, ou en mètres et secondes ('SI').",
+)
+def _peer(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
+    record = read_peer(file_to_read(call, str(file), ".AT2"))
+    return _curve(call, "PEER", file, [record], factor, in_si)
+
+
+@LIRE.form(
+    said("ESM"),
+    *_ENTRIES,
+    syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1 | 'SI') ;",
+    en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC).",
+    fr="ESM : un accélérogramme au format texte des bases ESM et ITACA (.ASC).",
+    examples=(
+        "OPTI SORT 'quake.asc' ;\n"
+        "SORT 'CHAI' 'SAMPLING_INTERVAL_S: 0.01' ; SORT 'CHAI' 'NDATA: 3' ;\n"
+        "SORT 'CHAI' 'UNITS: cm/s^2' ; SORT 'CHAI' '0.' ; SORT 'CHAI' '12.' ;\n"
+        "SORT 'CHAI' '-7.' ; E = LIRE 'ESM' 'quake.asc' 'SI' ; LIST E ;",
+    ),
+)
+def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
+    record = read_esm(file_to_read(call, str(file), ".ASC"))
+    return _curve(call, "ESM", file, [record], factor, in_si)
+
+
+@LIRE.form(
+    said("COSMOS"),
+    *_ENTRIES,
+    key(
+        "number", "CANAL", arg("n", "ENTIER"), default=0,
+        en="which record of a file that has several", fr="quel signal d'un fichier à plusieurs",
+    ),
+    syntax="EVO1 = LIRE 'COSMOS' FIC1 (FLOT1 | 'SI') ('CANAL' N1) ;",
+    en="COSMOS: a ground motion in version 1.20 of the COSMOS format (.V1, .V2), the first of the "
+    "file or record CANAL.",
+    fr="COSMOS : un accélérogramme en version 1.20 du format COSMOS (.V1, .V2), le premier du "
+    "fichier ou le signal CANAL.",
+    examples=(
+        "OPTI SORT 'quake.v2' ; SORT 'CHAI' 'Corrected (Format v01.20)' ; SORT 'CHAI' 'event' ;\n"
+        "SORT 'CHAI' '34 Real-header values follow on 34 lines, Format= (1F8.3)' ;\n"
+        "REPE B 33 ; SORT 'CHAI' '-999.000' ; FIN B ; SORT 'CHAI' '   0.010' ;\n"
+        "SORT 'CHAI' '3 acceleration pts, units=cm/sec2 (04), Format=(3F8.3)' ;\n"
+        "SORT 'CHAI' '   0.000  12.000  -7.000' ;\n"
+        "LIST (EXTR (LIRE 'COSMOS' 'quake.v2' 'SI' 'CANAL' 1) 'ORDO') ;",
+    ),
+)  # fmt: skip
+def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: int) -> Curve:
+    found = read_cosmos(file_to_read(call, str(file), ".V2"))
+    if number < 0 or number > len(found):
+        raise call.error("operators.files.no-such-channel", number, count=len(found))
+    if not number and len(found) > 1:
+        call.warn("operators.files.several-channels", file=file, count=len(found))
+    record = found[max(number - 1, 0)]
+    return _curve(call, "COSMOS", file, [record], factor, in_si)
+
+
+@LIRE.form(
+    said("SIGNAL"),
+    *_ENTRIES,
+    syntax="EVO1 = LIRE 'SIGNAL' FIC1 (FLOT1 | 'SI') ;",
+    en="SIGNAL: ground motions as a table (CSV or blanks): a column of times and further ones, "
+    "under titles that name units, as in time (s); acceleration (g). A curve for each column.",
+    fr="SIGNAL : des accélérogrammes en table (CSV ou blancs) : une colonne de temps et d'autres, "
+    "sous des titres qui nomment les unités, comme dans temps (s) ; acceleration (g). Une courbe "
+    "par colonne.",
+    examples=(
+        "OPTI SORT 'quake.csv' ; SORT 'CHAI' 'time (s);acceleration (cm/s2)' ;\n"
+        "SORT 'CHAI' '0.;0.' ; SORT 'CHAI' '0.1;20.' ; SORT 'CHAI' '0.2;-10.' ;\n"
+        "LIST (EXTR (LIRE 'SIGNAL' 'quake.csv' 'SI') 'ORDO') ;",
+    ),
+)
+def _signal(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
+    found = read_titled(file_to_read(call, str(file), ".csv"))
+    return _curve(call, "SIGNAL", file, found, factor, in_si)
+
+
+def _curve(
+    call: Call,
+    kind: str,
+    file: str,
+    records: list[GroundMotion],
+    factor: float | None,
+    in_si: bool,
+) -> Curve:
+    """The curve of records; a unit that is not SI, or that the file does not name, is told.
+
+    Raises
+    ------
+    SsiError
+        If SI is asked for together with a factor, or of a record without a unit.
+    """
+    if in_si and factor is not None:
+        raise call.error("operators.files.factor-and-si", factor)
+    nameless = [r for r in records if not r.has_unit]
+    if in_si and nameless:
+        units = [r.unit for r in nameless if r.unit]
+        raise call.error("operators.files.si-without-unit", file, kind=kind, file=file, units=units)
+    if factor is None and not in_si:
+        foreign = next((r for r in records if r.in_si != 1.0), None)
+        if foreign is not None:
+            call.warn(
+                "operators.files.record-not-in-si", file=file, unit=foreign.unit.lower(),
+                factor=foreign.in_si, kind=kind,
+            )  # fmt: skip
+        elif nameless:
+            call.warn("operators.files.record-without-unit", file=file, kind=kind)
+    parts = tuple(_part(call, r, factor, in_si) for r in records)
+    return Curve(parts, records[0].event[:72])
+
+
+def _part(call: Call, record: GroundMotion, factor: float | None, in_si: bool) -> CurvePart:
+    """A record's curve; it says its units where they are those of the deck."""
+    by = record.in_si if in_si else 1.0 if factor is None else factor
+    part = CurvePart(record.times, by * record.values, "TEMP", record.quantity, record.event[:40])
+    unit = {"ACCE": "m/s2", "VITE": "m/s", "DEPL": "m"}[record.quantity]
+    system = workspace(call.session).units
+    if not (in_si or (factor is None and record.has_unit and record.in_si == 1.0)):
+        return part
+    if system is None or system.factor(unit) == 1.0:
+        return part.measured("s", unit)
+    call.warn(
+        "operators.files.record-in-other-units", system=system.name, unit=unit,
+        needed=system.written(unit), factor=1.0 / system.factor(unit),
+    )  # fmt: skip
+    return part

@@ -1,0 +1,63 @@
+"""Pieces of HTML that pages are made of."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Iterable, Sequence
+from functools import cache
+from importlib import resources
+
+from ssilang.language.say.visible import visible
+
+
+def text(value: object) -> str:
+    """A value as text that is no HTML."""
+    return html.escape(visible(str(value)))
+
+
+def json_in_page(value: object) -> str:
+    """JSON that may stand in a script's element."""
+    made = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return made.replace("<", "\\u003c")
+
+
+@cache
+def asset(name: str) -> str:
+    """A file of the page."""
+    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def section(name: str, title: str, body: str) -> str:
+    """A part of the page; nothing without a body."""
+    if not body:
+        return ""
+    return f'<section id="{name}"><h2>{text(title)}</h2>\n{body}</section>'
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numbers: Sequence[int]) -> str:
+    """A table of cells that are HTML already; `numbers`: the columns that hold numbers."""
+    made = "".join(
+        f"<th scope=col{' class=number' if i in numbers else ''}>{text(h)}</th>"
+        for i, h in enumerate(heads)
+    )
+    lines = [
+        "<tr>"
+        + "".join(
+            f"<td{' class=number' if i in numbers else ''}>{c}</td>" for i, c in enumerate(row)
+        )
+        + "</tr>"
+        for row in rows
+    ]
+    return (
+        f"<div class=wide><table><thead><tr>{made}</tr></thead><tbody>"
+        + "".join(lines)
+        + "</tbody></table></div>"
+    )
+
+
+def number(value: object) -> str:
+    """A number in five digits, '' for none."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return ""
+    return f"{value + 0.0:.5g}"

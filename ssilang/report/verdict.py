@@ -1,0 +1,89 @@
+"""What a run did to its footings: the figures of @BILANSSI as a part of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ssilang.messages.message import Teller
+from ssilang.report.charts import Chart, charts_html
+from ssilang.report.html import number, table, text
+from ssilang.report.results import Results
+
+_LIMITS = {"TAUX": ("above", 1.0), "RENVERSEMENT": ("below", 1.0), "GLISSEMENT": ("below", 1.0)}
+"""Beyond which a figure is marked."""
+_TOP = 1000.0
+_PEAKS = {
+    "PART": "stdlib.bilanssi-part",
+    "PRESSION": "stdlib.bilanssi-pression",
+    "TAUX": "stdlib.bilanssi-taux",
+    "OUVERTURE": "stdlib.bilanssi-ouverture",
+    "MOMENT": "stdlib.bilanssi-moment",
+    "ROTATION": "stdlib.bilanssi-rotation",
+    "ENFONCEMENT": "stdlib.bilanssi-enfoncement",
+    "RENVERSEMENT": "stdlib.bilanssi-renversement",
+    "GLISSEMENT": "stdlib.bilanssi-glissement",
+}
+_LEFT = {
+    "ROTATION": "stdlib.bilanssi-left-rotation",
+    "ENFONCEMENT": "stdlib.bilanssi-left-enfoncement",
+}
+_GIVEN = {"capacity": "report.capacity", "friction": "report.friction"}
+
+
+def verdict_html(results: Results, charts: Sequence[Chart], told: Teller) -> str:
+    """Tables of each verdict, then their pictures; nothing without any."""
+    verdicts = results.summary.get("statistics", {}).get("verdicts", [])
+    made = []
+    for i, verdict in enumerate(verdicts, 1):
+        if len(verdicts) > 1:
+            made.append(f"<h3>{text(told('report.footing-number', number=i))}</h3>")
+        made.append(_figures(verdict, told))
+        if verdict["floors"]:
+            made.append(_floors(verdict["floors"], told))
+    return "".join(made) + charts_html(charts, "verdict", told)
+
+
+def _figures(verdict: dict[str, Any], told: Teller) -> str:
+    rows = []
+    for name, peak in verdict["peaks"].items():
+        rows.append(
+            (
+                text(told(_PEAKS[name])),
+                _marked(name, peak["value"]),
+                number(peak["time"]),
+            )
+        )
+    for name, value in verdict["left"].items():
+        rows.append((text(told(_LEFT[name])), number(value), ""))
+    rows.append((text(told("report.area")), number(verdict["area"]), ""))
+    for key, code in _GIVEN.items():
+        if verdict[key] is not None:
+            rows.append((text(told(code)), number(verdict[key]), ""))
+    heads = (told("report.quantity"), told("report.value"), told("report.time"))
+    return table(heads, rows, (1, 2))
+
+
+def _marked(name: str, value: float) -> str:
+    """A figure; good or bad where there is a limit."""
+    if name not in _LIMITS:
+        return number(value)
+    side, limit = _LIMITS[name]
+    bad = value > limit if side == "above" else value < limit
+    shown = f"> {_TOP:g}" if side == "below" and value >= _TOP else number(value)
+    return f'<b class="{"bad" if bad else "good"}">{shown}</b>'
+
+
+def _floors(floors: list[dict[str, Any]], told: Teller) -> str:
+    rows = [
+        (
+            number(f["floor"]), text(f["component"]), text(f["damping"]),
+            number(f["acceleration"]), number(f["frequency"]),
+        )
+        for f in floors
+    ]  # fmt: skip
+    heads = [
+        told("report.floor-head"), told("report.component"), told("report.damping"),
+        told("report.acceleration"), told("report.frequency"),
+    ]  # fmt: skip
+    return table(heads, rows, (0, 3, 4))

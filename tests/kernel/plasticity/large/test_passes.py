@@ -1,0 +1,105 @@
+"""Compiled passes over elements against the laws themselves, and terms that stay in their place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.materials.plastic.cone_rows import cone_rows
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw
+from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.matrices.assembly import assemble_triplets
+from ssilang.kernel.plasticity.large.passes import ZonePass
+from ssilang.kernel.plasticity.large.pattern import Pattern
+from ssilang.kernel.plasticity.points import PointState
+
+M = 900
+RANGES = {
+    "PARFAIT": {"SIGY": (1, 2)},
+    "ISOTROPE": {},
+    "CINEMATIQUE": {"SIGY": (1, 2), "H": (0, 300)},
+    "J2": {"SIG0": (1, 2), "SIGI": (2, 3), "KISO": (0, 100), "VELO": (0, 1000)},
+    "DRUCKER_PARFAIT": {"LTR": (0.2, 1), "LCS": (1, 3)},
+    "DRUCKER_PRAGER": {
+        "ALFA": (0.1, 0.3), "BETA": (0.5, 1), "K": (1, 2), "ETA": (0.1, 0.3), "MU": (0.5, 1),
+        "KL": (0.5, 3), "H": (-100, 100), "GAMM": (0, 0.2), "DELT": (0.5, 1),
+    },
+}  # fmt: skip
+
+
+class Points:
+    """Elements of one point whose strains are their unknowns."""
+
+    def __init__(self, law: PlasticLaw, parameters: PointParameters) -> None:
+        self.law, self.parameters, self.held = law, parameters, ()
+        self.B = np.tile(np.eye(6)[None, :, None, :], (M, 1, 1, 1))
+        self.weights, self.components = np.full((M, 1), 2.0), (0, 1, 2, 3, 4, 5)
+
+
+def state_of(rng: np.random.Generator, law: PlasticLaw) -> PointState:
+    variables = np.zeros((M, len(law.variables)))
+    variables[:, 0] = rng.uniform(0, 0.01, M) * (rng.uniform(size=M) > 0.3)
+    if variables.shape[1] > 1:
+        centre = rng.normal(size=(M, 6)) * 0.2
+        centre[:, :3] -= centre[:, :3].mean(axis=1)[:, None]
+        variables[:, 1:] = centre
+    stress = rng.normal(size=(M, 6)) * 0.5
+    return PointState(stress, rng.normal(size=(M, 6)), np.zeros((M, 6)), variables)
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_a_pass_gives_what_the_law_does(name: str) -> None:
+    rng, law = np.random.default_rng(0), PLASTIC_LAWS[name]
+    ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45)} | RANGES[name]
+    values = {k: rng.uniform(*given, M) for k, given in ranges.items()}
+    curves = [
+        Curve((CurvePart(np.array([0.0, 1e-3, 1e-2]), np.array([1.0, 2.0, 2.5])),)),
+        Curve((CurvePart(np.array([0.0, 0.1]), np.array([1.5, 3.0])),)),
+    ]
+    parameters = PointParameters(values, {"ECRO": (curves, rng.integers(0, 2, M))})
+    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 2e-3
+    freed = rng.normal(size=(M, 6)) * 2e-4
+    found = law.respond(parameters, old.stress, strain - freed, old.variables)
+    flows = found.variables[:, 0] > old.variables[:, 0]
+    assert 0.1 < flows.mean() < 1.0
+
+    points, cone = Points(law, parameters), cone_rows(law, parameters)
+    assert cone is not None
+    places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
+    zone = ZonePass(points, cone, places)  # type: ignore[arg-type]
+    force = np.zeros(6 * M)
+    new, work = zone.respond(old, strain.ravel(), freed, force)
+    assert np.allclose(new.stress, found.stress, rtol=0, atol=1e-13)
+    assert np.allclose(new.variables, found.variables, rtol=0, atol=1e-14)
+    assert np.allclose(force.reshape(M, 6), 2 * found.stress, rtol=0, atol=1e-12)
+    elastic = np.einsum("mij,mj->mi", parameters.compliance, found.stress - old.stress)
+    flowed = old.plastic + (strain - freed) - elastic
+    assert np.allclose(new.plastic, flowed, rtol=0, atol=1e-15)
+    mean = 0.5 * (old.stress + found.stress)
+    assert work == pytest.approx(2 * np.sum(mean * (strain - freed)), rel=1e-12)
+
+    pattern = Pattern.of(assemble_triplets([places], [np.ones((M, 6, 6))], 6 * M), [places])
+    data = pattern.blank()
+    zone.add_tangent(old, strain.ravel(), freed, pattern.slots[0], data)
+    tangents = data.reshape(M, 6, 6) / 2
+    assert np.allclose(tangents, found.tangent, rtol=0, atol=1e-12 * np.abs(found.tangent).max())
+
+
+def test_only_cones_have_rows() -> None:
+    laws = {name for name, law in PLASTIC_LAWS.items() if law.columns is not None}
+    assert laws == set(RANGES)
+
+
+def test_terms_stay_where_the_assembly_puts_them() -> None:
+    rng, n = np.random.default_rng(1), 40
+    places = [rng.permuted(np.tile(np.arange(n), (30, 1)), axis=1)[:, :k] for k in (4, 3)]
+    places = [p.astype(np.int32) for p in places]
+    shapes = [(len(p), p.shape[1], p.shape[1]) for p in places]
+    pattern = Pattern.of(assemble_triplets(places, [np.ones(s) for s in shapes], n), places)
+    values = [rng.normal(size=s) for s in shapes]
+    data = pattern.blank()
+    for block, matrices in enumerate(values):
+        pattern.add(data, block, matrices)
+    whole = assemble_triplets(places, values, n)
+    assert np.allclose(pattern.matrix(data).toarray(), whole.toarray(), rtol=0, atol=1e-14)
