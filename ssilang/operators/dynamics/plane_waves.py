@@ -1,4 +1,4 @@
-"""ZOND: the ground's motion under a plane wave, behind the procedure @ONDE."""
+"""ZOPL: the ground's motion under a plane wave, behind the procedure @ONDE."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ DRIFT = 0.02
 
 
 @operator(
-    "ZOND",
+    "ZOPL",
     arg("table", "TABLE", en="table of @ONDE", fr="table de @ONDE"),
     family="dynamics",
     help=Help(
         en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
         fr="Mouvement d'un demi-espace stratifié sous une onde plane, pour @ONDE, dont il prend "
         "la table.",
-        syntax="TAB2 = ZOND TAB1 ;",
+        syntax="TAB2 = ZOPL TAB1 ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (20. -10.) ; T = TABL ;"
             " T . 'POINTS' = L ; T . 'POINT' = 0. 0. ; T . 'ONDE' = 'P' ; T . 'ANGLE' = 0. ;"
@@ -40,11 +40,11 @@ DRIFT = 0.02
             " C . 'MASSE_VOLUMIQUE' = 2000. ; T . 'COUCHES' = TABL ; T . 'COUCHES' . 1 = C ;"
             " LT = PROG 0. PAS 0.01 1. ; LX = (LT - 0.5) * (PI * 4.) ; LX = LX * LX ;"
             " T . 'ACCELERATION' = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ;"
-            " W = ZOND T ; LIST (EXTR (W . 51 . 'ACCE') 'UY' (POIN L 1)) ;",
+            " W = ZOPL T ; LIST (EXTR (W . 51 . 'ACCE') 'UY' (POIN L 1)) ;",
         ),
     ),
 )
-def zond(call: Call, table: Table) -> Table:
+def zopl(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back instants."""
     from ssilang.kernel.waves.plane_wave import plane_motion
 
