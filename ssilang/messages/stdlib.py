@@ -346,6 +346,10 @@ MESSAGES: dict[str, Message] = {
         "@REPERE: sizes come by {1}, in one to three groups; {2} were given",
         "@REPERE : les tailles se donnent par {1}, en un à trois groupes ; {2} sont données",
     ),
+    "colonne-direction": Message(
+        "@COLONNE: the direction is an axis of the plane or of space, not {1} in dimension {2}",
+        "@COLONNE : la direction est un axe du plan ou de l'espace, pas {1} en dimension {2}",
+    ),
     "seisme-gravity": Message(
         "@SEISME: g must be above zero, it is {1}",
         "@SEISME : g doit être positif, il vaut {1}",

@@ -3,6 +3,69 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "instants-of-motion": Message(
+        "MOUVEMENT holds {count} {count:instant|instants}, each needs TEMP, DEPL, VITE and ACCE",
+        "MOUVEMENT contient {count} {count:instant|instants}, chacun a TEMP, DEPL, VITE et ACCE",
+        "give the table of DYNAMIC, @ONDE or @COLONNE, with two instants at least",
+        "donner la table de DYNAMIC, @ONDE ou @COLONNE, avec au moins deux instants",
+    ),
+    "motion-times-must-increase": Message(
+        "the times of MOUVEMENT must increase",
+        "les temps de MOUVEMENT doivent croître",
+    ),
+    "element-too-long": Message(
+        "the element at {place:words} is {length:.3g} m long: at {frequency:.3g} Hz and "
+        "{speed:.4g} m/s it may be {wanted:.3g} m ({elements} a wavelength); {count} too long",
+        "l'élément en {place:words} est long de {length:.3g} m : à {frequency:.3g} Hz et "
+        "{speed:.4g} m/s il peut l'être de {wanted:.3g} m ({elements} par longueur d'onde) ; "
+        "{count} sont trop longs",
+        "make the mesh finer, or give FREQUENCE if less matters",
+        "affiner le maillage, ou donner FREQUENCE si moins importe",
+        severity="warning",
+    ),
+    "edges-reflect": Message(
+        "the box reflects: {count} {count:node|nodes} of its edges have no damper; from "
+        "{place:words}, {distance:.3g} m from the layer, waves are back after {back:.3g} s",
+        "le massif réfléchit : {count} {count:noeud|noeuds} de ses bords sans amortisseur ; de "
+        "{place:words}, à {distance:.3g} m de la couche, les ondes reviennent après {back:.3g} s",
+        "give AMORTISSEURS, with the matrices of DYNAMIC, or a wider box",
+        "donner AMORTISSEURS, avec les matrices de DYNAMIC, ou un massif plus large",
+        severity="warning",
+    ),
+    "wave-out-of-plane": Message(
+        "{wave} waves are not available in dimension {dimension}",
+        "les ondes {wave} ne sont pas disponibles en dimension {dimension}",
+        "P and SV in the plane, all three in space",
+        "P et SV dans le plan, toutes les trois dans l'espace",
+    ),
+    "wave-already-there": Message(
+        "the wave is there before its record begins, by {seconds:.3g} s at the first point",
+        "l'onde est là avant le début de son signal, de {seconds:.3g} s au premier point",
+        "put that duration of zeros before the record",
+        "mettre cette durée de zéros avant le signal",
+        severity="warning",
+    ),
+    "record-drifts": Message(
+        "the record ends at a velocity of {velocity:.3g} m/s, its largest is {largest:.3g} m/s: "
+        "what is left is taken out",
+        "le signal finit à la vitesse {velocity:.3g} m/s, sa plus grande est {largest:.3g} m/s : "
+        "le reste est ôté",
+        "COSI corrects it",
+        "COSI le corrige",
+        severity="warning",
+    ),
+    "layers-of-wave": Message(
+        "COUCHES holds no layer 1",
+        "COUCHES ne contient pas de couche 1",
+    ),
+    "layer-not-elastic": Message(
+        "layer {number} needs YOUNG and MASSE_VOLUMIQUE above 0, POISSON between -1 and 0.5",
+        "la couche {number} a YOUNG et MASSE_VOLUMIQUE positifs, POISSON entre -1 et 0.5",
+    ),
+    "thickness-of-layer": Message(
+        "layer {number} has no EPAISSEUR: only the last one has no end",
+        "la couche {number} n'a pas d'EPAISSEUR : seule la dernière est sans fin",
+    ),
     "footing-without-joints": Message(
         "the model has no joints: what stands on the ground is not known",
         "le modèle n'a pas de joints : on ne sait pas ce qui repose sur le sol",

@@ -1,0 +1,255 @@
+"""Forces that bring a given free field into a mesh, at a layer of elements or at its edges.
+
+Both come from the discrete equations themselves: with the matrices of the elements concerned,
+`A x` standing for `M a + C v + K u` of the free field x,
+
+- at a layer of elements (domain reduction method, Bielak, Loukakis, Hisada and Yoshimura 2003) the
+  forces are `A_eb x_b` on the outer nodes e and `-A_be x_e` on the inner ones b: inside, the motion
+  is the total one, outside, what the structure sends back;
+- at the edges they are what the ground beyond exerts, the residual `A x` of the elements inside,
+  and what the dampers of the edges take of the free field, `C_edge v` (Zienkiewicz, Bicanic and
+  Shen 1989).
+
+A free field that obeys the discrete equations is brought in to rounding, whatever the mesh.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    Numbering,
+    assemble_blocks,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.mesh import Mesh
+
+#: singular values below this share of the largest one are rounding
+ROUNDING = 1e-15
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Stiffness, mass and damping (or none) of the ground on one numbering."""
+
+    stiffness: Matrix
+    mass: Matrix
+    damping: Matrix | None
+
+    @property
+    def matrices(self) -> tuple[Matrix, ...]:
+        """Those that there are, the stiffness first."""
+        kept = (self.stiffness, self.mass, self.damping)
+        return tuple(m for m in kept if m is not None)
+
+    @property
+    def numbering(self) -> Numbering:
+        """Of all their unknowns."""
+        return numbering_of(*self.matrices)
+
+
+@dataclass(frozen=True)
+class Share:
+    """Matrices of some elements of the ground, and the unknowns whose motion they ask for."""
+
+    numbering: Numbering
+    stiffness: sp.csr_array
+    mass: sp.csr_array
+    damping: sp.csr_array
+    touched: BoolArray
+
+    def force(self, u: FloatArray, v: FloatArray, a: FloatArray) -> FloatArray:
+        """`M a + C v + K u` for histories (n, n_times)."""
+        total: FloatArray = self.mass @ a + self.damping @ v + self.stiffness @ u
+        return total
+
+
+def elements_of(ground: Ground, cells: Mesh) -> Share:
+    """The share of the elements that are the cells of a mesh.
+
+    Raises
+    ------
+    FieldError
+        If some cells have no element of the ground.
+    """
+    wanted = {key for block in cells.blocks for key in _keys(block.connectivity)}
+    found = {
+        key for b in ground.stiffness.blocks for key in _keys(b.nodes) if key in wanted
+    }  # fmt: skip
+    if len(found) < len(wanted):
+        raise FieldError("kernel.waves.cells-without-elements", count=len(wanted - found))
+
+    def kept(nodes: IntArray) -> BoolArray:
+        return np.array([key in wanted for key in _keys(nodes)], bool)
+
+    return _share(ground, kept)
+
+
+def elements_at(ground: Ground, edge: Mesh) -> Share:
+    """The share of the elements that touch a mesh."""
+    nodes = edge.sorted_node_ids
+
+    def kept(of: IntArray) -> BoolArray:
+        touching: BoolArray = np.asarray(np.isin(of, nodes).any(axis=1))
+        return touching
+
+    return _share(ground, kept)
+
+
+def _keys(nodes: IntArray) -> list[bytes]:
+    return [row.tobytes() for row in np.sort(nodes.astype(np.int64), axis=1)]
+
+
+def _share(ground: Ground, kept: Callable[[IntArray], BoolArray]) -> Share:
+    numbering = ground.numbering
+    stiffness, mass, damping = (
+        assemble_blocks(
+            [_rows(b, kept(b.nodes)) for b in (matrix.blocks if matrix is not None else ())],
+            numbering,
+        )
+        for matrix in (ground.stiffness, ground.mass, ground.damping)
+    )
+    touched = sum(np.diff(m.indptr) for m in (stiffness, mass, damping)) > 0
+    return Share(numbering, stiffness, mass, damping, np.asarray(touched, dtype=bool))
+
+
+def _rows(block: ElementMatrices, keep: BoolArray) -> ElementMatrices:
+    return replace(block, raw_nodes=block.raw_nodes[keep], values=block.values[keep])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Free field on a numbering: histories (n, n_times); nan where it is not known."""
+
+    times: FloatArray
+    displacement: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+
+    def at(self, unknowns: BoolArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Displacement, velocity, acceleration of some unknowns, zero for the others."""
+        kept = unknowns[:, None]
+        u, v, a = (
+            np.where(kept, of, 0.0) for of in (self.displacement, self.velocity, self.acceleration)
+        )
+        return u, v, a
+
+
+def layer_forces(layer: Share, inside: Mesh, motion: Motion) -> FloatArray:
+    """Forces (n, n_times) of the domain reduction on the nodes of a layer of elements.
+
+    Parameters
+    ----------
+    inside : Mesh
+        The ground inside; its nodes in the layer are the inner ones.
+
+    Raises
+    ------
+    FieldError
+        If the layer does not touch what is inside, or has no outer nodes, or the motion of some
+        node of the layer is not known.
+    """
+    numbering = layer.numbering
+    of_inside = np.isin(numbering.nodes, inside.sorted_node_ids)
+    inner, outer = layer.touched & of_inside, layer.touched & ~of_inside
+    if not inner.any() or not outer.any():
+        raise FieldError("kernel.waves.layer-not-around")
+    _known(numbering, layer.touched, motion)
+    on_outer = layer.force(*motion.at(inner))
+    on_inner = layer.force(*motion.at(outer))
+    made: FloatArray = np.where(outer[:, None], on_outer, 0.0)
+    return made - np.where(inner[:, None], on_inner, 0.0)
+
+
+def edge_forces(row: Share, edge: Mesh, dampers: Matrix, motion: Motion) -> FloatArray:
+    """Forces (n, n_times) of the ground beyond the edges on the nodes of the edges.
+
+    Raises
+    ------
+    FieldError
+        If the motion of some node of the elements at the edges is not known.
+    """
+    numbering = row.numbering
+    at_edge = np.isin(numbering.nodes, edge.sorted_node_ids)
+    damping = assemble_blocks(dampers.blocks, numbering)
+    damped = np.diff(damping.indptr) > 0
+    _known(numbering, row.touched | damped, motion)
+    residual = np.where(at_edge[:, None], row.force(*motion.at(row.touched)), 0.0)
+    taken: FloatArray = damping @ motion.at(damped)[1]
+    return residual + taken
+
+
+def _known(numbering: Numbering, wanted: BoolArray, motion: Motion) -> None:
+    for of in (motion.displacement, motion.velocity, motion.acceleration):
+        lost = np.flatnonzero(wanted & np.isnan(of).any(axis=1))
+        if len(lost):
+            unknown = numbering.label(int(lost[0]))
+            raise FieldError("kernel.waves.motion-not-known", unknown=unknown, count=len(lost))
+
+
+def load_of(numbering: Numbering, times: FloatArray, forces: FloatArray) -> Load:
+    """Histories of forces (n, n_times) as few constant fields times curves.
+
+    The fields are left singular vectors; what is left out is rounding.
+    """
+    rows = np.flatnonzero(np.abs(forces).max(axis=1, initial=0.0) > 0)
+    if not len(rows):
+        return Load(())
+    left, size, right = np.linalg.svd(forces[rows], full_matrices=False)
+    parts = []
+    for k in range(int((size > ROUNDING * size[0]).sum())):
+        vector = np.zeros(numbering.size)
+        vector[rows] = left[:, k]
+        field = _on(numbering, rows, vector)
+        curve = Curve((CurvePart(times, size[k] * right[k], "TEMP", "FORC"),), "")
+        parts.append(LoadPart("MECA", field, curve))
+    return Load(tuple(parts))
+
+
+def _on(numbering: Numbering, rows: IntArray, vector: FloatArray) -> NodeField:
+    """Only the loaded nodes of a force."""
+    whole = vector_to_field(vector, numbering, dual=True)
+    nodes = np.unique(numbering.nodes[rows])
+    values = {name: whole.values_at(name, nodes) for name in whole.components}
+    return NodeField.of(whole.table, nodes, values, "DISCRET")
+
+
+def along_columns(heights: FloatArray, column: FloatArray) -> sp.csr_array:
+    """Weights (n, m) of a column's points, by height, in the motion of points at heights.
+
+    Linear between the two nearest; points of a height that the column has get its motion as it is.
+
+    Raises
+    ------
+    FieldError
+        For a height that the column does not reach.
+    """
+    order = np.argsort(column, kind="stable")
+    sorted_ = column[order]
+    slack = 1e-6 * max(float(np.ptp(column)), 1e-12)
+    wrong = (heights < sorted_[0] - slack) | (heights > sorted_[-1] + slack)
+    if len(column) < 2 or wrong.any():
+        height = float(heights[wrong][0]) if wrong.any() else 0.0
+        raise FieldError(
+            "kernel.waves.outside-column", height=height, low=sorted_[0], high=sorted_[-1]
+        )
+    above = np.clip(np.searchsorted(sorted_, heights - slack), 1, len(column) - 1)
+    share = (heights - sorted_[above - 1]) / (sorted_[above] - sorted_[above - 1])
+    share = np.clip(share, 0.0, 1.0)
+    share[np.abs(heights - sorted_[above]) < slack] = 1.0
+    share[np.abs(heights - sorted_[above - 1]) < slack] = 0.0
+    n = np.arange(len(heights))
+    places = (np.concatenate([n, n]), np.concatenate([order[above - 1], order[above]]))
+    weights = np.concatenate([1 - share, share])
+    made: sp.csr_array = sp.coo_array((weights, places), (len(n), len(column))).tocsr()
+    return made

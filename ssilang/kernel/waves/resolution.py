@@ -1,0 +1,112 @@
+"""Whether a mesh carries the waves of a record: elements against wavelengths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
+
+#: elements a wavelength of shear, by the degree of the shape functions
+ELEMENTS_A_WAVE = {1: 8, 2: 4}
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """The worst element: its middle, its longest side, the longest that the frequency allows."""
+
+    place: FloatArray
+    length: float
+    wanted: float
+    shear: float
+    count: int
+    elements: int
+
+
+def highest_frequency(times: FloatArray, acceleration: FloatArray, share: float = 0.05) -> float:
+    """Frequency above which the spectrum of velocity stays below a share of its peak (Hz).
+
+    Parameters
+    ----------
+    acceleration : array (..., n_times)
+    """
+    step = float(times[-1] - times[0]) / (len(times) - 1)
+    frequencies = np.fft.rfftfreq(len(times), step)[1:]
+    rows = np.abs(np.fft.rfft(acceleration.reshape(-1, len(times)), axis=1))[:, 1:]
+    spectrum = rows.max(axis=0) / frequencies
+    above = np.flatnonzero(spectrum > share * spectrum.max(initial=0.0))
+    return float(frequencies[above[-1]]) if len(above) else 0.0
+
+
+def coarse_elements(model: Model, material: CellField, frequency: float) -> Coarse | None:
+    """The element longest against its shortest wave, None if all are short enough."""
+    worst: Coarse | None = None
+    total = 0
+    for zone in model.zones:
+        lengths = longest_sides(zone)
+        shear = shear_speed(zone, material)
+        elements = ELEMENTS_A_WAVE[CELL_TYPES[zone.cells.cell_type].degree]
+        wanted = shear / (elements * frequency)
+        ratio = lengths / wanted
+        total += int((ratio > 1 + 1e-9).sum())
+        i = int(np.argmax(ratio))
+        if ratio[i] > 1 + 1e-9 and (worst is None or ratio[i] > worst.length / worst.wanted):
+            place = zone.cells.coordinates[i].mean(axis=0)
+            worst = Coarse(place, lengths[i], wanted[i], shear[i], 0, elements)
+    if worst is None:
+        return None
+    return Coarse(worst.place, worst.length, worst.wanted, worst.shear, total, worst.elements)
+
+
+def longest_sides(zone: Zone) -> FloatArray:
+    """Longest side of each cell of a zone (n,), between corners."""
+    nodes = zone.cells.coordinates
+    sides = [
+        np.linalg.norm(nodes[:, i] - nodes[:, j], axis=1)
+        for i, j in _edges(CELL_TYPES[zone.cells.cell_type])
+    ]
+    longest: FloatArray = np.max(sides, axis=0)
+    return longest
+
+
+def _edges(kind: CellType) -> set[tuple[int, int]]:
+    """Pairs of corners of each face, of a line its ends."""
+    contours = [
+        tuple(local[c] for c in CELL_TYPES[name].corners) for name, local in kind.faces
+    ]  # fmt: skip
+    return {
+        (min(i, j), max(i, j))
+        for contour in contours or [kind.corners]
+        for i, j in zip(contour, contour[1:] + contour[:1], strict=True)
+        if i != j
+    }
+
+
+def shear_speed(zone: Zone, material: CellField) -> FloatArray:
+    """Speed of shear waves of each cell (m/s), from YOUN, NU and RHO."""
+    young, poisson, density = _moduli(zone, material)
+    speed: FloatArray = np.sqrt(young / (2 * (1 + poisson)) / density)
+    return speed
+
+
+def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
+    """Speed of pressure waves of each cell (m/s)."""
+    young, poisson, density = _moduli(zone, material)
+    modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    speed: FloatArray = np.sqrt(modulus / density)
+    return speed
+
+
+def _moduli(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray, FloatArray]:
+    parameters = zone_field(zone, material)
+    n = len(zone.cells)
+    young, poisson, density = (
+        np.broadcast_to(parameters.at(name, "GRAVITE").mean(axis=1), (n,))
+        for name in ("YOUN", "NU", "RHO")
+    )
+    return young, poisson, density

@@ -1,0 +1,63 @@
+"""What ssilang/kernel/waves refuses and warns of."""
+
+from ssilang.messages.message import Message
+
+MESSAGES: dict[str, Message] = {
+    "layers-differ": Message(
+        "each layer needs a density, two speeds and a damping",
+        "chaque couche a une masse volumique, deux vitesses et un amortissement",
+    ),
+    "last-layer-endless": Message(
+        "all layers but the last one have a thickness",
+        "toutes les couches sauf la dernière ont une épaisseur",
+    ),
+    "layer-not-positive": Message(
+        "thicknesses, densities and speeds of layers are positive, dampings not negative",
+        "les épaisseurs, masses volumiques et vitesses des couches sont positives, les "
+        "amortissements non négatifs",
+    ),
+    "frequencies-not-positive": Message(
+        "the frequencies of Rayleigh's damping are positive",
+        "les fréquences de l'amortissement de Rayleigh sont positives",
+    ),
+    "angle-not-upwards": Message(
+        "a wave that comes up makes less than 90 degrees with the vertical, not {angle:g}",
+        "une onde montante fait moins de 90 degrés avec la verticale, pas {angle:g}",
+    ),
+    "above-the-surface": Message(
+        "a point lies {height:g} m above the free surface",
+        "un point est à {height:g} m au-dessus de la surface libre",
+    ),
+    "record-too-short": Message(
+        "a record has two points at least and a positive step",
+        "un signal a au moins deux points et un pas positif",
+    ),
+    "step-not-positive": Message(
+        "the step of the motion is positive, not {step:g}",
+        "le pas du mouvement est positif, pas {step:g}",
+    ),
+    "surface-at-rest": Message(
+        "at {angle:g} degrees the wave does not move the surface in the record's direction",
+        "à {angle:g} degrés l'onde ne bouge pas la surface dans la direction du signal",
+    ),
+    "cells-without-elements": Message(
+        "{count} {count:cell|cells} of the layer {count:is no element|are no elements} of the "
+        "stiffness",
+        "{count} {count:maille|mailles} de la couche {count:n'est pas un élément|ne sont pas des "
+        "éléments} de la rigidité",
+    ),
+    "layer-not-around": Message(
+        "the layer does not stand between what is inside and what is outside",
+        "la couche n'est pas entre l'intérieur et l'extérieur",
+        "it shares nodes with what is inside, and has others",
+        "elle partage des noeuds avec l'intérieur et en a d'autres",
+    ),
+    "motion-not-known": Message(
+        "the free field has no {unknown}; {count} {count:unknown is|unknowns are} missing",
+        "le champ libre n'a pas {unknown} ; il manque {count} {count:inconnue|inconnues}",
+    ),
+    "outside-column": Message(
+        "the column goes from {low:g} to {high:g} m, the ground has nodes at {height:g} m",
+        "la colonne va de {low:g} à {high:g} m, le sol a des noeuds à {height:g} m",
+    ),
+}

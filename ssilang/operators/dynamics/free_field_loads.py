@@ -1,0 +1,212 @@
+"""ZDRM, ZBOR: forces that bring a free field into a mesh, behind the procedures @DRM and @BORDS."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import FloatArray, IntArray
+    from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.matrices.assembly import Numbering
+    from ssilang.kernel.waves.free_field_forces import Ground, Motion
+
+_MOTION = ("DEPL", "VITE", "ACCE")
+
+# a column of four elements, shaken at its foot, and the layer or the edges of itself
+_COLUMN = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 3 (0. 0.) (3. 0.) ; S = TRAN 4 L (0. -4.) ;"
+    " M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2.E8 'NU' 0.3 'RHO' 2000. ;"
+    " I = TABL ; I . 'TEMP' = 0. ; I . 'DEPL' = MANU 'CHPO' S 2 'UX' 0. 'UY' 0. ;"
+    " I . 'VITE' = I . 'DEPL' ; I . 'ACCE' = I . 'DEPL' ; J = TABL ; J . 'TEMP' = 1. ;"
+    " J . 'DEPL' = MANU 'CHPO' S 2 'UX' 1.E-3 'UY' 0. ; J . 'VITE' = J . 'DEPL' ;"
+    " J . 'ACCE' = I . 'DEPL' ; W = TABL ; W . 1 = I ; W . 2 = J ; T = TABL ;"
+    " T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'RIGI' = RIGI M A ;"
+    " T . 'MASS' = MASS M A ; T . 'FREQUENCE' = 10. ; T . 'MOUVEMENT' = W ; "
+)
+
+
+@operator(
+    "ZDRM",
+    arg("table", "TABLE", en="table of @DRM", fr="table de @DRM"),
+    family="dynamics",
+    help=Help(
+        en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
+        "it takes.",
+        fr="Chargement de la réduction de domaine sur une couche d'éléments, pour @DRM, dont il "
+        "prend la table.",
+        syntax="CHAR1 = ZDRM TAB1 ;",
+        examples=(
+            _COLUMN + "T . 'INTERIEUR' = S ELEM 'CONTENANT' (POIN S 'PROC' (0.5 0.)) ;"
+            " T . 'COUCHE' = S DIFF (T . 'INTERIEUR') ; C = ZDRM T ;"
+            " LIST (MAXI (RESU (TIRE C 1.)) 'ABS' < 1.E-6) ;",
+        ),
+    ),
+)
+def zdrm(call: Call, table: Table) -> Load:
+    """Forces at the layer."""
+    from ssilang.kernel.waves.free_field_forces import elements_of, layer_forces, load_of
+
+    entries = Entries(call, table, "@DRM")
+    layer = elements_of(_ground(entries), entries.needed("COUCHE"))
+    motion = _motion(entries, layer.numbering)
+    _tell_coarse(entries, motion)
+    _tell_reflecting(entries, motion)
+    forces = layer_forces(layer, entries.needed("INTERIEUR"), motion)
+    return load_of(layer.numbering, motion.times, forces)
+
+
+@operator(
+    "ZBOR",
+    arg("table", "TABLE", en="table of @BORDS", fr="table de @BORDS"),
+    family="dynamics",
+    help=Help(
+        en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
+        "whose table it takes.",
+        fr="Chargement du sol au-delà des bords d'un maillage et de leurs amortisseurs, pour "
+        "@BORDS, dont il prend la table.",
+        syntax="CHAR1 = ZBOR TAB1 ;",
+        examples=(
+            _COLUMN + "T . 'FRONTIERE' = COTE 2 S ; T . 'AMORTISSEURS' = AMOR M (COTE 2 S) A ;"
+            " C = ZBOR T ; LIST (MAXI (RESU (TIRE C 1.))) ;",
+        ),
+    ),
+)
+def zbor(call: Call, table: Table) -> Load:
+    """Forces at the edges."""
+    from ssilang.kernel.waves.free_field_forces import edge_forces, elements_at, load_of
+
+    entries = Entries(call, table, "@BORDS")
+    edge = entries.needed("FRONTIERE")
+    row = elements_at(_ground(entries), edge)
+    motion = _motion(entries, row.numbering)
+    _tell_coarse(entries, motion)
+    forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
+    return load_of(row.numbering, motion.times, forces)
+
+
+def _ground(entries: Entries) -> Ground:
+    from ssilang.kernel.waves.free_field_forces import Ground
+
+    return Ground(entries.needed("RIGI"), entries.needed("MASS"), entries.get("AMOR"))
+
+
+def _motion(entries: Entries, numbering: Numbering) -> Motion:
+    """Histories of the free field on the ground's unknowns, from instants 1, 2 ..."""
+    from ssilang.kernel.waves.free_field_forces import Motion
+
+    table = entries.needed("MOUVEMENT")
+    count = sum(isinstance(i, int) for i in table.indices())
+    instants = [table.get(i + 1) for i in range(count)]
+    if count < 2 or any(not _is_instant(i) for i in instants):
+        raise entries.error("operators.dynamics.instants-of-motion", count=count)
+    times = np.array([float(i.get("TEMP")) for i in instants])
+    if np.any(np.diff(times) <= 0):
+        raise entries.error("operators.dynamics.motion-times-must-increase")
+    spread = _spread(entries, numbering)
+    histories = (
+        np.array([spread(instant.get(name)) for instant in instants]).T for name in _MOTION
+    )  # fmt: skip
+    return Motion(times, *histories)
+
+
+def _is_instant(of: Any) -> bool:
+    return (
+        isinstance(of, Table)
+        and isinstance(of.get("TEMP"), int | float)
+        and all(isinstance(of.get(name), NodeField) for name in _MOTION)
+    )
+
+
+def _spread(entries: Entries, numbering: Numbering) -> Any:
+    """The function that takes a field to the unknowns, along the heights of a column if given."""
+    places = [(n, numbering.where(n)) for n in numbering.unknowns]
+    column = entries.get("COLONNE")
+    if column is None:
+
+        def as_it_is(field: NodeField) -> FloatArray:
+            found = np.empty(numbering.size)
+            for name, place in places:
+                found[place] = field.values_at(name, numbering.nodes[place], np.nan)
+            return found
+
+        return as_it_is
+    nodes, weights = _column(numbering, column.sorted_node_ids)
+
+    def by_height(field: NodeField) -> FloatArray:
+        found = np.empty(numbering.size)
+        for name, place in places:
+            found[place] = weights[name] @ field.values_at(name, nodes, np.nan)
+        return found
+
+    return by_height
+
+
+def _column(numbering: Numbering, nodes: IntArray) -> tuple[IntArray, dict[str, Any]]:
+    """One node a height of the column, and the weights of each unknown's nodes in them."""
+    from ssilang.kernel.waves.free_field_forces import along_columns
+
+    axis = len([n for n in numbering.unknowns if n in ("UX", "UY", "UZ")]) - 1
+    heights = numbering.table.coordinates[:, axis]
+    span = float(np.ptp(heights[nodes])) or 1.0
+    _, first = np.unique(np.round(heights[nodes] / (1e-7 * span)), return_index=True)
+    kept = nodes[first]
+    weights = {
+        name: along_columns(heights[numbering.nodes[numbering.where(name)]], heights[kept])
+        for name in numbering.unknowns
+    }
+    return kept, weights
+
+
+def _tell_coarse(entries: Entries, motion: Motion) -> None:
+    """Warn of elements too long for the highest frequency, that of the motion if none is given."""
+    from ssilang.kernel.waves.resolution import coarse_elements, highest_frequency
+
+    frequency = entries.get("FREQUENCE")
+    if frequency is None:
+        frequency = highest_frequency(motion.times, np.nan_to_num(motion.acceleration))
+    if frequency <= 0:
+        return
+    model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
+    coarse = coarse_elements(model, material, frequency)
+    if coarse is not None:
+        table = model.zones[0].cells.nodes
+        entries.warn(
+            "operators.dynamics.element-too-long",
+            place=table.shown(coarse.place),
+            length=coarse.length,
+            frequency=frequency,
+            speed=coarse.shear,
+            wanted=coarse.wanted,
+            elements=coarse.elements,
+            count=coarse.count,
+        )
+
+
+def _tell_reflecting(entries: Entries, motion: Motion) -> None:
+    """Warn where what leaves the layer comes back from an edge before the motion ends."""
+    from ssilang.kernel.waves.reflecting_edges import reflecting_edges
+    from ssilang.kernel.waves.resolution import pressure_speed
+
+    model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
+    found = reflecting_edges(model, entries.needed("COUCHE"), entries.get("AMORTISSEURS"))
+    if found is None:
+        return
+    fastest = max(float(pressure_speed(zone, material).max()) for zone in model.zones)
+    back = 2 * found.distance / fastest
+    if back < motion.times[-1] - motion.times[0]:
+        table = model.zones[0].cells.nodes
+        entries.warn(
+            "operators.dynamics.edges-reflect",
+            place=table.shown(found.place),
+            distance=found.distance,
+            back=back,
+            count=found.count,
+        )

@@ -1,0 +1,145 @@
+"""ZOPL: the ground's motion under a plane wave, behind the procedure @ONDE."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.tables.entries import Entries
+from ssilang.operators.workspace import workspace
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.curves.curve import Curve
+    from ssilang.kernel.mesh.mesh import Mesh
+    from ssilang.kernel.waves.layered_half_space import HalfSpace, Kind
+    from ssilang.kernel.waves.plane_wave import Given, PlaneWave, WaveMotion
+
+#: share of the largest velocity that a record may keep at its end
+DRIFT = 0.02
+
+
+@operator(
+    "ZOPL",
+    arg("table", "TABLE", en="table of @ONDE", fr="table de @ONDE"),
+    family="dynamics",
+    help=Help(
+        en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
+        fr="Mouvement d'un demi-espace stratifié sous une onde plane, pour @ONDE, dont il prend "
+        "la table.",
+        syntax="TAB2 = ZOPL TAB1 ;",
+        examples=(
+            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (20. -10.) ; T = TABL ;"
+            " T . 'POINTS' = L ; T . 'POINT' = 0. 0. ; T . 'ONDE' = 'P' ; T . 'ANGLE' = 0. ;"
+            " C = TABL ; C . 'YOUNG' = 2.E8 ; C . 'POISSON' = 0.3 ;"
+            " C . 'MASSE_VOLUMIQUE' = 2000. ; T . 'COUCHES' = TABL ; T . 'COUCHES' . 1 = C ;"
+            " LT = PROG 0. PAS 0.01 1. ; LX = (LT - 0.5) * (PI * 4.) ; LX = LX * LX ;"
+            " T . 'ACCELERATION' = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ;"
+            " W = ZOPL T ; LIST (EXTR (W . 51 . 'ACCE') 'UY' (POIN L 1)) ;",
+        ),
+    ),
+)
+def zopl(call: Call, table: Table) -> Table:
+    """Read the table, compute, hand back instants."""
+    from ssilang.kernel.waves.plane_wave import plane_motion
+
+    entries = Entries(call, table, "@ONDE")
+    dimension = workspace(call.session).dimension
+    points, wave = entries.needed("POINTS"), cast("Kind", entries.needed("ONDE"))
+    if dimension < 2 or (dimension == 2 and wave == "SH"):
+        raise entries.error("operators.dynamics.wave-out-of-plane", wave=wave, dimension=dimension)
+    xyz = points.nodes.coordinates[points.sorted_node_ids]
+    top = entries.get("SURFACE")
+    top = float(xyz[:, dimension - 1].max()) if top is None else float(top)
+    record = entries.needed("POINT").coordinates
+    turned = np.radians(float(entries.get("AZIMUT") or 0.0)) if dimension == 3 else 0.0
+    way = np.array([np.cos(turned), np.sin(turned)]) if dimension == 3 else np.array([1.0])
+    along = (xyz - record)[:, : len(way)] @ way
+    given = _wave(entries, wave, top - float(record[dimension - 1]))
+    motion = plane_motion(
+        _ground(entries), given, along, top - xyz[:, dimension - 1], entries.get("PAS")
+    )
+    if motion.early > 0:
+        entries.warn("operators.dynamics.wave-already-there", seconds=motion.early)
+    return _instants(points, motion, wave, way)
+
+
+def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
+    from ssilang.kernel.waves.plane_wave import PlaneWave
+
+    curve = cast("Curve", entries.needed("ACCELERATION")).parts[0]
+    steps = np.diff(curve.abscissas)
+    if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
+        raise entries.error("operators.dynamics.equal-steps-wanted")
+    step, a = float(steps.mean()), curve.ordinates
+    velocity = np.cumsum(a[1:] + a[:-1]) * step / 2
+    largest = float(np.abs(velocity).max())
+    if abs(velocity[-1]) > DRIFT * largest:
+        entries.warn(
+            "operators.dynamics.record-drifts", velocity=float(velocity[-1]), largest=largest
+        )
+    angle = np.radians(float(entries.needed("ANGLE")))
+    given = cast("Given", entries.get("NATURE"))
+    return PlaneWave(kind, float(angle), given, float(curve.abscissas[0]), step, a, depth)
+
+
+def _ground(entries: Entries) -> HalfSpace:
+    from ssilang.kernel.waves.layered_half_space import HalfSpace
+
+    layers = entries.inside("COUCHES")
+    if layers is None:
+        raise entries.error("operators.dynamics.layers-of-wave")
+    rows: list[tuple[float, ...]] = []
+    thickness: list[float | None] = []
+    while (layer := layers.inside(len(rows) + 1)) is not None:
+        young, poisson, density = (
+            float(layer.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
+        )
+        if young <= 0 or density <= 0 or not -1 < poisson < 0.5:
+            raise entries.error("operators.dynamics.layer-not-elastic", number=len(rows) + 1)
+        shear = young / (2 * (1 + poisson))
+        primary = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+        damping = float(layer.get("AMORTISSEMENT") or 0.0)
+        rows.append((density, np.sqrt(shear / density), np.sqrt(primary / density), damping))
+        thickness.append(layer.get("EPAISSEUR"))
+    if not rows:
+        raise entries.error("operators.dynamics.layers-of-wave")
+    if any(h is None for h in thickness[:-1]):
+        raise entries.error(
+            "operators.dynamics.thickness-of-layer", number=thickness.index(None) + 1
+        )
+    density, shear, primary, damping = np.array(rows, float).T
+    f1, f2 = (float(entries.get(n)) for n in ("F1", "F2"))
+    return HalfSpace(np.array(thickness[:-1], float), density, shear, primary, damping, f1, f2)
+
+
+def _instants(points: Mesh, motion: WaveMotion, kind: Kind, way: FloatArray) -> Table:
+    """Instants 1, 2 ... with TEMP, DEPL, VITE, ACCE."""
+    ids = points.sorted_node_ids
+    histories = {"DEPL": motion.displacement, "VITE": motion.velocity, "ACCE": motion.acceleration}
+    named = {name: _components(of, kind, way) for name, of in histories.items()}
+    result = Table()
+    for i, time in enumerate(motion.times):
+        instant = Table()
+        instant.set("TEMP", float(time))
+        for name, components in named.items():
+            values = {unknown: of[:, i] for unknown, of in components.items()}
+            instant.set(name, NodeField.of(points.nodes, ids, values, "DIFFUS"))
+        result.set(i + 1, instant)
+    return result
+
+
+def _components(of: FloatArray, kind: Kind, way: FloatArray) -> dict[str, FloatArray]:
+    """From the wave's plane to axes: histories (points, times) by name."""
+    still = np.zeros_like(of[:, 0])
+    along, up = (still, still) if kind == "SH" else (of[:, 0], of[:, 1])
+    if len(way) == 1:
+        return {"UX": along, "UY": up}
+    across = of[:, 0] if kind == "SH" else still
+    cos, sin = way
+    return {"UX": cos * along - sin * across, "UY": sin * along + cos * across, "UZ": up}

@@ -1,0 +1,142 @@
+"""@COLONNE, @DRM, @BORDS, @ONDE: free fields brought into a mesh without a structure."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+GROUND = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 6 (DROI 12 (0. 0.) (12. 0.)) (0. -6.) ; "
+    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2.E8 'NU' 0.3 'RHO' 1900. ; "
+    "CX = COOR 1 S ; CY = COOR 2 S ; "
+    "INN = S ELEM 'APPUYE' 'STRICTEMENT' "
+    "((CX POIN 'COMPRIS' 2.99 9.01) INTE (CY POIN 'SUPERIEUR' -3.01)) ; "
+    "MID = S ELEM 'APPUYE' 'STRICTEMENT' "
+    "((CX POIN 'COMPRIS' 1.99 10.01) INTE (CY POIN 'SUPERIEUR' -4.01)) ; "
+    "LAY = MID DIFF INN ; OUT = S DIFF MID ; "
+    "LT = PROG 0. PAS 0.005 1. ; LX = (LT - 0.5) * (PI * 4.) ; LX = LX * LX ; "
+    "ACC = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ; "
+    "F = (COTE 2 S) ET (COTE 3 S) ET (COTE 4 S) ; CA = AMOR M F A ; "
+    "K = RIGI M A ; MM = MASS M A ; C = (0.3 * MM) ET (1.E-3 * K) ; "
+    "D = TABL ; D . 'MODELE' = M ; D . 'CARACTERISTIQUES' = A ; D . 'RIGI' = K ; "
+    "D . 'MASS' = MM ; D . 'AMOR' = C ; "
+)
+COLUMN = (
+    "SC = TRAN 6 (DROI 1 (50. 0.) (51. 0.)) (0. -6.) ; MC = MODE SC MECANIQUE ELASTIQUE ; "
+    "T = TABL ; T . 'MODELE' = MC ; T . 'BASE' = COTE 3 SC ; T . 'DIRECTION' = 'UX' ; "
+    "T . 'CARACTERISTIQUES' = MATE MC 'YOUN' 2.E8 'NU' 0.3 'RHO' 1900. ; "
+    "T . 'ROCHER' = TABL ; T . 'ROCHER' . 'YOUNG' = 2.E9 ; T . 'ROCHER' . 'POISSON' = 0.3 ; "
+    "T . 'ROCHER' . 'MASSE_VOLUMIQUE' = 2300. ; T . 'AMORTISSEMENT_MASSE' = 0.3 ; "
+    "T . 'AMORTISSEMENT_RIGIDITE' = 1.E-3 ; T . 'ACCELERATION' = ACC ; "
+    "T . 'TEMPS_CALCULES' = LT ; W = @COLONNE T ; D . 'MOUVEMENT' = W ; D . 'COLONNE' = SC ; "
+)
+RUN = (
+    "E = TABL ; E . 'RIGI' = K ; E . 'MASS' = MM ; E . 'AMOR' = C ET CA ; E . 'CHAR' = CH ; "
+    "E . 'TEMPS_CALCULES' = LT ; E . 'PAS_SAUVES' = 1 ; R = DYNAMIC E ; "
+)
+DRM = "D . 'COUCHE' = LAY ; D . 'INTERIEUR' = INN ; "
+
+
+def ran(script):
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    return result
+
+
+def histories(result, name, what, node, unknown="UX"):
+    table = result.session.root.find(name)
+    n = sum(isinstance(i, int) for i in table.indices())
+    number = np.array([result.session.root.find(node).node])
+    return np.array(
+        [table.get(i + 1).get(what).values_at(unknown, number)[0] for i in range(n)]
+    )  # fmt: skip
+
+
+def test_column_moves_as_the_layer_on_rock():
+    # shear column on rock: transfer from outcrop to surface, 1 / (cos k h + i r sin k h)
+    result = ran(GROUND + COLUMN + "P = POIN SC 1 ;")
+    found = histories(result, "W", "ACCE", "P")
+    given = result.session.root.find("ACC").parts[0].ordinates
+    n = 4096
+    omega = 2 * np.pi * np.fft.rfftfreq(n, 0.005)
+    stiff = 2e8 / 2.6 * (1 + 1e-3j * omega)
+    density = 1900.0 * (1 - 0.3j / np.maximum(omega, 1e-3))
+    k, z = omega * np.sqrt(density / stiff), np.sqrt(density * stiff)
+    r = z / np.sqrt(2300.0 * 2e9 / 2.6)
+    surface = np.fft.irfft(np.fft.rfft(given, n) / (np.cos(6 * k) + 1j * r * np.sin(6 * k)), n)
+    assert np.abs(surface).max() > 1.3
+    assert found == pytest.approx(surface[: len(found)], abs=0.02)
+
+
+def test_domain_reduction_leaves_nothing_outside():
+    result = ran(
+        GROUND + COLUMN + DRM + "D . 'AMORTISSEURS' = CA ; CH = @DRM D ; " + RUN
+        + "P = POIN SC 1 ; Q = INN POIN 'PROC' (6. 0.) ; O = OUT POIN 'PROC' (0. 0.) ; "
+        "V = OUT POIN 'PROC' (6. -6.) ;"
+    )  # fmt: skip
+    free = histories(result, "W", "ACCE", "P")
+    peak = np.abs(free).max()
+    assert np.abs(histories(result, "R", "ACCE", "Q") - free).max() < 1e-9 * peak
+    for node in ("O", "V"):
+        assert np.abs(histories(result, "R", "ACCE", node)).max() < 1e-9 * peak
+
+
+def test_edges_let_the_column_s_motion_in():
+    result = ran(
+        GROUND + COLUMN + "D . 'FRONTIERE' = F ; D . 'AMORTISSEURS' = CA ; CH = @BORDS D ; " + RUN
+        + "P = POIN SC 1 ; Q = S POIN 'PROC' (6. 0.) ; O = S POIN 'PROC' (0. 0.) ;"
+    )  # fmt: skip
+    free = histories(result, "W", "ACCE", "P")
+    for node in ("Q", "O"):
+        assert np.abs(histories(result, "R", "ACCE", node) - free).max() < 1e-9
+
+
+WAVE = (
+    "OND = TABL ; OND . 'POINTS' = S ; OND . 'ONDE' = '{kind}' ; "
+    "OND . 'ANGLE' = 25. ; OND . 'POINT' = 0. 0. ; L1 = TABL ; L1 . 'YOUNG' = 2.E8 ; "
+    "L1 . 'POISSON' = 0.3 ; L1 . 'MASSE_VOLUMIQUE' = 1900. ; OND . 'COUCHES' = TABL ; "
+    "OND . 'COUCHES' . 1 = L1 ; OND . 'ACCELERATION' = ACC ; W = @ONDE OND ; "
+    "D . 'AMOR' = 0. * K ; D . 'MOUVEMENT' = W ; C = 0. * K ; "
+)
+
+
+@pytest.mark.parametrize(("kind", "unknown"), [("SV", "UX"), ("P", "UY")])
+def test_oblique_waves_pass_through_the_box(kind, unknown):
+    # the surface's closed form delayed along x; elements of 1/100 of the wavelength
+    result = ran(
+        GROUND + WAVE.format(kind=kind)
+        + "D . 'FRONTIERE' = F ; D . 'AMORTISSEURS' = CA ; CH = @BORDS D ; " + RUN
+        + "Q = S POIN 'PROC' (6. 0.) ;"
+    )  # fmt: skip
+    expected = histories(result, "W", "ACCE", "Q", unknown)
+    found = histories(result, "R", "ACCE", "Q", unknown)
+    assert np.abs(expected).max() > 1.0
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def test_coarse_elements_and_reflecting_edges_are_told():
+    result = ran(GROUND + COLUMN + DRM + "D . 'FREQUENCE' = 100. ; CH = @DRM D ;")
+    warnings = {w.code: w.data for w in result.session.warnings}
+    assert set(warnings) == {
+        "operators.dynamics.element-too-long", "operators.dynamics.edges-reflect",
+    }  # fmt: skip
+    coarse = warnings["operators.dynamics.element-too-long"]
+    assert coarse["wanted"] == pytest.approx(np.sqrt(2e8 / 2.6 / 1900) / 800)
+    assert coarse["length"] == pytest.approx(1.0)
+    assert coarse["count"] == 72
+    edges = warnings["operators.dynamics.edges-reflect"]
+    assert edges["distance"] == pytest.approx(2.0)
+    assert edges["count"] == 25
+    primary = np.sqrt(2e8 / 1900 * 0.7 / (1.3 * 0.4))
+    assert edges["back"] == pytest.approx(4.0 / primary)
+
+
+def test_refusals():
+    for script, told in (
+        ("D . 'COUCHE' = LAY ; D . 'INTERIEUR' = S ; CH = @DRM D ;", "does not stand between"),
+        ("D . 'MOUVEMENT' = TABL ; " + DRM + "CH = @DRM D ;", "0 instants"),
+        ("T . 'DIRECTION' = 'UZ' ; W = @COLONNE T ;", "@COLONNE: the direction"),
+    ):
+        result = run_text(GROUND + COLUMN + script)
+        assert result.exit_code == 1
+        assert told in result.message, result.message
