@@ -600,6 +600,11 @@ def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:
 class Operators(Filled[str, Operator]):
     """Operators by their names: a module brings one, or forms of one that another brings."""
 
+    def __setitem__(self, key: str, value: Operator) -> None:
+        if key in self._items:  # the one imported later would take the other's place
+            raise ValueError(f"an operator {key} is declared twice: see {self.fillers[key]}")
+        super().__setitem__(key, value)
+
     def in_order(self, key: str) -> tuple[str, ...]:
         """Modules that bring forms of an operator in their order, then those that bring others."""
         found = self[key]
