@@ -11,7 +11,7 @@ from ssilang.operators.loader import load_operators
 
 load_operators()
 # what procedures of the library call; not for users
-_WORKERS = ("ZCON", "ZDYN", "ZFRE", "ZHBM", "ZHPO", "ZPAS", "ZPIL", "ZSPP")
+_WORKERS = ("ZBIL", "ZCON", "ZDYN", "ZFRE", "ZHBM", "ZHPO", "ZPAS", "ZPIL", "ZSPP")
 _NAMES = sorted({o.name for o in OPERATORS.values()}) + sorted(standard_procedures())
 
 

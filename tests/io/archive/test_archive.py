@@ -169,12 +169,13 @@ def test_all_kinds_of_objects_of_the_last_release_are_restored_and_used(tmp_path
     script.write_text(OBJECTS, encoding="utf-8")
     result = run_file(script)
     assert result.exit_code == 0, result.message
-    assert result.output.splitlines() == [
+    *lines, difference = result.output.splitlines()
+    assert lines == [
         " 2.73931E+00 2.27158E+02 7.63135E-03",
         " 3.86806E+00 1.00000E+001UY 1.00000E-01wordVRAI 8.00000E+00",
         " 0.00000E+00 0.00000E+006",
-        " 0.00000E+00",
     ]
+    assert float(difference) < 1e-15 * 227.0  # rounding: sums in the order of today
 
 
 def test_classes_have_their_homes():
