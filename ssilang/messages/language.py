@@ -631,6 +631,10 @@ MESSAGES: dict[str, Message] = {
         "'{word}', la valeur de {holder}, nomme un opérateur, exécuté : MOT {holder} le prend "
         "comme mot, EGA {holder} 'AUTRE' le compare",
     ),
+    "unread-word": Message(
+        "'{word}' was not read: did you mean '{near}'?",
+        "'{word}' n'a pas été lu : vouliez-vous dire '{near}' ?",
+    ),
     "quoted-operator": Message(
         "'{word}' names an operator, which quotes do not keep from running: MOT '{word}' is the "
         "word",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ssilang.language.near import nearest
+from ssilang.language.registry import Operator, keywords_of
 from ssilang.language.run.call import Operand
 from ssilang.language.run.scopes import PREDEFINED
 from ssilang.language.say.errors import SsiError
@@ -19,6 +21,19 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
         return
     if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
         error.data.setdefault("held_word", (str(operand.value), written))
+
+
+def tell_unread_word(error: SsiError, left: Sequence[Operand], found: Operator) -> None:
+    """Add that a word which the operator left unread looks like a keyword of its own."""
+    if "." not in error.code:  # of the language itself: it looks at words already
+        return
+    written = next((o for o in left if o.span.text[:1] == "'" and isinstance(o.value, Mot)), None)
+    if written is None:
+        return
+    word = str(written.value)
+    near = nearest(word, keywords_of(found))
+    if near and near != word.rstrip().upper():
+        error.data.setdefault("unread_word", (word, near))
 
 
 def tell_quoted_operator(error: SsiError, items: Sequence[tree.Item]) -> None:

@@ -11,7 +11,11 @@ from ssilang.language.run.binding import run_operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.operands import OperandReader
-from ssilang.language.run.phrase_errors import tell_held_word, tell_line_begun
+from ssilang.language.run.phrase_errors import (
+    tell_held_word,
+    tell_line_begun,
+    tell_unread_word,
+)
 from ssilang.language.run.procedures import call_procedure
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.text import tree
@@ -124,6 +128,7 @@ class PhraseRunner(OperandReader):
         except SsiError as error:
             tell_held_word(error, operand)
             tell_line_begun(error, operand)
+            tell_unread_word(error, call.operands, found)
             if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
                 told = {"operator": found.full_name, "operand": cause.span.text[:40]}
                 raise SsiError("operand-not-finite", cause.span, **told) from error

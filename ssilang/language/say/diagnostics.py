@@ -94,6 +94,7 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     hint = message.hint(error.code, data, language, script=True).strip()
     before = (
         _held_hint(data, language),
+        _unread_hint(data, language),
         _quoted_hint(data, language),
         _line_hint(data, language),
     )
@@ -117,6 +118,14 @@ def _held_hint(data: dict[str, Any], language: str) -> str:
         return ""
     word, holder = data["held_word"]
     return message.sentence("held-word", {"word": word, "holder": holder}, language)
+
+
+def _unread_hint(data: dict[str, Any], language: str) -> str:
+    """Says that a word was not read, and the keyword that it looks like."""
+    if "unread_word" not in data:
+        return ""
+    word, near = data["unread_word"]
+    return message.sentence("unread-word", {"word": word, "near": near}, language)
 
 
 def _quoted_hint(data: dict[str, Any], language: str) -> str:
