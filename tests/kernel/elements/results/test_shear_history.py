@@ -40,7 +40,8 @@ def test_recorded_motion_gives_what_its_fields_give():
         "A = MATE M 'YOUN' 1.E7 'NU' 0.3 'RHO' 2000. ; T = TABL ;"
         "T . 'RIGI' = (RIGI M A) ET (BLOQ 'DEPL' S) ; T . 'MASS' = MASS M A ;"
         "T . 'VITE' = NOMC 'UY' (Z * Z) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.002 'NPAS' 20 ;"
-        "T . 'PAS_SAUVES' = MOT 'TOUS' ; R = DYNAMIC T ; G = ZGAM M R ; L = SUIT ; REPE K 21 ; L = L ET (R . &K . 'DEPL') ;"
+        "T . 'PAS_SAUVES' = MOT 'TOUS' ; R = DYNAMIC T ; G = ZGAM M R ; L = SUIT ;"
+        " REPE K 21 ; L = L ET (R . &K . 'DEPL') ;"
         "FIN K ; G2 = ZGAM M L ; D = MAXI (ABS (G - G2)) ; E = MINI G2 ;"
     )
     result = run_text(script)
