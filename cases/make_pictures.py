@@ -49,6 +49,7 @@ PICTURES = {
     "impact/bar_bounce": {1: "bar_bounce"},
     "published/friction_slider": {1: "friction_slider"},
     "published/bar_on_wall": {1: "bar_on_wall"},
+    "published/equivalent_linear": {1: "equivalent_linear"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},

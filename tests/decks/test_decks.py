@@ -47,6 +47,7 @@ SPOILT = [
     ("footing/strip_uplift.ssi", "'KN' K0 'KS'", "'KN' (1.02 * K0) 'KS'"),
     ("published/unilateral_plate.ssi", "KTOT = 1.E4", "KTOT = 1.001E4"),
     ("published/friction_slider.ssi", "'FROT' MU0", "'FROT' (1.02 * MU0)"),
+    ("published/equivalent_linear.ssi", "'CHI' = 0.65", "'CHI' = 0.75"),
     ("published/bar_on_wall.ssi", "'YOUN' YOU0", "'YOUN' (1.05 * YOU0)"),
     ("published/nafems_elasticity.ssi", "-10.E6 OUT1", "-10.1E6 OUT1"),
     ("published/nafems_vibration.ssi", "P3 = 10. 0.5", "P3 = 10. 0.52"),

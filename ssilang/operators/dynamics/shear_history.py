@@ -2,20 +2,39 @@
 
 from __future__ import annotations
 
-from typing import cast
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, cast
 
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.shear_history import largest_shear_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, arg, operator
-from ssilang.language.values import ListChpo
+from ssilang.language.values import ListChpo, Table
+from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
+
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.node_track import NodeTrack
+
+MOST_VALUES = 1 << 20
+"""Values of element vectors held at a time."""
 
 
 @operator(
     "ZGAM",
     arg("model", "MMODEL", en="model", fr="modèle"),
-    arg("motion", "LISTCHPO", en="displacements", fr="déplacements"),
+    arg(
+        "motion",
+        "LISTCHPO",
+        "TABLE",
+        en="displacements, or results of DYNAMIC",
+        fr="déplacements, ou résultats de DYNAMIC",
+    ),
     family="dynamics",
     help=Help(
         en="Largest shear strain over a list of displacements, at the centres of solid cells, for "
@@ -30,7 +49,45 @@ from ssilang.language.values import ListChpo
         ),
     ),
 )
-def zgam(model: Model, motion: ListChpo) -> CellField:
+def zgam(model: Model, motion: ListChpo | Table) -> CellField:
     """Largest strain zone by zone."""
-    fields = cast("list[NodeField]", motion.values)
-    return CellField(tuple(largest_shear_strain(z, fields) for z in model.zones), "SCALAIRE")
+    from ssilang.operators.curves.evol import results_in_time
+
+    fields: Sequence[AnyField] = (
+        results_in_time(motion, "DEPL", unmade=True)[0]
+        if isinstance(motion, Table)
+        else cast("list[NodeField]", motion.values)
+    )
+    return CellField(
+        tuple(
+            largest_shear_strain(z, _vectors(families.family_of(z).layout(z), fields))
+            for z in model.zones
+        ),
+        "SCALAIRE",
+    )
+
+
+def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]:
+    """Element vectors (n_instants, n_cells, n_rows) of displacements, some instants at a time."""
+    if isinstance(fields, RecordedFields):
+        yield from _recorded(layout, fields.track)
+        return
+    for field in fields:
+        made = field.make() if isinstance(field, InstantField) else field
+        yield layout.gather(made)[None]
+
+
+def _recorded(layout: Layout, track: NodeTrack) -> Iterator[FloatArray]:
+    """As `_vectors`, of what was recorded: no field is made."""
+    numbering = track.problem.numbering
+    nodes = layout.table.resolve(layout.raw_nodes)[:, layout.local]
+    at = numbering.index(nodes, np.array([numbering.code(name) for name in layout.unknowns]))
+    there = np.isin(at, track.shown)
+    places = np.searchsorted(track.unknowns, np.where(there, at, track.unknowns[0]))
+    needed, inverse = np.unique(places, return_inverse=True)
+    some = max(1, MOST_VALUES // at.size)
+    for rows in track.pieces:
+        values = rows.values("u", needed)
+        for first in range(0, len(rows), some):
+            part = values[first : first + some]
+            yield np.where(there, part[:, inverse.reshape(at.shape)], 0.0)

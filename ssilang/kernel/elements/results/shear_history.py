@@ -6,24 +6,24 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 
 
-def largest_shear_strain(zone: Zone, motion: Iterable[NodeField]) -> CellFieldBlock:
+def largest_shear_strain(zone: Zone, motion: Iterable[FloatArray]) -> CellFieldBlock:
     """Largest over a motion of sqrt(2 e:e) at the centres of cells, e being the strain deviator.
 
     In simple shear this is the shear strain (gamma) itself.
 
     Parameters
     ----------
-    motion : iterable of NodeField
-        Displacements.
+    motion : iterable of arrays (n_instants, n_cells, n_rows)
+        Element vectors of displacements, in the layout of the zone.
 
     Returns
     -------
@@ -42,12 +42,11 @@ def largest_shear_strain(zone: Zone, motion: Iterable[NodeField]) -> CellFieldBl
     everything = slice(0, len(zone.cells))
     operator = family.strain_operator(zone, zone_field(zone, None), "GRAVITE", everything)
     matrix = operator.matrix[:, :, 0, :]
-    layout = family.layout(zone)
     largest = np.zeros(len(zone.cells))
-    for displacement in motion:
-        strain = np.matmul(matrix, layout.gather(displacement)[:, :, None])[..., 0]
+    for vectors in motion:
+        strain = np.matmul(matrix, vectors.transpose(1, 2, 0))
         normal, shear = strain[:, :3], strain[:, 3:]
         deviator = normal - normal.mean(axis=1, keepdims=True)
         square = 2 * (deviator**2).sum(axis=1) + (shear**2).sum(axis=1)
-        np.maximum(largest, square, out=largest)
+        np.maximum(largest, square.max(axis=1, initial=0.0), out=largest)
     return cell_block(zone, ("SCAL",), np.sqrt(largest)[:, None, None], "GRAVITE")

@@ -35,6 +35,22 @@ def test_any_linear_motion_gives_the_deviator():
     np.testing.assert_allclose(largest(script), np.sqrt(2 * (e * e).sum()))
 
 
+def test_recorded_motion_gives_what_its_fields_give():
+    script = _BLOCK + (
+        "A = MATE M 'YOUN' 1.E7 'NU' 0.3 'RHO' 2000. ; T = TABL ;"
+        "T . 'RIGI' = (RIGI M A) ET (BLOQ 'DEPL' S) ; T . 'MASS' = MASS M A ;"
+        "T . 'VITE' = NOMC 'UY' (Z * Z) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.002 'NPAS' 20 ;"
+        "T . 'PAS_SAUVES' = MOT 'TOUS' ; R = DYNAMIC T ; G = ZGAM M R ; L = SUIT ;"
+        " REPE K 21 ; L = L ET (R . &K . 'DEPL') ;"
+        "FIN K ; G2 = ZGAM M L ; D = MAXI (ABS (G - G2)) ; E = MINI G2 ;"
+    )
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert find("D") < 1e-12 * find("E")
+    assert find("E") > 1e-5
+
+
 def test_round_solids_count_the_hoop():
     script = (
         "OPTI DIME 2 MODE AXIS ELEM QUA8 ; S = TRAN 1 (DROI 1 (1. 0.) (2. 0.)) (0. 1.) ;"
