@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from references.soil_column import bundle
 
 from ssilang.cli.run import run_text
 
@@ -66,6 +67,70 @@ def test_column_moves_as_the_layer_on_rock():
     surface = np.fft.irfft(np.fft.rfft(given, n) / (np.cos(6 * k) + 1j * r * np.sin(6 * k)), n)
     assert np.abs(surface).max() > 1.3
     assert found == pytest.approx(surface[: len(found)], abs=0.02)
+
+
+def explicit_steps(outcrop, step):
+    """Surface's acceleration of six masses on bundles of springs over a dashpot of the rock."""
+    strains = np.array([1e-5, 5e-5, 2e-4, 1e-3])
+    slips, shares = bundle(strains, np.array([1.0, 0.8, 0.4, 0.12]))
+    limits, stiff = 2e8 / 2.6 * shares * slips, 2e8 / 2.6 * shares
+    mass = np.zeros((7, 7))
+    for i in range(6):
+        mass[i : i + 2, i : i + 2] += 1900 / 6 * np.array([[2.0, 1.0], [1.0, 2.0]])
+    inverse, rock = np.linalg.inv(mass), np.sqrt(2300 * 2e9 / 2.6)
+    u, v, springs = np.zeros(7), np.zeros(7), np.zeros((6, 4))
+    seen, strain, largest = [], np.zeros(6), 0.0
+    for wanted in np.cumsum(outcrop) * step:
+        stress = springs.sum(axis=1) + 1e-3 * 2e8 / 2.6 * np.diff(v)
+        force = np.append(stress, 0.0) - np.append(0.0, stress) - 0.3 * (mass @ v)
+        force[0] += rock * (wanted - v[0])
+        v = v + step * (inverse @ force)
+        u = u + step * v
+        springs = np.clip(springs + np.outer(np.diff(u) - strain, stiff), -limits, limits)
+        strain = np.diff(u)
+        largest = max(largest, np.abs(strain).max())
+        seen.append(u[-1])
+    return np.array(seen), largest
+
+
+def test_column_that_yields_moves_as_masses_on_springs_that_slip():
+    curve = "(EVOL 'MANU' (PROG 1.E-5 5.E-5 2.E-4 1.E-3) (PROG 1. 0.8 0.4 0.12))"
+    given = "'YOUN' 2.E8 'NU' 0.3 'RHO' 1900."
+    script = COLUMN.replace("SC MECANIQUE ELASTIQUE", "SC MECANIQUE ELASTIQUE PLASTIQUE IWAN")
+    script = script.replace(f"MATE MC {given}", f"MATE MC {given} 'GGAM' {curve}")
+    result = ran(GROUND + "ACC = 4. * ACC ; " + script + "P = POIN SC 1 ;")
+    found = histories(result, "W", "DEPL", "P")
+    given_to = result.session.root.find("ACC").parts[0]
+    fine = np.arange(0, 1.0, 1e-4)
+    surface, strain = explicit_steps(
+        np.interp(fine + 5e-5, given_to.abscissas, given_to.ordinates), 1e-4
+    )
+    assert strain > 2e-4  # far beyond elasticity
+    expected = np.interp(np.arange(200) * 0.005, fine + 1e-4, surface)
+    assert np.abs(found[:200] - expected).max() < 0.01 * np.abs(expected).max()
+
+
+SOFT = "SOFT = MODE {of} MECANIQUE ELASTIQUE PLASTIQUE PARFAIT ; "
+PARTS = "D . 'MODELE' = (MODE (S DIFF {of}) MECANIQUE ELASTIQUE) ET SOFT ; "
+
+
+def test_soil_may_yield_only_where_no_matrix_stands_for_it():
+    for of, load, told in (
+        ("LAY", DRM + "CH = @DRM D ;", "14 elements"),
+        ("OUT", DRM + "CH = @DRM D ;", "outside it"),
+        ("S", "D . 'FRONTIERE' = F ; D . 'AMORTISSEURS' = CA ; CH = @BORDS D ;", "touch the edges"),
+    ):
+        parts = "D . 'MODELE' = SOFT ; " if of == "S" else PARTS.format(of=of)
+        result = run_text(GROUND + COLUMN + SOFT.format(of=of) + parts + load)
+        assert result.exit_code == 1
+        assert told in result.message, result.message
+        assert "PLASTIQUE PARFAIT" in result.message
+    material = "D . 'CARACTERISTIQUES' = MATE (D . 'MODELE') 'YOUN' 2.E8 'NU' 0.3 'RHO' 1900. "
+    ran(
+        GROUND + COLUMN + DRM + SOFT.format(of="INN") + PARTS.format(of="INN") + material
+        + "'SIGY' 1.E5 ; D . 'AMORTISSEURS' = CA ; CH = @DRM D ; D . 'FRONTIERE' = F ; "
+        "CH = @BORDS D ;"
+    )  # fmt: skip
 
 
 def test_domain_reduction_leaves_nothing_outside():

@@ -32,6 +32,26 @@ MESSAGES: dict[str, Message] = {
         "donner AMORTISSEURS, avec les matrices de DYNAMIC, ou un massif plus large",
         severity="warning",
     ),
+    "soil-yields-outside": Message(
+        "{count} {count:element|elements} of {law} (the first at {place:words}) "
+        "{count:is|are} in the layer or outside it, where the soil has to be linear",
+        "{count} {count:élément|éléments} de {law} (le premier en {place:words}) "
+        "{count:est|sont} dans la couche ou à l'extérieur, où le sol doit être linéaire",
+        "outside moves only what the structure sends back, which says nothing of yielding: make it "
+        "elastic there; soil inside the layer may yield",
+        "à l'extérieur ne bouge que ce que la structure renvoie, qui ne dit rien de la "
+        "plasticité : le rendre élastique ; le sol à l'intérieur de la couche peut plastifier",
+    ),
+    "soil-yields-at-edges": Message(
+        "{count} {count:element|elements} of {law} (the first at {place:words}) "
+        "{count:touches|touch} the edges, where the soil has to be linear",
+        "{count} {count:élément|éléments} de {law} (le premier en {place:words}) "
+        "{count:touche|touchent} les bords, où le sol doit être linéaire",
+        "the forces of the ground beyond come from the matrices of these elements: make a row of "
+        "elements at the edges elastic",
+        "les forces du sol au-delà viennent des matrices de ces éléments : rendre élastique une "
+        "rangée d'éléments le long des bords",
+    ),
     "wave-out-of-plane": Message(
         "{wave} waves are not available in dimension {dimension}",
         "les ondes {wave} ne sont pas disponibles en dimension {dimension}",

@@ -55,6 +55,7 @@ def zdrm(call: Call, table: Table) -> Load:
     from ssilang.kernel.waves.free_field_forces import elements_of, layer_forces, load_of
 
     entries = Entries(call, table, "@DRM")
+    _outside_is_linear(entries)
     layer = elements_of(_ground(entries), entries.needed("COUCHE"))
     motion = _motion(entries, layer.numbering)
     _tell_coarse(entries, motion)
@@ -84,12 +85,31 @@ def zbor(call: Call, table: Table) -> Load:
     from ssilang.kernel.waves.free_field_forces import edge_forces, elements_at, load_of
 
     entries = Entries(call, table, "@BORDS")
+    _edges_are_linear(entries)
     edge = entries.needed("FRONTIERE")
     row = elements_at(_ground(entries), edge)
     motion = _motion(entries, row.numbering)
     _tell_coarse(entries, motion)
     forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
     return load_of(row.numbering, motion.times, forces)
+
+
+def _outside_is_linear(entries: Entries) -> None:
+    """Refuse laws in the layer and outside it, where matrices stand for the ground."""
+    from ssilang.kernel.waves.yielding_cells import yielding_outside
+
+    found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
+    if found is not None:
+        raise entries.error("operators.dynamics.soil-yields-outside", **found.told())
+
+
+def _edges_are_linear(entries: Entries) -> None:
+    """Refuse laws in the elements at the edges, whose matrices stand for the ground beyond."""
+    from ssilang.kernel.waves.yielding_cells import yielding_at
+
+    found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
+    if found is not None:
+        raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
 
 
 def _ground(entries: Entries) -> Ground:
