@@ -53,6 +53,7 @@ PICTURES = {
     "seismic/tower_on_cones": {1: "tower_on_cones"},
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},
+    "seismic/oblique_waves": {1: "oblique_waves"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/reactor": {
         1: "reactor_open",

@@ -64,7 +64,7 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Questions", (("Questions", "docs/faq.md"),)),
     ("Physics", (
         ("The equations", "docs/physics.md"), ("Plastic bodies", "docs/laws.md"),
-        ("When it matters", "docs/matter.md"),
+        ("When it matters", "docs/matter.md"), ("Waves and edges", "docs/waves.md"),
     )),
     ("Others", (("OpenSees", "docs/opensees.md"), ("Cast3M", "docs/differences.md"))),
     ("Français", (

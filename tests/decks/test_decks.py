@@ -54,6 +54,7 @@ SPOILT = [
     ("seismic/tower_on_cones.ssi", "'RAYON' = R0", "'RAYON' = 1.02 * R0"),
     ("seismic/isolated_block.ssi", "'FROT' MU0", "'FROT' (1.01 * MU0)"),
     ("seismic/record_to_verdict.ssi", "LFO0 = 1.2 *", "LFO0 = 1.21 *"),
+    ("seismic/oblique_waves.ssi", "TCO . 'YOUNG' = YOUS", "TCO . 'YOUNG' = (1.05 * YOUS)"),
     ("seismic/soil_column.ssi", "'GAMR' GR0", "'GAMR' (1.02 * GR0)"),
     ("starters/oscillator.ssi", "'INRY' INE0 'INRZ' INE0", "'INRY' INE0 'INRZ' (1.02 * INE0)"),
     ("starters/frame.ssi", "(-1. * G0)", "(-1.001 * G0)"),
