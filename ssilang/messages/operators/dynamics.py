@@ -100,6 +100,17 @@ MESSAGES: dict[str, Message] = {
         "avant d'être ressenties",
         severity="warning",
     ),
+    "layer-too-coarse": Message(
+        "the layer from {top:.4g} to {bottom:.4g} m below the surface has nodes {height:.3g} m "
+        "apart: at {frequency:.3g} Hz and {speed:.4g} m/s they may be {wanted:.3g} m ({nodes} a "
+        "wavelength)",
+        "la couche de {top:.4g} à {bottom:.4g} m sous la surface a des noeuds distants de "
+        "{height:.3g} m : à {frequency:.3g} Hz et {speed:.4g} m/s ils peuvent l'être de "
+        "{wanted:.3g} m ({nodes} par longueur d'onde)",
+        "make the layer's mesh finer, or lower FC if less matters",
+        "affiner le maillage de la couche, ou baisser FC si moins importe",
+        severity="warning",
+    ),
     "footing-not-kept": Message(
         "the displacements have nothing at {node}, a node of the joints",
         "les déplacements n'ont rien à {node}, un noeud des joints",
