@@ -32,6 +32,19 @@ MESSAGES: dict[str, Message] = {
         "donner AMORTISSEURS, avec les matrices de DYNAMIC, ou un massif plus large",
         severity="warning",
     ),
+    "reflection-of-layer": Message(
+        "REFLEXION is between 0 and 1, not {reflection:g}",
+        "REFLEXION est entre 0 et 1, pas {reflection:g}",
+    ),
+    "thin-layer": Message(
+        "the layer is {cells:.2g} elements thick: with fewer than {fewest} it reflects as much as "
+        "dampers",
+        "la couche a {cells:.2g} éléments d'épaisseur : avec moins de {fewest} elle réfléchit "
+        "autant que des amortisseurs",
+        "8 elements are usual",
+        "8 éléments sont l'usage",
+        severity="warning",
+    ),
     "soil-yields-outside": Message(
         "{count} {count:element|elements} of {law} (the first at {place:words}) "
         "{count:is|are} in the layer or outside it, where the soil has to be linear",
