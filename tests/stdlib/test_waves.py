@@ -323,6 +323,27 @@ def test_a_record_of_the_surface_comes_back_there(kind, component):
     assert np.abs(deep).max() > 0.5
 
 
+def begun(peak):
+    """Seconds that @ONDE wants before a record, 0 if it says nothing; SV at 40 degrees."""
+    result = ran(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (20. -10.) ; W = TABL ; "
+        f"LT = PROG 0. PAS 0.01 {peak + 1} ; LX = (LT - {peak}) * (PI * 3.) ; LX = LX * LX ; "
+        "W . 'POINTS' = L ; W . 'POINT' = 0. 0. ; W . 'ONDE' = 'SV' ; W . 'ANGLE' = 40. ; "
+        "C = TABL ; C . 'YOUNG' = 2.E8 ; C . 'POISSON' = 0.3 ; C . 'MASSE_VOLUMIQUE' = 1900. ; "
+        "W . 'COUCHES' = TABL ; W . 'COUCHES' . 1 = C ; "
+        "W . 'ACCELERATION' = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ; R = @ONDE W ;"
+    )
+    return sum(w.data["seconds"] for w in result.session.warnings)
+
+
+def test_a_wave_beyond_the_critical_angle_is_said_to_begin_as_early_as_it_does():
+    # total reflection turns the phase: the motion grows from ever, as the inverse square of time
+    wanted = begun(0.6)
+    assert wanted > 0.3
+    assert begun(round(0.6 + 1.1 * wanted, 2)) == 0
+    assert begun(round(0.6 + 0.7 * wanted, 2)) == pytest.approx(0.3 * wanted, rel=0.3)
+
+
 def test_coarse_elements_and_reflecting_edges_are_told():
     result = ran(GROUND + COLUMN + DRM + "D . 'FREQUENCE' = 100. ; CH = @DRM D ;")
     warnings = {w.code: w.data for w in result.session.warnings}
