@@ -32,6 +32,31 @@ MESSAGES: dict[str, Message] = {
         "donner AMORTISSEURS, avec les matrices de DYNAMIC, ou un massif plus large",
         severity="warning",
     ),
+    "reflection-of-layer": Message(
+        "REFLEXION is between 0 and 1, not {reflection:g}",
+        "REFLEXION est entre 0 et 1, pas {reflection:g}",
+    ),
+    "thin-layer": Message(
+        "the layer is {cells:.2g} elements thick: with fewer than {fewest} it reflects as much as "
+        "dampers",
+        "la couche a {cells:.2g} éléments d'épaisseur : avec moins de {fewest} elle réfléchit "
+        "autant que des amortisseurs",
+        "8 elements are usual",
+        "8 éléments sont l'usage",
+        severity="warning",
+    ),
+    "free-field-yields": Message(
+        "the free field has yielded where the linear ground of the box takes its motion: {count} "
+        "{count:element|elements}, the most at {place:words} (cumulated plastic strain "
+        "{strain:.3g})",
+        "le champ libre a plastifié là où le sol linéaire du massif prend son mouvement : {count} "
+        "{count:élément|éléments}, le plus en {place:words} (déformation plastique cumulée "
+        "{strain:.3g})",
+        "no linear ground moves so: a linear column, of the moduli that ISSLEQ finds, given to the "
+        "box too",
+        "aucun sol linéaire ne bouge ainsi : une colonne linéaire, aux modules que trouve ISSLEQ, "
+        "donnés aussi au massif",
+    ),
     "soil-yields-outside": Message(
         "{count} {count:element|elements} of {law} (the first at {place:words}) "
         "{count:is|are} in the layer or outside it, where the soil has to be linear",
