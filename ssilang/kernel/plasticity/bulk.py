@@ -55,6 +55,8 @@ class Answer:
         Work of the stresses over the step (average of both ends).
     rate : array (n,) or None
         Change of the forces with the time alone, where they have one.
+    beyond : tuple of array (n_cells,) or None
+        How far cells of each zone are beyond yielding at most, where compiled passes tell.
     """
 
     force: FloatArray
@@ -62,6 +64,7 @@ class Answer:
     state: State
     work: float
     rate: FloatArray | None = None
+    beyond: tuple[FloatArray | None, ...] = ()
 
     @cached_property
     def tangent(self) -> sp.csr_array:
@@ -71,11 +74,15 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class _OfZone:
-    """A zone's state after a step, the work over it, and what adds its tangent to terms (nnz,)."""
+    """A zone's state after a step, the work over it, and what adds its tangent to terms (nnz,).
+
+    Where the zone is passed by compiled code, `beyond` (n_cells,) as `pass_over` has it.
+    """
 
     state: PointState
     work: float
     add_tangent: Callable[[FloatArray], None]
+    beyond: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +143,8 @@ class Bulk:
                 one.add_tangent(data)
             return self.terms.matrix(data)
 
-        return Answer(force, tangent, tuple(f.state for f in found), sum(f.work for f in found))
+        states, work = tuple(f.state for f in found), sum(f.work for f in found)
+        return Answer(force, tangent, states, work, beyond=tuple(f.beyond for f in found))
 
     def _respond(
         self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray
@@ -148,13 +156,13 @@ class Bulk:
             freed = free - old.free
         compiled = self.passes[i]
         if compiled is not None:
-            new, work = compiled.respond(old, du, freed, force)
+            new, work, beyond = compiled.respond(old, du, freed, force)
 
             def add_tangent(data: FloatArray) -> None:
                 compiled.add_tangent(old, du, freed, self.terms.slots[i], data)
 
             state = PointState(new.stress, new.plastic, free, new.variables, time)
-            return _OfZone(state, work, add_tangent)
+            return _OfZone(state, work, add_tangent, beyond)
         zone, places = self.zones[i], self.places[i]
         strain = zone.strains(du[places])
         strain = strain - freed if len(freed) else strain

@@ -171,8 +171,9 @@ def cone_point(
 ) -> float:
     """Return a trial stress s (6,) to the cone, in place; the cumulated strain.
 
-    Where it flows N (6,) is 3/2 of the deviator over q. With `tangent`, t (5,) are the factors of
-    `1 x 1`, of the deviatoric part, of `N x N`, `1 x N`, `N x 1` in the tangent.
+    Where it flows N (6,) is 3/2 of the deviator over q. t[5] is how far the trial stress is beyond
+    the surface, of the stresses at play. With `tangent`, t[:5] are the factors of `1 x 1`, of the
+    deviatoric part, of `N x N`, `1 x N`, `N x 1` in the tangent.
     """
     c = cone.rows[row]
     G, B = c[ConeColumn.SHEAR], c[ConeColumn.BULK]
@@ -187,7 +188,9 @@ def cone_point(
         t[0], t[1], t[2], t[3], t[4] = B, 2.0 * G, 0.0, 0.0, 0.0
     K = strength_at(cone, row, p)[0]
     size = abs(K) + beta * q + abs(alpha * trace)
-    if alpha * trace + beta * q - K <= YIELDS * size:
+    beyond = alpha * trace + beta * q - K
+    t[5] = beyond / max(size, 1e-300)
+    if beyond <= YIELDS * size:
         return p
     gamma, delta = c[ConeColumn.GAMMA], c[ConeColumn.DELTA]
     growth = math.sqrt(delta**2 + 2.0 * gamma**2)

@@ -76,7 +76,7 @@ class Space(NamedTuple):
     """Working space of a pass: compiled code that makes arrays counts references to all of them.
 
     Displacements and forces (n_rows,) of an element, its matrix, strains (6,) of a point and room
-    (5, 6) for its law.
+    (6, 6) for its law.
     """
 
     u: FloatArray
@@ -89,7 +89,7 @@ class Space(NamedTuple):
 def _space(n_rows: int) -> Space:
     return Space(
         np.zeros(n_rows), np.zeros(n_rows), np.zeros((n_rows, n_rows)), np.zeros(6),
-        np.zeros((5, 6)),
+        np.zeros((6, 6)),
     )  # fmt: skip
 
 
@@ -116,28 +116,38 @@ def _strained(c: FloatArray, s: FloatArray, e: FloatArray) -> None:
 
 
 @compiled_inline
+def _returned(
+    cone: ConeRows, at: int, e: FloatArray, old: Points, room: FloatArray, tangent: bool
+) -> float:
+    """The law at a point: stress room[0] after strains e (6,), room[5] without flow; its strain."""
+    row, s, trial = cone.of[at], room[0], room[5]
+    _trial(cone.rows[row], old.stress[at], e, trial)
+    moves = old.variables.shape[1] > 1
+    for i in range(6):
+        s[i] = trial[i] - old.variables[at, 1 + i] if moves else trial[i]
+    before = old.variables[at, 0]
+    p = cone_point(cone, row, s, before, room[1], room[2], tangent)
+    if moves:
+        for i in range(6):
+            s[i] += old.variables[at, 1 + i]
+    return p
+
+
+@compiled_inline
 def _point(
     cone: ConeRows, at: int, e: FloatArray, old: Points, new: Points, room: FloatArray,
     tangent: bool,
 ) -> float:  # fmt: skip
     """The law at a point: its new state; twice the work of the step.
 
-    `room` (5, 6) is working space: s, N, t, differences.
+    `room` (6, 6) is working space: s, N, t, differences, strains, s without flow.
     """
-    row = cone.of[at]
-    c, s, N, t, d = cone.rows[row], room[0], room[1], room[2], room[3]
-    _trial(c, old.stress[at], e, s)
-    moves = old.variables.shape[1] > 1
-    if moves:
-        for i in range(6):
-            s[i] -= old.variables[at, 1 + i]
-    before = old.variables[at, 0]
-    p = cone_point(cone, row, s, before, N, t, tangent)
+    p, c = _returned(cone, at, e, old, room, tangent), cone.rows[cone.of[at]]
+    s, N, d, before = room[0], room[1], room[3], old.variables[at, 0]
     new.variables[at, 0] = p
-    if moves:
+    if old.variables.shape[1] > 1:
         H = c[ConeColumn.KINEMATIC] * (p - before) / 1.5
         for i in range(6):
-            s[i] += old.variables[at, 1 + i]
             new.variables[at, 1 + i] = old.variables[at, 1 + i] + (H * N[i] if p > before else 0.0)
     work = 0.0
     for i in range(6):
@@ -171,10 +181,46 @@ def _tangent(N: FloatArray, t: FloatArray, components: IntArray, D: FloatArray) 
             D[a, b] = value
 
 
+@compiled_inline
+def _strain(cells: Cells, k: int, j: int, u: FloatArray, e: FloatArray) -> None:
+    """Strains e (6,) of a point j of cell k that moves by u (n_rows,)."""
+    start, rows = cells.start, cells.rows
+    for a in range(len(cells.components)):
+        total = 0.0
+        for i in range(start[a], start[a + 1]):
+            total += cells.terms[k, j, i] * u[rows[i]]
+        e[cells.components[a]] = total
+
+
+@compiled_fused
+def flow_over(
+    cells: Cells, cone: ConeRows, old: Points, du: FloatArray, which: IntArray, force: FloatArray,
+    space: Space,
+) -> None:  # fmt: skip
+    """Add to `force` (n,) what flow takes away from the forces of some cells in a step du (n,)."""
+    n_rows = cells.places.shape[1]
+    n_points, n_strains = cells.weights.shape[1], len(cells.components)
+    u, e, room = space.u, space.e, space.point
+    start, rows, components = cells.start, cells.rows, cells.components
+    for k in which:
+        for r in range(n_rows):
+            u[r] = du[cells.places[k, r]]
+        for j in range(n_points):
+            at = k * n_points + j
+            _strain(cells, k, j, u, e)
+            p = _returned(cone, at, e, old, room, False)
+            if p == old.variables[at, 0]:
+                continue
+            for a in range(n_strains):
+                value = cells.weights[k, j] * (room[0, components[a]] - room[5, components[a]])
+                for i in range(start[a], start[a + 1]):
+                    force[cells.places[k, rows[i]]] += cells.terms[k, j, i] * value
+
+
 @compiled_fused
 def pass_over(
     cells: Cells, cone: ConeRows, old: Points, du: FloatArray, freed: FloatArray, new: Points,
-    force: FloatArray, D: FloatArray, space: Space,
+    force: FloatArray, D: FloatArray, beyond: FloatArray, space: Space,
 ) -> float:  # fmt: skip
     """The state after a step du (n,) of displacement, its forces added to `force` (n,).
 
@@ -184,6 +230,8 @@ def pass_over(
         Strain of the step without stress, or no rows.
     D : array (m, n_strains, n_strains)
         Filled with the tangents, unless it has no rows.
+    beyond : array (n_cells,)
+        How far stresses without flow are beyond their surfaces at most, of the stresses at play.
 
     Returns
     -------
@@ -200,20 +248,17 @@ def pass_over(
         for r in range(n_rows):
             u[r] = du[places[k, r]]
             f[r] = 0.0
+        beyond[k] = -1.0
         for j in range(n_points):
             at = k * n_points + j
-            # strains of the point
-            for a in range(n_strains):
-                total = 0.0
-                for i in range(start[a], start[a + 1]):
-                    total += terms[k, j, i] * u[rows[i]]
-                e[components[a]] = total
+            _strain(cells, k, j, u, e)
             if len(freed):
                 for i in range(6):
                     e[i] -= freed[at, i]
             # law
             w = weights[k, j]
             work += 0.5 * w * _point(cone, at, e, old, new, room, tangent)
+            beyond[k] = max(beyond[k], room[2, 5])
             if tangent:
                 _tangent(room[1], room[2], components, D[at])
             # forces
@@ -275,6 +320,14 @@ def _room_for(state: PointState) -> Points:
     )
 
 
+class Passed(NamedTuple):
+    """What a pass gives: state, work over the step, `beyond` (n_cells,) as `pass_over` says."""
+
+    points: Points
+    work: float
+    beyond: FloatArray
+
+
 class ZonePass:
     """The passes of a zone."""
 
@@ -283,18 +336,20 @@ class ZonePass:
         self._space = _space(places.shape[1])
 
     def respond(
-        self, old: PointState, du: FloatArray, freed: FloatArray, force: FloatArray
-    ) -> tuple[Points, float]:
-        """State after a step du (n,) and work over it; the zone's forces are added to `force`."""
-        new = _room_for(old)
-        return new, self._pass(old, du, freed, new, force, _NO_TANGENTS)
-
-    def _pass(
-        self, old: PointState, du: FloatArray, freed: FloatArray, new: Points, force: FloatArray,
-        D: FloatArray,
-    ) -> float:  # fmt: skip
+        self, old: PointState, du: FloatArray, freed: FloatArray, force: FloatArray,
+        D: FloatArray = _NO_TANGENTS,
+    ) -> Passed:  # fmt: skip
+        """What a step du (n,) leads to; the zone's forces are added to `force` (n,)."""
+        new, beyond = _room_for(old), np.empty(len(self.cells.weights))
         before = _points(old)
-        return pass_over(self.cells, self.cone, before, du, freed, new, force, D, self._space)
+        work = pass_over(
+            self.cells, self.cone, before, du, freed, new, force, D, beyond, self._space
+        )
+        return Passed(new, work, beyond)
+
+    def flow(self, old: PointState, du: FloatArray, which: IntArray, force: FloatArray) -> None:
+        """Add to `force` what flow takes away from the forces of cells `which` in a step."""
+        flow_over(self.cells, self.cone, _points(old), du, which, force, self._space)
 
     def add_tangent(
         self, old: PointState, du: FloatArray, freed: FloatArray, slots: NDArray[np.int32],
@@ -302,8 +357,8 @@ class ZonePass:
     ) -> None:  # fmt: skip
         """The zone's tangent of that step into the terms of a matrix."""
         s = len(self.cells.components)
-        D, force = np.empty((len(old.stress), s, s)), np.zeros_like(du)
-        self._pass(old, du, freed, _room_for(old), force, D)
+        D = np.empty((len(old.stress), s, s))
+        self.respond(old, du, freed, np.zeros_like(du), D)
         add_stiffness(self.cells, D, slots, data, self._space)
 
 

@@ -69,7 +69,8 @@ def test_a_pass_gives_what_the_law_does(name: str) -> None:
     places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
     zone = ZonePass(points, cone, places)  # type: ignore[arg-type]
     force = np.zeros(6 * M)
-    new, work = zone.respond(old, strain.ravel(), freed, force)
+    new, work, beyond = zone.respond(old, strain.ravel(), freed, force)
+    assert np.array_equal(beyond > 1e-14, flows)
     assert np.allclose(new.stress, found.stress, rtol=0, atol=1e-13)
     assert np.allclose(new.variables, found.variables, rtol=0, atol=1e-14)
     assert np.allclose(force.reshape(M, 6), 2 * found.stress, rtol=0, atol=1e-12)
