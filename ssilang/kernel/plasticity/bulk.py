@@ -156,13 +156,13 @@ class Bulk:
             freed = free - old.free
         compiled = self.passes[i]
         if compiled is not None:
-            new, work, beyond = compiled.respond(old, du, freed, force)
+            new = compiled.respond(old, du, freed, force)
 
             def add_tangent(data: FloatArray) -> None:
                 compiled.add_tangent(old, du, freed, self.terms.slots[i], data)
 
             state = PointState(new.stress, new.plastic, free, new.variables, time)
-            return _OfZone(state, work, add_tangent, beyond)
+            return _OfZone(state, new.work, add_tangent, new.beyond)
         zone, places = self.zones[i], self.places[i]
         strain = zone.strains(du[places])
         strain = strain - freed if len(freed) else strain

@@ -78,18 +78,26 @@ def cone_rows(law: PlasticLaw, parameters: PointParameters) -> ConeRows | None:
     for name in law.curves:
         curves, which = parameters.curves[name]
         table[:, ConeColumn.CURVE] = which
-    rows, of = np.unique(table, axis=0, return_inverse=True)
+    rows, of = _different(table)
     x = [np.asarray(c.parts[0].abscissas, float) for c in curves]
     y = [np.asarray(c.parts[0].ordinates, float) for c in curves]
     start = np.concatenate([[0], np.cumsum([len(v) for v in x])]).astype(np.int64)
     none = [np.zeros(0)]
     return ConeRows(
-        np.ascontiguousarray(rows),
-        of.ravel().astype(np.int64),
+        rows,
+        of,
         start,
         np.concatenate(x or none),
         np.concatenate(y or none),
     )
+
+
+def _different(table: FloatArray) -> tuple[FloatArray, IntArray]:
+    """The rows that differ, and which of them each row is; most tables have few, in long runs."""
+    begins = np.flatnonzero(np.concatenate([[True], (table[1:] != table[:-1]).any(axis=1)]))
+    rows, of = np.unique(table[begins], axis=0, return_inverse=True)
+    lengths = np.diff(np.concatenate([begins, [len(table)]]))
+    return np.ascontiguousarray(rows), np.repeat(of.ravel().astype(np.int64), lengths)
 
 
 @compiled
@@ -171,9 +179,8 @@ def cone_point(
 ) -> float:
     """Return a trial stress s (6,) to the cone, in place; the cumulated strain.
 
-    Where it flows N (6,) is 3/2 of the deviator over q. t[5] is how far the trial stress is beyond
-    the surface, of the stresses at play. With `tangent`, t[:5] are the factors of `1 x 1`, of the
-    deviatoric part, of `N x N`, `1 x N`, `N x 1` in the tangent.
+    Where it flows N (6,) is 3/2 of the deviator over q. With `tangent`, t (5,) are the factors of
+    `1 x 1`, of the deviatoric part, of `N x N`, `1 x N`, `N x 1` in the tangent.
     """
     c = cone.rows[row]
     G, B = c[ConeColumn.SHEAR], c[ConeColumn.BULK]
@@ -188,9 +195,7 @@ def cone_point(
         t[0], t[1], t[2], t[3], t[4] = B, 2.0 * G, 0.0, 0.0, 0.0
     K = strength_at(cone, row, p)[0]
     size = abs(K) + beta * q + abs(alpha * trace)
-    beyond = alpha * trace + beta * q - K
-    t[5] = beyond / max(size, 1e-300)
-    if beyond <= YIELDS * size:
+    if alpha * trace + beta * q - K <= YIELDS * size:
         return p
     gamma, delta = c[ConeColumn.GAMMA], c[ConeColumn.DELTA]
     growth = math.sqrt(delta**2 + 2.0 * gamma**2)

@@ -240,7 +240,7 @@ class AcceleratedSolver(BulkSolver):
             if known.elastic and panels is not None:
                 part = part_of(self.bulk, by_zone(self.bulk, self.cells), known.T, panels)
             else:
-                part = whole_part(self.bulk, known.T, panels)
+                part = whole_part(known.T, panels)
             self._part = (self.cells, known, part)
         return self._part[2]
 
@@ -298,16 +298,15 @@ class AcceleratedSolver(BulkSolver):
             change = self.share * (step.answer.force - self.force) - known.K @ step.du
             return np.asarray(part.T.T @ change)
         flow = np.zeros(len(step.du))
-        for passed, old, cells in zip(self.bulk.passes, self.state, part.cells, strict=True):
-            assert passed is not None
-            passed.flow(old, step.du, cells, flow)
+        for over, old in zip(part.passes, self.state, strict=True):
+            over.flow(old, step.du, flow)
         return np.asarray(part.T.T @ (self.share * flow[part.unknowns]))
 
     def _whole(self, step: Step) -> float:
         """Move all, and have all bodies answer: what is out of balance, of the forces at play."""
         known, factor = step.known, step.known.dissected
         panels = None if factor is None else factor.panels
-        if not self._moved(step, whole_part(self.bulk, known.T, panels)):
+        if not self._moved(step, whole_part(known.T, panels)):
             return np.inf
         step.answer = self.bulk.respond(self.state, step.du, self.time)
         return self._residual(step)

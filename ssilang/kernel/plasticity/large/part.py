@@ -15,6 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Answer, Bulk
+from ssilang.kernel.plasticity.large.passes import ZonePass
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 
 NEAR = -0.12
@@ -31,8 +32,8 @@ class Part:
 
     Attributes
     ----------
-    cells : tuple of array
-        Of each zone, increasing.
+    passes : tuple of ZonePass
+        Over the cells of each zone; none for all cells.
     unknowns : array (a,)
     T : csr array (a, m)
         Their motions by scaled independent unknowns.
@@ -42,19 +43,18 @@ class Part:
         Supernodes from their own to the root: first and behind the last of those in a row.
     """
 
-    cells: tuple[IntArray, ...]
+    passes: tuple[ZonePass, ...]
     unknowns: IntArray
     T: sp.csr_array
     places: IntArray
     runs: IntArray
 
 
-def whole_part(bulk: Bulk, T: sp.csr_array, panels: Panels | None) -> Part:
+def whole_part(T: sp.csr_array, panels: Panels | None) -> Part:
     """All cells; T (n, r) has its columns in the order of elimination."""
-    cells = tuple(np.arange(len(p)) for p in bulk.places)
     count = 0 if panels is None else len(panels.first) - 1
     runs = np.array([[0, count]], dtype=np.int64)
-    return Part(cells, np.arange(T.shape[0]), T, np.arange(T.shape[1]), runs)
+    return Part((), np.arange(T.shape[0]), T, np.arange(T.shape[1]), runs)
 
 
 def part_of(bulk: Bulk, cells: tuple[IntArray, ...], T: sp.csr_array, panels: Panels) -> Part:
@@ -74,7 +74,10 @@ def part_of(bulk: Bulk, cells: tuple[IntArray, ...], T: sp.csr_array, panels: Pa
     nodes[np.searchsorted(panels.first, places, side="right") - 1] = True
     _up_to_the_root(panels.first, panels.ptr, panels.rows, nodes)
     ends = np.flatnonzero(np.diff(np.concatenate([[0], nodes.view(np.int8), [0]])))
-    return Part(cells, unknowns, own_T, places, ends.reshape(-1, 2).astype(np.int64))
+    pairs = zip(bulk.passes, cells, strict=True)
+    passes = tuple(whole.of(own) for whole, own in pairs if whole is not None)
+    runs = ends.reshape(-1, 2).astype(np.int64)
+    return Part(passes, unknowns, own_T, places, runs)
 
 
 @compiled
