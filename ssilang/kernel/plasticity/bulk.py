@@ -207,7 +207,8 @@ class Bulk:
 
     def stored(self, state: State) -> float:
         """Elastic energy."""
-        return sum(z.stored(s) for z, s in zip(self.zones, state, strict=True))
+        pairs = zip(self.passes, self.zones, state, strict=True)
+        return sum((z if over is None else over).stored(s) for over, z, s in pairs)
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars)."""
@@ -227,7 +228,8 @@ class Bulk:
 
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:
-    plain = type(points) is PlasticPoints and points.law.columns is not None
+    law = points.law
+    plain = type(points) is PlasticPoints and law.columns is not None and law.locked is None
     if not plain or points.count < MANY_POINTS:
         return None
     from ssilang.kernel.plasticity.large.passes import zone_pass

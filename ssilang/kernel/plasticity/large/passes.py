@@ -400,6 +400,19 @@ def _stressed(cells: Cells, start: Start, first: int, n: int, new: Points, space
     return 0.5 * total
 
 
+@compiled_fast
+def energy(cells: Cells, start: Start) -> float:
+    """Elastic energy of the stresses."""
+    s, total = start.points.stress, 0.0
+    for x in range(len(cells.weights)):
+        trace = s[0, x] + s[1, x] + s[2, x]
+        square = s[0, x] * s[0, x] + s[1, x] * s[1, x] + s[2, x] * s[2, x]
+        square += 2.0 * (s[3, x] * s[3, x] + s[4, x] * s[4, x] + s[5, x] * s[5, x])
+        own = (square - trace * trace / 3.0) / (4.0 * start.given[SHEAR, x])
+        total += cells.weights[x] * (own + trace * trace / (18.0 * start.given[BULK, x]))
+    return total
+
+
 @compiled_fused
 def _forces(cells: Cells, block: int, first: int, n: int, force: FloatArray, space: Space) -> None:
     """Add the forces of a block's cells."""
@@ -495,14 +508,19 @@ class ZonePass:
         """A state as passes read it."""
         if self._last is not None and self._last[0] is old:
             return self._last[1]
-        arrays = (old.stress.T, old.plastic.T, old.variables.T)
-        if self._points is not None:
-            arrays = tuple(x[:, self._points] for x in arrays)
-        own = Points(*(np.ascontiguousarray(x) for x in arrays))
+        own = Points(*(self._read(x) for x in (old.stress, old.plastic, old.variables)))
         start = Start(own, np.empty((5, own.stress.shape[1])))
         prepare(self.cone, own.variables[0], start.given)
         self._last = (old, start)
         return start
+
+    def _read(self, values: FloatArray) -> FloatArray:
+        own = values.T if self._points is None else values.T[:, self._points]
+        return np.ascontiguousarray(own)
+
+    def stored(self, state: PointState) -> float:
+        """Elastic energy."""
+        return energy(self.cells, self.start(state))
 
     def respond(
         self, old: PointState, du: FloatArray, freed: FloatArray, force: FloatArray,

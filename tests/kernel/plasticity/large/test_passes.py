@@ -79,12 +79,35 @@ def test_a_pass_gives_what_the_law_does(name: str) -> None:
     assert np.allclose(new.plastic, flowed, rtol=0, atol=1e-15)
     mean = 0.5 * (old.stress + found.stress)
     assert new.work == pytest.approx(2 * np.sum(mean * (strain - freed)), rel=1e-12)
+    density = parameters.elastic_energy(found.stress)
+    state = PointState(new.stress, new.plastic, old.free, new.variables)
+    assert zone.stored(state) == pytest.approx(2 * density.sum(), rel=1e-12)
 
     pattern = Pattern.of(assemble_triplets([places], [np.ones((M, 6, 6))], 6 * M), [places])
     data = pattern.blank()
     zone.add_tangent(old, strain.ravel(), freed, pattern.slots[0], data)
     tangents = data.reshape(M, 6, 6) / 2
     assert np.allclose(tangents, found.tangent, rtol=0, atol=1e-12 * np.abs(found.tangent).max())
+
+
+def test_what_flow_takes_away_is_what_the_law_does_of_some_cells() -> None:
+    rng, law = np.random.default_rng(2), PLASTIC_LAWS["CINEMATIQUE"]
+    ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45), "SIGY": (1, 2), "H": (0, 300)}
+    parameters = PointParameters({k: rng.uniform(*r, M) for k, r in ranges.items()}, {})
+    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 2e-3
+    found = law.respond(parameters, old.stress, strain, old.variables)
+    elastic = old.stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
+    cone = cone_rows(law, parameters)
+    assert cone is not None
+    places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
+    cells = cells_of(Points(law, parameters), places)  # type: ignore[arg-type]
+    which = np.sort(rng.permutation(M)[: M // 3])
+    flow = np.zeros(6 * M)
+    ZonePass(cells, cone).of(which).flow(old, strain.ravel(), flow)
+    expected = np.zeros((M, 6))
+    expected[which] = 2 * (found.stress - elastic)[which]
+    assert 0.1 < np.mean((np.abs(expected) > 1e-9).any(axis=1)) < 0.33
+    assert np.allclose(flow.reshape(M, 6), expected, rtol=0, atol=1e-12)
 
 
 def test_only_cones_have_rows() -> None:
