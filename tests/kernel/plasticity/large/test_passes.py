@@ -94,7 +94,7 @@ def test_what_flow_takes_away_is_what_the_law_does_of_some_cells() -> None:
     rng, law = np.random.default_rng(2), PLASTIC_LAWS["CINEMATIQUE"]
     ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45), "SIGY": (1, 2), "H": (0, 300)}
     parameters = PointParameters({k: rng.uniform(*r, M) for k, r in ranges.items()}, {})
-    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 2e-3
+    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 4e-4
     found = law.respond(parameters, old.stress, strain, old.variables)
     elastic = old.stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
     cone = cone_rows(law, parameters)
@@ -106,7 +106,7 @@ def test_what_flow_takes_away_is_what_the_law_does_of_some_cells() -> None:
     ZonePass(cells, cone).of(which).flow(old, strain.ravel(), flow)
     expected = np.zeros((M, 6))
     expected[which] = 2 * (found.stress - elastic)[which]
-    assert 0.1 < np.mean((np.abs(expected) > 1e-9).any(axis=1)) < 0.33
+    assert 0.05 < np.mean((np.abs(expected) > 1e-9).any(axis=1)) < 0.3
     assert np.allclose(flow.reshape(M, 6), expected, rtol=0, atol=1e-12)
 
 
