@@ -26,7 +26,7 @@ from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.large.passes import ZonePass
+    from ssilang.kernel.plasticity.large.blocks import ZonePass
     from ssilang.kernel.plasticity.large.pattern import Pattern
 
 FreeStrain = Callable[[float], FloatArray]

@@ -10,7 +10,8 @@ from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw
 from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.matrices.assembly import assemble_triplets
-from ssilang.kernel.plasticity.large.passes import ZonePass, cells_of
+from ssilang.kernel.plasticity.large.blocks import cells_of
+from ssilang.kernel.plasticity.large.cones import ConePass
 from ssilang.kernel.plasticity.large.pattern import Pattern
 from ssilang.kernel.plasticity.points import PointState
 
@@ -67,7 +68,7 @@ def test_a_pass_gives_what_the_law_does(name: str) -> None:
     points, cone = Points(law, parameters), cone_rows(law, parameters)
     assert cone is not None
     places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
-    zone = ZonePass(cells_of(points, places), cone)  # type: ignore[arg-type]
+    zone = ConePass(cells_of(points, places), cone)  # type: ignore[arg-type]
     force = np.zeros(6 * M)
     new = zone.respond(old, strain.ravel(), freed, force)
     assert np.array_equal(new.beyond > 1e-14, flows)
@@ -103,7 +104,7 @@ def test_what_flow_takes_away_is_what_the_law_does_of_some_cells() -> None:
     cells = cells_of(Points(law, parameters), places)  # type: ignore[arg-type]
     which = np.sort(rng.permutation(M)[: M // 3])
     flow = np.zeros(6 * M)
-    ZonePass(cells, cone).of(which).flow(old, strain.ravel(), flow)
+    ConePass(cells, cone).of(which).flow(old, strain.ravel(), flow)
     expected = np.zeros((M, 6))
     expected[which] = 2 * (found.stress - elastic)[which]
     assert 0.05 < np.mean((np.abs(expected) > 1e-9).any(axis=1)) < 0.3
