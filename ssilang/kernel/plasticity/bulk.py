@@ -229,7 +229,7 @@ class Bulk:
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:
     law = points.law
-    plain = type(points) is PlasticPoints and law.columns is not None and law.locked is None
+    plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
     if not plain or points.count < MANY_POINTS:
         return None
     from ssilang.kernel.plasticity.large.passes import zone_pass
