@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,8 @@ HALVINGS = 7
 """How often a step that does not converge is cut in two."""
 MANY = 1_000
 """Unknowns from which steps keep a factor; below, factors take less than the loading of code."""
+WORTH = 30_000
+"""Points times steps from which a zone is worth the loading of compiled code."""
 SAME_STEP = 1e-9
 """Relative difference below which two steps of time share their matrix."""
 
@@ -138,7 +140,7 @@ def step_bulk_statics(run: BulkRun) -> History:
     problem = run.problem
     factors = problem.loading.at(problem.times)
     with _recorded(run) as history:
-        solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
+        solver = newton_solver(problem, problem.K, 1.0, run.bulk, run.state)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
         history.energies[0] = run.motion.energies
         steps = KeptSteps(run.keeper, history, run.motion, solver, run)
@@ -308,6 +310,16 @@ def _start(run: BulkRun, factors: FloatArray) -> None:
     m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
 
 
+def newton_solver(
+    problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
+) -> BulkSolver:
+    """Newton's method on all unknowns, with dense matrices where these are few."""
+    from ssilang.kernel.plasticity.small.dense import DenseSolver, is_small
+
+    chosen = DenseSolver if is_small(problem, bulk) else BulkSolver
+    return chosen(problem, A, share, bulk, state)
+
+
 class _BulkLoop(SparseLoop):
     """The steps of `SparseLoop` with the bodies' forces among the loads."""
 
@@ -352,7 +364,7 @@ class _BulkLoop(SparseLoop):
     def _made(self, A: sp.csr_array, dt: float, share: float) -> BulkSolver:
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
         if self.bulk_run.full or self.problem.numbering.size < MANY:
-            return BulkSolver(self.problem, A, share, bulk, state)
+            return newton_solver(self.problem, A, share, bulk, state)
         from ssilang.kernel.plasticity.large.accelerated import AcceleratedSolver, is_accelerated
 
         if is_accelerated(self.problem, bulk, A):
@@ -400,5 +412,7 @@ def run_bulk(
     full: bool = False,
 ) -> History:
     """Step a problem with plastic bodies through its times."""
+    if type(bulk) is Bulk and bulk.least * len(problem.times) > WORTH:
+        bulk = replace(bulk, least=WORTH // len(problem.times))
     run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper, full=full)
     return integrate_bulk(run) if dynamic else step_bulk_statics(run)

@@ -383,8 +383,10 @@ class ZonePass:
         if len(self.cells.places):
             self.flow_over(self.start(old), du, force)
 
-    def blank_tangents(self) -> FloatArray:
-        """Room for the tangents (m, n_strains, n_strains)."""
+    def blank_tangents(self, wanted: bool = True) -> FloatArray:
+        """Room for the tangents (m, n_strains, n_strains), or for none."""
+        if not wanted:
+            return NO_TANGENTS
         s = len(self.cells.components)
         return np.empty((len(self.cells.weights), s, s))
 
