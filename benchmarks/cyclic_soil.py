@@ -77,11 +77,13 @@ class Top:
     def __init__(self, node: int) -> None:
         self.node, self.wanted = node, np.ones(STEPS + 1, bool)
         self.values: list[float] = []
+        self.at = -1
 
     def receive(self, snapshot: Snapshot) -> None:
         """One more instant."""
-        at = snapshot.problem.numbering.index_of(self.node, "UX")
-        self.values.append(float(snapshot.u[at]))
+        if self.at < 0:
+            self.at = snapshot.problem.numbering.index_of(self.node, "UX")
+        self.values.append(float(snapshot.u[self.at]))
 
     def close(self) -> None:
         """Nothing to close."""

@@ -328,16 +328,19 @@ class _BulkLoop(SparseLoop):
         self.bulk_run = run
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
         self._closed = closed_at_start(run.problem)
+        self._increments = np.zeros((0, run.problem.numbering.size))
+        self._carries = type(run.bulk) is Bulk and run.problem.contact is None
         self._begin()
 
     def memory(self) -> dict[str, Any]:
         """Relations that are closed, and what the solvers of the step lengths remember."""
         solvers = [{"dt": dt, "kept": memory(solver)} for dt, solver, _ in self._solvers]
-        return {"closed": self._closed.copy(), "solvers": solvers}
+        increments = self._increments.copy()
+        return {"closed": self._closed.copy(), "solvers": solvers, "increments": increments}
 
     def recall(self, kept: dict[str, Any]) -> None:
         """Go on from a motion that was put back."""
-        self._closed[:] = kept["closed"]
+        self._closed[:], self._increments = kept["closed"], kept["increments"]
         for known in kept["solvers"]:
             recall(self._solver(known["dt"])[0], known["kept"])
         self._begin()
@@ -355,6 +358,16 @@ class _BulkLoop(SparseLoop):
             impact = ImpactRule(self.problem, effective, self.problem.contact, self._closed)
         self._solvers = [*self._solvers[-3:], (dt, solver, impact)]
         return solver, impact
+
+    def _guess(self, dt: float) -> FloatArray | None:
+        """The increment of a step as those of the last two go on, None where contact may change.
+
+        Points that flow have the tangent of flow from the first turn on.
+        """
+        if not self._carries or len(self._increments) < 2:
+            return None
+        found: FloatArray = dt * (2 * self._increments[1] - self._increments[0])
+        return found
 
     @property
     def kind(self) -> type[BulkSolver]:
@@ -382,9 +395,11 @@ class _BulkLoop(SparseLoop):
         r = self._predict(n, load0 - old, load1 - old)
         dd = p.loading.imposed @ factors[1] - p.constraints.C @ m.u
         pushed = m.contact.copy()
+        solver.guess = self._guess(dt)
         outcome = solver.solve(m, r, dd, self._gap(factors[1]))
         if outcome.turns <= 0:
             return outcome
+        self._increments = np.stack([*self._increments[-1:], outcome.du / dt])
         stored, driven = run.stored(), run.bulk.pushed(run.state)
         run.state, run.force = solver.state, solver.force
         driven = driven + run.bulk.pushed(run.state)

@@ -46,25 +46,26 @@ class DenseSolver(BulkSolver):
             if problem.interface is None
             else problem.interface.J.toarray()
         )
+        self._nothing, self._none = new_trial((0, 0), 0), np.zeros((0, 0))
+        self._at_play = np.zeros((5, A.shape[0]))
         self._J, self._JT, self._VJ = J, J @ self._T, self._Vt @ J.T
 
     def _trial(
         self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray
     ) -> BulkTrial:
-        joints = new_trial(motion.w.shape, len(motion.f))
-        answer = self.bulk.respond_whole(self.state, du, self.time)
-        linear = self._dense @ du
+        answer, at_play = self.bulk.respond_whole(self.state, du, self.time), self._at_play
+        at_play[0], at_play[2], at_play[3] = r, answer.force, self.force
+        linear = np.dot(self._dense, du, out=at_play[1])
         free = r - linear - self.share * (answer.force - self.force)
-        parts = [r, linear, answer.force, self.force]
-        K = np.zeros((0, 0))
+        joints, K = self._nothing, self._none
         if self.interface is not None:
-            K, force = self._jumped(motion, du, joints)
-            free -= force
-            parts.append(force)
+            joints = new_trial(motion.w.shape, len(motion.f))
+            K, at_play[4] = self._jumped(motion, du, joints)
+            free -= at_play[4]
         rest = self._Vt @ free
         stiff = max(self._stiff, _largest(answer.terms))
         floor = RIGID * stiff * min(_largest(du), self.extent)
-        scale = max(sum(_largest(x) for x in parts), floor, 1e-300)
+        scale = max(float(np.abs(at_play).max(axis=1).sum()), floor, 1e-300)
         return BulkTrial(du, answer, K, joints, rest, _largest(rest) / scale, free, pushed)
 
     def _jumped(
@@ -100,7 +101,7 @@ class DenseSolver(BulkSolver):
 
 
 def _largest(x: FloatArray) -> float:
-    return max(float(x.max(initial=0.0)), -float(x.min(initial=0.0)))
+    return float(np.abs(x).max()) if len(x) else 0.0
 
 
 def places_of(terms: Pattern, V: sp.csr_array, T: sp.csr_array, share: float) -> sp.csr_array:
