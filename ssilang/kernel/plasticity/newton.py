@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,10 +12,14 @@ from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import Trial, new_trial
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.solvers.backends import DISSECTION, dissection_pays
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.large.positive import PositiveFactors
 
 TURNS = 30
 TOLERANCE = 1e-10
@@ -79,6 +84,7 @@ class BulkSolver(FullNewtonSolver):
     ) -> None:
         super().__init__(problem, A, share)
         self.bulk, self.state, self.force = bulk, state, bulk.force(state)
+        self._positive = _positive_factors(problem, bulk)
         table = problem.numbering.table
         ends = table.coordinates[problem.numbering.nodes]
         self.extent = float(np.ptp(ends, axis=0).max(initial=0.0)) if len(ends) else 0.0
@@ -122,6 +128,11 @@ class BulkSolver(FullNewtonSolver):
         SingularFactorError
         """
         whole = self.A + now.K + self.share * now.answer.tangent
+        if self._positive is not None:
+            free = now.free if held is None else now.free - whole @ held
+            step = self._positive.solve(whole, sp.csr_array(now.K), free)
+            if step is not None:
+                return step, now.pushed
         if held is None:
             return self._turn(motion, whole, now.free, now.du, gap, now.pushed)
         return self._turn(motion, whole, now.free - whole @ held, held, gap, now.pushed)
@@ -197,3 +208,17 @@ class BulkSolver(FullNewtonSolver):
     def _stalled(self) -> bool:
         last = self.residuals[-3:]
         return len(last) == 3 and max(last) <= STALLED and last[-1] > 0.3 * last[0]
+
+
+def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
+    """Cholesky factors for large bodies with symmetric tangents and no contact."""
+    plain = type(bulk) is Bulk and bulk.symmetric and problem.contact is None
+    if not plain or not problem.constraints.associated:
+        return None
+    if problem.solver.name not in (None, DISSECTION):
+        return None
+    if not dissection_pays(problem.numbering.size):
+        return None
+    from ssilang.kernel.plasticity.large.positive import PositiveFactors
+
+    return PositiveFactors(problem)
