@@ -40,6 +40,7 @@ def stepped(solved: list[bool], monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
 
 def test_both_lead_to_the_same_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     none, solved = [], []
+    monkeypatch.setattr(newton, "dissection_pays", lambda n: True)
     found = stepped(solved, monkeypatch)
     monkeypatch.setattr(newton, "dissection_pays", lambda n: False)
     expected = stepped(none, monkeypatch)
