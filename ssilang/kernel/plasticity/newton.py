@@ -85,6 +85,8 @@ class BulkSolver(FullNewtonSolver):
         super().__init__(problem, A, share)
         self.bulk, self.state, self.force = bulk, state, bulk.force(state)
         self._positive = _positive_factors(problem, bulk)
+        if self._positive is not None:
+            self.factor = DISSECTION
         table = problem.numbering.table
         ends = table.coordinates[problem.numbering.nodes]
         self.extent = float(np.ptp(ends, axis=0).max(initial=0.0)) if len(ends) else 0.0

@@ -141,6 +141,7 @@ def step_bulk_statics(run: BulkRun) -> History:
     factors = problem.loading.at(problem.times)
     with _recorded(run) as history:
         solver = newton_solver(problem, problem.K, 1.0, run.bulk, run.state)
+        _name(run, history, solver)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
         history.energies[0] = run.motion.energies
         steps = KeptSteps(run.keeper, history, run.motion, solver, run)
@@ -170,7 +171,7 @@ def _recorded(run: BulkRun) -> Iterator[History]:
     history.seconds += time.perf_counter() - started
 
 
-def _name(run: BulkRun, history: History, solver: type[BulkSolver]) -> None:
+def _name(run: BulkRun, history: History, solver: BulkSolver | type[BulkSolver]) -> None:
     history.loop = f"{solver.loop} (plastic bodies: {run.bulk.words})"
     history.solver = solver.factor
     history.method = Sentence(solver.said)
@@ -295,7 +296,7 @@ def _moving_step(
             turns=-outcome.turns,
         )
     history.iterations = max(history.iterations, outcome.turns)
-    _name(run, history, loop.kind)
+    _name(run, history, loop.solver)
 
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
@@ -370,9 +371,9 @@ class _BulkLoop(SparseLoop):
         return found
 
     @property
-    def kind(self) -> type[BulkSolver]:
-        """How the last steps were solved."""
-        return type(self._solvers[-1][1])
+    def solver(self) -> BulkSolver:
+        """What solved the last steps."""
+        return self._solvers[-1][1]
 
     def _made(self, A: sp.csr_array, dt: float, share: float) -> BulkSolver:
         bulk, state = self.bulk_run.bulk, self.bulk_run.state

@@ -33,7 +33,8 @@ def stepped(solved: list[bool], monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
     monkeypatch.setattr(positive, "PositiveFactors", Listening)
     problem, bulk = tower_on_clay("J2", STEPS)
     seen = Recorder(STEPS + 1)
-    run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, None, True)
+    history = run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, None, True)
+    assert history.solver == ("nested dissection" if solved else "SuperLU")
     assert (seen.snapshots[-1].bulk_state[0].variables[:, 0] > 0).any()
     return seen.of("u")
 
