@@ -11,8 +11,8 @@ side by side. In simple shear both are Masing's loops of one polygon; on paths t
 they differ. First one cell is led along a path of shear, then the soil is shaken. Stresses and the
 motion of the surface must agree within 1e-6 of the largest before a ratio is printed.
 
-Newton's method on both sides. The peer stops at corrections of 1e-9 m, and takes of its solvers the
-one that makes 10 steps first; ours stops at a residual of 1e-10 of the forces. Processor time of
+The peer goes by Newton's method, stops at corrections of 1e-9 m, and takes of its solvers the one
+that makes 10 steps first; ours has Newton's method too, or a kept factor (40 cells wide), and stops at a residual of 1e-10 of the forces. Processor time of
 the steps alone, two runs each in turn, the faster counts.
 """
 
