@@ -49,6 +49,7 @@ PICTURES = {
     "impact/bar_bounce": {1: "bar_bounce"},
     "published/friction_slider": {1: "friction_slider"},
     "published/bar_on_wall": {1: "bar_on_wall"},
+    "published/sheared_fault": {1: "sheared_fault"},
     "published/newmark_by_hand": {1: "newmark_by_hand"},
     "published/rocking_wall": {1: "rocking_wall"},
     "published/wave_in_column": {1: "wave_in_column"},

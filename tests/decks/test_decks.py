@@ -55,6 +55,7 @@ SPOILT = [
     ("published/rocking_wall.ssi", "'ROTA' J0 PG", "'ROTA' (1.2 * J0) PG"),
     ("published/nafems_contact.ssi", "'YOUN' 70000.", "'YOUN' 71000."),
     ("published/wave_in_column.ssi", "'YOUNG' = YOU0", "'YOUNG' = 1.2 * YOU0"),
+    ("published/sheared_fault.ssi", "'FROT' MU0", "'FROT' (1.03 * MU0)"),
     ("published/nafems_elasticity.ssi", "-10.E6 OUT1", "-10.1E6 OUT1"),
     ("published/nafems_vibration.ssi", "P3 = 10. 0.5", "P3 = 10. 0.52"),
     ("seismic/tower_on_cones.ssi", "'RAYON' = R0", "'RAYON' = 1.02 * R0"),
