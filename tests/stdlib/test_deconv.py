@@ -153,3 +153,41 @@ def test_refusals():
         result = run_text(start + f"T2 = {call} ;")
         assert result.exit_code == 1
         assert text in result.message
+
+
+COARSE = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM {element} ; L1 = DROI 1 (0. 3.) (2. 3.) ; "
+    "S1 = TRAN 2 L1 (0. -2.) ; S2 = TRAN 1 (COTE 3 S1) (0. -4.) ; "
+    "M1 = MODE (S1 ET S2) MECANIQUE ELASTIQUE ; T1 = TABL ; "
+    "REPE B 2 ; T1 . &B = TABL ; T1 . &B . 'MASSE_VOLUMIQUE' = 2000. ; "
+    "T1 . &B . 'YOUNG' = 2.6E8 ; T1 . &B . 'POISSON' = 0.3 ; T1 . &B . 'AMORTISSEMENT' = 0.05 ; "
+    "FIN B ; T1 . 1 . 'FRONTIERE' = COTE 2 S2 ; T1 . 2 . 'FRONTIERE' = COTE 2 S1 ; "
+    "LT = PROG 0. PAS 0.005 1. ; LX = ((LT - 0.5) * (PI * 8.)) ** 2 ; "
+    "ACC1 = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ; "
+    "T2 = DECONV T1 (COTE 3 S2) M1 '{direction}' ACC1 5. 20. {cutoff} 'LYSMER' ; "
+)
+
+
+@pytest.mark.parametrize(
+    ("element", "direction", "cutoff", "a_wave"),
+    [("QUA4", "HORI", 9.0, 8), ("QUA8", "HORI", 15.0, 4)],
+)
+def test_a_layer_too_coarse_for_the_record_is_told(element, direction, cutoff, a_wave):
+    """The second layer from the top, whatever its number in the table; above, 1 m is enough."""
+    result = run_text(COARSE.format(element=element, direction=direction, cutoff=cutoff))
+    assert result.exit_code == 0, result.message
+    (warning,) = result.session.warnings
+    assert warning.code == "operators.dynamics.layer-too-coarse"
+    told = warning.data
+    assert (told["layer"], told["top"], told["bottom"], told["count"]) == (2, 2.0, 6.0, 1)
+    assert told["height"] == pytest.approx(4.0)
+    assert told["frequency"] == pytest.approx(cutoff)
+    assert told["wanted"] == pytest.approx(np.sqrt(1e8 / 2000) / (a_wave * cutoff))
+
+
+@pytest.mark.parametrize(("direction", "cutoff"), [("HORI", 6.0), ("VERT", 12.0)])
+def test_a_layer_fine_enough_is_not_told(direction, cutoff):
+    """Below the cut-off, and for pressure waves that are 1.87 times as long."""
+    result = run_text(COARSE.format(element="QUA4", direction=direction, cutoff=cutoff))
+    assert result.exit_code == 0, result.message
+    assert not result.session.warnings

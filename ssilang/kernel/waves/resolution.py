@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -61,6 +61,66 @@ def coarse_elements(model: Model, material: CellField, frequency: float) -> Coar
     if worst is None:
         return None
     return Coarse(worst.place, worst.length, worst.wanted, worst.shear, total, worst.elements)
+
+
+@dataclass(frozen=True)
+class CoarseLayer:
+    """The layer whose elements are highest against its shortest vertical wave.
+
+    Attributes
+    ----------
+    layer : int
+        From 0 at the top.
+    height, wanted : float
+        Of its highest element, and the largest that the frequency allows (m).
+    speed : float
+        Of the waves (m/s).
+    count : int
+        Layers with too high elements.
+    elements : int
+        Elements a wavelength.
+    """
+
+    layer: int
+    height: float
+    wanted: float
+    speed: float
+    count: int
+    elements: int
+
+
+def coarse_layers(
+    model: Model, levels: FloatArray, speeds: FloatArray, frequency: float
+) -> CoarseLayer | None:
+    """The worst layer for waves that go vertically, None if all elements are low enough.
+
+    Parameters
+    ----------
+    levels : array (n_layers + 1,)
+        Heights of the top of each layer from the surface down, then of the base (m).
+    speeds : array (n_layers,)
+        Of the waves in each layer (m/s).
+    frequency : float
+        The highest one (Hz).
+    """
+    found: dict[int, CoarseLayer] = {}
+    for zone in model.zones:
+        elements = ELEMENTS_A_WAVE[CELL_TYPES[zone.cells.cell_type].degree]
+        upward = zone.cells.coordinates[:, :, zone.mode.dimension - 1]
+        middles, heights = upward.mean(axis=1), np.ptp(upward, axis=1)
+        inside = (middles < levels[0]) & (middles > levels[-1])
+        layers = np.searchsorted(-levels, -middles) - 1
+        for i in np.unique(layers[inside]):
+            height = float(heights[inside & (layers == i)].max())
+            wanted = float(speeds[i]) / (elements * frequency)
+            old = found.get(i)
+            if height > wanted * (1 + 1e-6) and (
+                old is None or height * old.wanted > old.height * wanted
+            ):
+                found[i] = CoarseLayer(int(i), height, wanted, float(speeds[i]), 0, elements)
+    if not found:
+        return None
+    return replace(max(found.values(), key=lambda c: c.height / c.wanted), count=len(found))
 
 
 def longest_sides(zone: Zone) -> FloatArray:

@@ -23,6 +23,18 @@ MESSAGES: dict[str, Message] = {
         "affiner le maillage, ou donner FREQUENCE si moins importe",
         severity="warning",
     ),
+    "layer-too-coarse": Message(
+        "layer {layer} from the top, {top:.3g} to {bottom:.3g} m deep, has elements {height:.3g} m "
+        "high: at {frequency:.3g} Hz and {speed:.4g} m/s they may be {wanted:.3g} m ({elements} a "
+        "wavelength); {count} {count:layer|layers} too coarse",
+        "la couche {layer} depuis le haut, de {top:.3g} à {bottom:.3g} m de profondeur, a des "
+        "éléments hauts de {height:.3g} m : à {frequency:.3g} Hz et {speed:.4g} m/s ils peuvent "
+        "l'être de {wanted:.3g} m ({elements} par longueur d'onde) ; {count} "
+        "{count:couche trop grossière|couches trop grossières}",
+        "make the layer's mesh finer, or lower the cut-off FC if less matters",
+        "affiner le maillage de la couche, ou abaisser la coupure FC si moins importe",
+        severity="warning",
+    ),
     "edges-reflect": Message(
         "the box reflects: {count} {count:node|nodes} of its edges have no damper; from "
         "{place:words}, {distance:.3g} m from the layer, waves are back after {back:.3g} s",

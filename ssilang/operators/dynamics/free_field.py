@@ -14,9 +14,12 @@ from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
-    from ssilang.kernel.records.soil_column import FreeField
+    from ssilang.kernel.records.soil_column import FreeField, SoilColumn
 
 _CODE = "operators.dynamics.waves-before-the-record"
+_COARSE = "operators.dynamics.layer-too-coarse"
+_AGAIN = 0.8
+"""Elements must be smaller than what was told by this factor for a second warning."""
 _BEGUN = 0.05
 """Share of the largest velocity that is in the ground before a motion begins, unheard."""
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
@@ -72,7 +75,39 @@ def zcol(call: Call, table: Table) -> Table:
     )
     if field.begun > _BEGUN and all(w.code != _CODE for w in call.session.warnings):
         entries.warn(_CODE, share=100 * field.begun, rest=1.5 * soil.crossing)
+    if entries.get("MODELE") is not None:
+        _tell_coarse(entries, soil, cutoff)
     return _results(field, float(signal.abscissas[0]))
+
+
+def _tell_coarse(entries: Entries, soil: SoilColumn, cutoff: float) -> None:
+    """Warn of a layer of the model too coarse for what the motion has below the cut-off.
+
+    Layers that soften from one turn to the next (ISSLEQ) are told again only where it matters.
+    """
+    from ssilang.kernel.waves.resolution import coarse_layers, highest_frequency
+
+    signal = entries.needed("GAMMAO").parts[0]
+    frequency = min(cutoff, highest_frequency(signal.abscissas, signal.ordinates))
+    if frequency <= 0:
+        return
+    levels = (entries.get("SOMMET") or 0.0) - soil.tops
+    speeds = np.sqrt(soil.modulus / soil.density)
+    coarse = coarse_layers(entries.needed("MODELE"), levels, speeds, frequency)
+    told = [w.data["wanted"] for w in entries.call.session.warnings if w.code == _COARSE]
+    if coarse is not None and coarse.wanted < _AGAIN * min(told, default=np.inf):
+        entries.warn(
+            _COARSE,
+            layer=coarse.layer + 1,
+            top=float(soil.tops[coarse.layer]),
+            bottom=float(soil.tops[coarse.layer + 1]),
+            height=coarse.height,
+            frequency=frequency,
+            speed=coarse.speed,
+            wanted=coarse.wanted,
+            elements=coarse.elements,
+            count=coarse.count,
+        )
 
 
 def _results(field: FreeField, start: float) -> Table:
