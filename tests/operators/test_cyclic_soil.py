@@ -140,3 +140,49 @@ def test_parameters_in_two_fields_wait_for_each_other(found):
         "N = MAXI (EXCO 'KAPA' MA) ; "
     )
     assert found(SQUARE + script, "N") == pytest.approx(0.3)
+
+
+TRIAXIAL = (
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
+    "T . 'BLOCAGES_MECANIQUES' = HELD ET MOVED ; "
+    "T . 'CHARGEMENT' = (CHAR 'DIMP' (DEPI MOVED 1.) (EVOL 'MANU' (PROG 0. 1. 2. 3. 4.) "
+    "(PROG 0. -2.E-3 1.E-3 -5.E-4 -4.E-3))) ET (CHAR 'MECA' SIDE (EVOL 'MANU' (PROG 0. 1. 4.) "
+    "(PROG 0. 1. 1.))) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.5 4. ; PASAPAS T ; "
+)
+ROUND = (
+    "OPTI DIME 2 ELEM QUA4 MODE AXIS ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+    "LOW = S POIN 'DROI' (0. 0.) (1. 0.) 1.E-6 ; TOP = S POIN 'DROI' (0. 1.) (1. 1.) 1.E-6 ; "
+    "HELD = (BLOQ 'UZ' LOW) ET (BLOQ 'UR' (S POIN 'DROI' (0. 0.) (0. 1.) 1.E-6)) ; "
+    "MOVED = BLOQ 'UZ' TOP ; "
+)
+QUARTER = (
+    "HELD = (BLOQ 'UY' LOW) ET (BLOQ 'UX' (S POIN 'PLAN' (0. 0. 0.) (0. 1. 0.) (0. 0. 1.) 1.E-6)) "
+    "ET (BLOQ 'UZ' (S POIN 'PLAN' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) 1.E-6)) ; MOVED = BLOQ 'UY' TOP ; "
+)
+
+
+def test_a_round_sample_pressed_and_stretched_has_the_stresses_of_a_cube(found):
+    """Triaxial cycles under a pressure on the side, about the axis and in space: to rounding."""
+    along = " ".join(
+        f"X{i} = MAXI (EXCO '{{0}}' (T . 'CONTRAINTES' . {i})) ; "
+        f"Y{i} = MAXI (EXCO '{{1}}' (T . 'CONTRAINTES' . {i})) ; " for i in range(1, 9)
+    )  # fmt: skip
+    names = [f"{n}{i}" for i in range(1, 9) for n in "XY"]
+    side = "SIDE = PRES 'MASS' M 4.E4 (S POIN 'DROI' (1. 0.) (1. 1.) 1.E-6) ; "
+    # of a mesh of faces: those at x = 1 and at z = 1
+    sides = "SIDE = PRES 'MASS' M 4.E4 (({}) ET ({})) ; ".format(
+        *(
+            f"(ENVE S) ELEM 'APPU' 'STRI' (S POIN 'PLAN' {p} 1.E-6)"
+            for p in ("(1. 0. 0.) (1. 1. 0.) (1. 0. 1.)", "(0. 0. 1.) (1. 0. 1.) (0. 1. 1.)")
+        )
+    )
+    side = side.replace("(S POIN", "((CONT S) ELEM 'APPU' 'STRI' (S POIN").replace(
+        "1.E-6) ;", "1.E-6)) ;"
+    )
+    round_ = found(ROUND + material() + side + TRIAXIAL + along.format("SMZZ", "SMRR"), *names)
+    cube = found(
+        CUBE + QUARTER + material() + sides + TRIAXIAL + along.format("SMYY", "SMXX"), *names
+    )
+    assert np.ptp(round_[::2]) > 1e5
+    assert round_[3::2] == pytest.approx([-4e4] * 7, rel=1e-7)
+    assert round_ == pytest.approx(cube, rel=1e-9, abs=1e-3)
