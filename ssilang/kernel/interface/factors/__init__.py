@@ -1,1 +1,1 @@
-"""What solves with the tangents of an interface: an inverse, LU factors, their changes, iterations."""
+"""What solves with an interface's tangents: an inverse, LU factors, their changes, iterations."""
