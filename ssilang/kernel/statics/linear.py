@@ -33,6 +33,7 @@ from ssilang.kernel.matrices.assembly import (
     outside,
     vector_to_field,
 )
+from ssilang.kernel.matrices.histories import refuse_layer_at_rest
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays, goes_to_petsc
@@ -245,8 +246,9 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
     Raises
     ------
     KernelError
-        If the matrix is empty or holds values that are not finite.
+        If the matrix is empty, holds values that are not finite, or a matched layer alone.
     """
+    refuse_layer_at_rest(matrix)
     key = f"linear:{options}"
     numbering = numbering_of(matrix)
     kept = matrix.cache.get(key)

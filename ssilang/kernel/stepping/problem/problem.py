@@ -30,7 +30,6 @@ from ssilang.kernel.interface.interface import (
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import (
-    HISTORIES,
     Numbering,
     assemble,
     constraint_matrix,
@@ -38,6 +37,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     refuse_negative_mass,
 )
+from ssilang.kernel.matrices.histories import HISTORIES, refuse_parts_of_layer
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
@@ -133,9 +133,10 @@ def make_problem(inputs: Inputs) -> Problem:
     ------
     KernelError
         If times do not increase, joints with a law stand in the stiffness alone, values are not
-        finite, or a mass is negative.
+        finite, a mass is negative, or matrices of a matched layer are missing.
     """
     times = _checked_times(inputs.times)
+    refuse_parts_of_layer(inputs.stiffness, inputs.mass, inputs.damping)
     given_zones = () if inputs.model is None else joint_zones(inputs.model)
     zones = tuple(z for z in given_zones if not law_of(z.behaviour).linear)
     matrices = _matrices(inputs, given_zones, zones)
