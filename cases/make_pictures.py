@@ -51,6 +51,7 @@ PICTURES = {
     "published/bar_on_wall": {1: "bar_on_wall"},
     "published/equivalent_linear": {1: "equivalent_linear"},
     "seismic/tower_on_cones": {1: "tower_on_cones"},
+    "seismic/incoherent_raft": {1: "incoherent_spectrum", 2: "incoherent_factors"},
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},
     "seismic/oblique_waves": {1: "oblique_waves"},

@@ -52,6 +52,7 @@ SPOILT = [
     ("published/nafems_elasticity.ssi", "-10.E6 OUT1", "-10.1E6 OUT1"),
     ("published/nafems_vibration.ssi", "P3 = 10. 0.5", "P3 = 10. 0.52"),
     ("seismic/tower_on_cones.ssi", "'RAYON' = R0", "'RAYON' = 1.02 * R0"),
+    ("seismic/incoherent_raft.ssi", "'INCOHERENCE' = GAM0 ; RCHA", "'INCOHERENCE' = 0.21 ; RCHA"),
     ("seismic/isolated_block.ssi", "'FROT' MU0", "'FROT' (1.01 * MU0)"),
     ("seismic/record_to_verdict.ssi", "LFO0 = 1.2 *", "LFO0 = 1.21 *"),
     ("seismic/oblique_waves.ssi", "TCO . 'YOUNG' = YOUS", "TCO . 'YOUNG' = (1.05 * YOUS)"),

@@ -3,6 +3,15 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "base-without-size": Message(
+        "a base has half sizes above zero", "les demi-côtés d'une base sont positifs"
+    ),
+    "speed-not-positive": Message(
+        "speeds of waves are above zero", "les vitesses d'ondes sont positives"
+    ),
+    "gamma-negative": Message(
+        "incoherence {gamma:.4g} is negative", "l'incohérence {gamma:.4g} est négative"
+    ),
     "layers-differ": Message(
         "each layer needs a density, two speeds and a damping",
         "chaque couche a une masse volumique, deux vitesses et un amortissement",
