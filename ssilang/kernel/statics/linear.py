@@ -33,7 +33,6 @@ from ssilang.kernel.matrices.assembly import (
     outside,
     vector_to_field,
 )
-from ssilang.kernel.matrices.histories import refuse_layer_at_rest
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays, goes_to_petsc
@@ -47,6 +46,7 @@ from ssilang.kernel.statics.linear_motion import (
     singular,
     tied,
 )
+from ssilang.kernel.waves.histories import refuse_layer_at_rest
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
 FEW = 8  # unilateral conditions, a solve for each: more of them want a factor

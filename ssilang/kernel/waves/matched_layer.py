@@ -35,11 +35,11 @@ from ssilang.kernel.elements.solids.solid_moduli import solid_moduli, symmetry_o
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.histories import HISTORIES
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.waves.histories import HISTORIES
 from ssilang.kernel.waves.resolution import longest_sides, pressure_speed
 
 ORDER = 2

@@ -209,20 +209,6 @@ MESSAGES: dict[str, Message] = {
         "un corps rigide par les distances demande {plane:?trois noeuds non alignés|quatre "
         "noeuds hors d'un même plan}",
     ),
-    "part-of-matched-layer": Message(
-        "a matched layer is there without its {missing:words}",
-        "une couche adaptée est là sans {missing:words}",
-        "its RIGI, MASS and AMOR go together into a calculation in time",
-        "ses RIGI, MASS et AMOR vont ensemble dans un calcul en temps",
-    ),
-    "matched-layer-at-rest": Message(
-        "a matched layer has no static stiffness: it knows waves alone",
-        "une couche adaptée n'a pas de rigidité statique : elle ne connaît que des ondes",
-        "solve with the RIGI of its elements, then start DYNAMIC with the constant load "
-        "RIGI * DEPL",
-        "résoudre avec la RIGI de ses éléments, puis démarrer DYNAMIC avec le chargement constant "
-        "RIGI * DEPL",
-    ),
     "mass-negative": Message(
         "the mass of {unknown} is negative: {mass:g}",
         "la masse de {unknown} est négative : {mass:g}",

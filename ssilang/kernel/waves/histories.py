@@ -1,4 +1,4 @@
-"""Histories of stress, the unknowns of a matched layer beside its displacements (`kernel/waves`).
+"""Histories of stress, the unknowns of a matched layer beside its displacements.
 
 The layer is stiffness, mass and damping together: one of them alone is no ground of any kind.
 """
@@ -31,7 +31,7 @@ def refuse_parts_of_layer(
     given = {"RIGI": stiffness, "MASS": mass, "AMOR": damping}
     missing = [name for name, matrix in given.items() if not has_histories(matrix)]
     if 0 < len(missing) < len(given):
-        raise KernelError("kernel.matrices.part-of-matched-layer", missing=missing)
+        raise KernelError("kernel.waves.part-of-matched-layer", missing=missing)
 
 
 def refuse_layer_at_rest(matrix: Matrix) -> None:
@@ -43,4 +43,4 @@ def refuse_layer_at_rest(matrix: Matrix) -> None:
     """
     kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
     if kinds == {"RIGIDITE"}:
-        raise KernelError("kernel.matrices.matched-layer-at-rest")
+        raise KernelError("kernel.waves.matched-layer-at-rest")
