@@ -12,8 +12,9 @@ they differ. First one cell is led along a path of shear, then the soil is shake
 motion of the surface must agree within 1e-6 of the largest before a ratio is printed.
 
 The peer goes by Newton's method, stops at corrections of 1e-9 m, and takes of its solvers the one
-that makes 10 steps first; ours has Newton's method too, or a kept factor (40 cells wide), and stops at a residual of 1e-10 of the forces. Processor time of
-the steps alone, two runs each in turn, the faster counts.
+that makes 10 steps first; ours has Newton's method too, or a kept factor (40 cells wide), and stops
+at a residual of 1e-10 of the forces. Processor time of the steps alone, two runs each in turn, the
+faster counts.
 """
 
 from __future__ import annotations
