@@ -26,8 +26,8 @@ from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.large.blocks import ZonePass
-    from ssilang.kernel.plasticity.large.pattern import Pattern
+    from ssilang.kernel.plasticity.solving.blocks import ZonePass
+    from ssilang.kernel.plasticity.solving.pattern import Pattern
 
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""
@@ -215,7 +215,7 @@ class Bulk:
     @cached_property
     def terms(self) -> Pattern:
         """Where the terms of the tangent stand."""
-        from ssilang.kernel.plasticity.large.pattern import Pattern
+        from ssilang.kernel.plasticity.solving.pattern import Pattern
 
         sizes = [p.shape[1] for p in self.places]
         ones = [np.ones((len(p), k, k)) for p, k in zip(self.places, sizes, strict=True)]
@@ -262,7 +262,7 @@ def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> Zo
     plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
     if not plain or points.count < least:
         return None
-    from ssilang.kernel.plasticity.large.passes import zone_pass
+    from ssilang.kernel.plasticity.solving.passes import zone_pass
 
     return zone_pass(points, places)
 

@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.large.positive import PositiveFactors
+    from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
 TURNS = 30
 TOLERANCE = 1e-10
@@ -221,6 +221,6 @@ def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
         return None
     if not dissection_pays(problem.numbering.size):
         return None
-    from ssilang.kernel.plasticity.large.positive import PositiveFactors
+    from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
     return PositiveFactors(problem)

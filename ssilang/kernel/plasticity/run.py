@@ -315,7 +315,7 @@ def newton_solver(
     problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
 ) -> BulkSolver:
     """Newton's method on all unknowns, with dense matrices where these are few."""
-    from ssilang.kernel.plasticity.small.dense import DenseSolver, is_small
+    from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
 
     chosen = DenseSolver if is_small(problem, bulk) else BulkSolver
     return chosen(problem, A, share, bulk, state)
@@ -379,7 +379,7 @@ class _BulkLoop(SparseLoop):
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
         if self.bulk_run.full or self.problem.numbering.size < MANY:
             return newton_solver(self.problem, A, share, bulk, state)
-        from ssilang.kernel.plasticity.large.accelerated import AcceleratedSolver, is_accelerated
+        from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
 
         if is_accelerated(self.problem, bulk, A):
             return AcceleratedSolver(self.problem, A, dt, share, bulk, state)

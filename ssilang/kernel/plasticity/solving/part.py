@@ -15,7 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Answer, Bulk
-from ssilang.kernel.plasticity.large.blocks import ZonePass
+from ssilang.kernel.plasticity.solving.blocks import ZonePass
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 
 NEAR = -0.12

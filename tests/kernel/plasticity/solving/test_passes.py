@@ -11,11 +11,11 @@ from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.matrices.assembly import assemble_triplets
-from ssilang.kernel.plasticity.large.blocks import cells_of
-from ssilang.kernel.plasticity.large.cones import ConePass
-from ssilang.kernel.plasticity.large.passes import zone_pass
-from ssilang.kernel.plasticity.large.pattern import Pattern
 from ssilang.kernel.plasticity.points import PointState
+from ssilang.kernel.plasticity.solving.blocks import cells_of
+from ssilang.kernel.plasticity.solving.cones import ConePass
+from ssilang.kernel.plasticity.solving.passes import zone_pass
+from ssilang.kernel.plasticity.solving.pattern import Pattern
 
 M = 900
 RANGES = {

@@ -12,9 +12,9 @@ from references.tower_on_clay import tower_on_clay
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import run
-from ssilang.kernel.plasticity.large.pattern import Pattern
-from ssilang.kernel.plasticity.small import dense
-from ssilang.kernel.plasticity.small.dense import places_of
+from ssilang.kernel.plasticity.solving import dense
+from ssilang.kernel.plasticity.solving.dense import places_of
+from ssilang.kernel.plasticity.solving.pattern import Pattern
 
 STEPS = 40
 

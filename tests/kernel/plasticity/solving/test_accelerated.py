@@ -12,9 +12,9 @@ from references.recorder import Recorder
 from references.tower_on_clay import tower_on_clay
 
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.plasticity.large import accelerated, part
-from ssilang.kernel.plasticity.large.accelerated import Acceleration
 from ssilang.kernel.plasticity.run import run_bulk
+from ssilang.kernel.plasticity.solving import accelerated, part
+from ssilang.kernel.plasticity.solving.accelerated import Acceleration
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import backward_runs, forward_runs
 

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
-from ssilang.kernel.plasticity.large.blocks import ZonePass, cells_of
-from ssilang.kernel.plasticity.large.cones import ConePass
-from ssilang.kernel.plasticity.large.nested import NestedPass, nested_of
 from ssilang.kernel.plasticity.points import PlasticPoints
+from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
+from ssilang.kernel.plasticity.solving.cones import ConePass
+from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
 
 
 def zone_pass(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:

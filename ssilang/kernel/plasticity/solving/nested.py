@@ -16,7 +16,7 @@ from ssilang.kernel.base.compiled.compiler import compiled_fused
 from ssilang.kernel.materials.plastic.backbone import Backbones
 from ssilang.kernel.materials.plastic.iwan import LEAST, PRESSURE
 from ssilang.kernel.materials.plastic.response import PointParameters
-from ssilang.kernel.plasticity.large.blocks import (
+from ssilang.kernel.plasticity.solving.blocks import (
     BULK,
     NO_ROWS,
     SHEAR,

@@ -17,7 +17,7 @@ from ssilang.kernel.materials.plastic.cone_rows import (
     cone_point,
     strength_at,
 )
-from ssilang.kernel.plasticity.large.blocks import (
+from ssilang.kernel.plasticity.solving.blocks import (
     BULK,
     NO_ROWS,
     SHEAR,

@@ -26,7 +26,8 @@ from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import InterfaceState, accept
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
-from ssilang.kernel.plasticity.large.part import (
+from ssilang.kernel.plasticity.newton import RIGID, TOLERANCE, BulkSolver
+from ssilang.kernel.plasticity.solving.part import (
     NEAR,
     Part,
     by_zone,
@@ -35,7 +36,6 @@ from ssilang.kernel.plasticity.large.part import (
     part_of,
     whole_part,
 )
-from ssilang.kernel.plasticity.newton import RIGID, TOLERANCE, BulkSolver
 from ssilang.kernel.solvers.backends import DISSECTION, factor_pays
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import (

@@ -9,9 +9,9 @@ from references.tower_on_clay import tower_on_clay
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import newton
-from ssilang.kernel.plasticity.large import positive
-from ssilang.kernel.plasticity.large.positive import PositiveFactors
 from ssilang.kernel.plasticity.run import run_bulk
+from ssilang.kernel.plasticity.solving import positive
+from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
 STEPS = 12
 

@@ -1,1 +1,0 @@
-"""Many plastic points: compiled passes over elements, steps that keep their factor."""

@@ -1,1 +1,0 @@
-"""Few plastic points: steps whose matrices are dense."""
