@@ -157,7 +157,8 @@ ROUND = (
 )
 QUARTER = (
     "HELD = (BLOQ 'UY' LOW) ET (BLOQ 'UX' (S POIN 'PLAN' (0. 0. 0.) (0. 1. 0.) (0. 0. 1.) 1.E-6)) "
-    "ET (BLOQ 'UZ' (S POIN 'PLAN' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) 1.E-6)) ; MOVED = BLOQ 'UY' TOP ; "
+    "ET (BLOQ 'UZ' (S POIN 'PLAN' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) 1.E-6)) ; "
+    "MOVED = BLOQ 'UY' TOP ; "
 )
 
 
