@@ -24,6 +24,14 @@ class FieldError(KernelError):
 class MaterialError(KernelError):
     """A missing, unknown or inadmissible material parameter."""
 
+    names: tuple[str, ...] = ()
+    """Parameters that it is about, where its data do not name one."""
+
+    def about(self, *names: str) -> MaterialError:
+        """The same error, about these parameters."""
+        self.names = names
+        return self
+
 
 class LostSolverError(KernelError):
     """The program beside us that solves has ended, in the middle of what it was asked."""

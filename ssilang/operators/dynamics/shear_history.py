@@ -37,11 +37,13 @@ MOST_VALUES = 1 << 20
     ),
     family="dynamics",
     help=Help(
-        en="Largest shear strain over a list of displacements, at the centres of solid cells, for "
-        "ISSLEQ: square root of twice e:e, e being the deviator of the strain.",
-        fr="Plus grande distorsion sur une liste de déplacements, aux centres d'éléments massifs, "
-        "pour ISSLEQ : racine de deux fois e:e, e étant le déviateur de la déformation.",
-        syntax="CHAM1 = ZGAM MODL1 LCHP1 ;",
+        en="Largest shear strain over displacements (a list, or results of DYNAMIC), at the "
+        "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
+        "the strain.",
+        fr="Plus grande distorsion sur des déplacements (une liste, ou les résultats de DYNAMIC), "
+        "aux centres d'éléments massifs, pour ISSLEQ : racine de deux fois e:e, e étant le "
+        "déviateur de la déformation.",
+        syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0. 0.) (1. 0.)) (0. 1.) ; "
             "M = MODE S MECANIQUE ELASTIQUE ; U = NOMC 'UX' ((COOR 2 S) * 3.E-3) ; "

@@ -263,7 +263,7 @@ def _check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any])
     try:
         check_given(law, {name: value for name, (value, _) in values.items()})
     except MaterialError as problem:
-        names = (problem.data.get("name"), *problem.data.get("names", ()))
+        names = (problem.data.get("name"), *problem.names)
         at = next((said[n] for n in names if n in said), None)
         raise call.error(problem.code, at, **problem.data) from problem
 

@@ -227,5 +227,5 @@ def check(p: PointParameters) -> None:
     """
     if (p["COHE"] != 0).any():
         worst = np.abs(p["COHE"]).max()
-        raise MaterialError("kernel.materials.clay-cohesion", value=worst, names=("COHE",))
+        raise MaterialError("kernel.materials.clay-cohesion", value=worst).about("COHE")
     require("CAM_CLAY", p, {"E0 >= 0": p["E0"] >= 0, "KAPA < LAMD": p["KAPA"] < p["LAMD"]})

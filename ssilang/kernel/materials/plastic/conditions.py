@@ -34,5 +34,5 @@ def require(law: str, p: PointParameters, rules: Mapping[str, NDArray[np.bool_]]
         names = tuple(n for n in dict.fromkeys(words) if n in p.values)
         given = tuple(f"{n} = {p[n][at]:g}" for n in names)
         raise MaterialError(
-            "kernel.materials.law-condition", law=law, rule=rule, given=given, names=names
-        )
+            "kernel.materials.law-condition", law=law, rule=rule, given=given
+        ).about(*names)

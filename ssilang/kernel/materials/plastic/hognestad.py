@@ -76,10 +76,11 @@ def check(p: PointParameters) -> None:
     """
     if (p["FAMX"] >= 0).any():
         raise MaterialError(
-            "kernel.materials.soft-crack-closing", value=p["FAMX"].max(), names=("FAMX",)
-        )
+            "kernel.materials.soft-crack-closing",
+            value=p["FAMX"].max(),
+        ).about("FAMX")
     if ((p["ZETA"] > 0) & (p["ALF1"] * p["OME1"] > 0)).any():
-        raise MaterialError("kernel.materials.slope-and-confinement", names=("ZETA",))
+        raise MaterialError("kernel.materials.slope-and-confinement").about("ZETA")
     hoops = p["ALF1"] * p["OME1"]
     _, peak, _ = confined(p)
     free = (p["ZETA"] > 0) | (peak < LIMIT + SPREAD * hoops)
