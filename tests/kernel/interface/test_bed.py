@@ -142,19 +142,25 @@ def test_dragged_along_it_holds_by_the_cohesion_and_twisted_by_its_lever(name):
         assert twist[5] == pytest.approx(2 / 3 * math.pi * R**3 * C, rel=3e-3)
 
 
+SPOTS = pytest.mark.parametrize("spots", [0.0, 0.3])
+"""Even ground, and a tenth of its area with three tenths of its strength."""
+
+
+@SPOTS
 @pytest.mark.parametrize("ratio", [0.3, 1.0, 3.0])
-def test_inclined_loads_of_a_strip_meet_green(ratio):
-    footing = made("strip", COHE=C)
-    V, N, _ = footing.move([2.0, -2.0 * ratio, 0.0])
+def test_inclined_loads_of_a_strip_meet_green(ratio, spots):
+    footing = made("strip", COHE=C, PDUR=spots)
+    V, N, _ = footing.move([2e3, -2e3 * ratio, 0.0])
     x = V / (C * B)
     allowed = (1 + math.pi / 2 + math.acos(min(x, 1.0)) + math.sqrt(max(1 - x * x, 0.0))) * C * B
     assert pytest.approx(allowed, rel=1e-9) == -N
 
 
+@SPOTS
 @pytest.mark.parametrize("part", [0.1, 0.25, 0.5, 0.8])
-def test_eccentric_loads_meet_the_effective_width(part):
+def test_eccentric_loads_meet_the_effective_width(part, spots):
     """A strip in contact over `part` of its width: N = part N_0, M = N B/2 (1 - N/N_0)."""
-    footing, q = made("strip", COHE=C), FACTORS["strip"] * C
+    footing, q = made("strip", COHE=C, PDUR=spots), FACTORS["strip"] * C
     theta = 400.0 * q / 8e7
     _, N, M = footing.move([0.0, theta * (0.5 - part) * B, theta])
     found = -N / (q * B)
@@ -180,12 +186,26 @@ def test_a_first_push_is_the_integral_of_a_fine_bed(name, v, turn):
     assert pytest.approx(pressure * s @ widths, rel=close) == -M
 
 
+@pytest.mark.parametrize("name", SHAPES)
+def test_hard_spots_still_press_where_the_rest_is_unloaded(name):
+    """Pressed down until all but the spots yields, and back: two springs side by side."""
+    footing, k, q = made(name, COHE=C, PDUR=0.3), 8e7 / AREAS[name], FACTORS[name] * C
+    up, yielded = 2 if footing.space else 1, 0.7 / 0.9 * q
+    down = 1.5 * q / k
+    found = [footing.move(motion_of(footing, v=-x * down))[up] for x in (1.0, 0.8, 0.3, 0.0)]
+    rest = np.array([yielded, yielded - 0.2 * k * down, 0.0, 0.0])
+    spots = k * down * np.array([1.0, 0.8, 0.3, 0.0])
+    expected = -(0.9 * rest + 0.1 * spots) * AREAS[name]
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-3)
+
+
 PATH = [(1e-3, -4e-3, 1e-3), (-2e-3, -6e-3, 4e-3), (0.0, -3e-3, -5e-3), (1e-3, 5e-3, 1e-3)]
 
 
+@SPOTS
 @pytest.mark.parametrize("name", SHAPES)
-def test_ground_of_great_strength_is_the_elastic_macro_element(name):
-    strong, elastic = made(name, COHE=1e12), made(name)
+def test_ground_of_great_strength_is_the_elastic_macro_element(name, spots):
+    strong, elastic = made(name, COHE=1e12, PDUR=spots), made(name)
     for u, v, theta in PATH:
         found = strong.move(motion_of(strong, u, v, theta))
         wanted = elastic.move(motion_of(elastic, u, v, theta))
@@ -194,10 +214,11 @@ def test_ground_of_great_strength_is_the_elastic_macro_element(name):
 
 STEP = st.tuples(st.floats(-0.02, 0.02), st.floats(-0.03, 0.005), st.floats(-0.01, 0.01))
 FEET = {name: made(name, COHE=C) for name in SHAPES}
+FEET |= {f"hard spots, {name}": made(name, COHE=C, PDUR=0.3) for name in ("strip", "rectangle")}
 
 
 @settings(max_examples=25, deadline=None)
-@given(st.sampled_from(list(SHAPES)), st.lists(STEP, min_size=2, max_size=5))
+@given(st.sampled_from(list(FEET)), st.lists(STEP, min_size=2, max_size=5))
 def test_paths_lose_energy_and_balance(name, path):
     """Work of fine steps is what is stored and what is lost."""
     footing = FEET[name]
@@ -212,7 +233,7 @@ def test_paths_lose_energy_and_balance(name, path):
 
 
 @settings(max_examples=25, deadline=None)
-@given(st.sampled_from(list(SHAPES)), STEP, STEP)
+@given(st.sampled_from(list(FEET)), STEP, STEP)
 def test_the_tangent_of_the_footing_is_the_derivative(name, first, then):
     footing = FEET[name]
     footing.state = footing.joints.initial_state()
@@ -276,6 +297,8 @@ def test_what_the_ground_does_not_know_is_refused():
         made("strip", QULT=1e5)
     with pytest.raises(MaterialError, match="COHE"):
         made("strip", FROT=0.5)
+    with pytest.raises(MaterialError, match="PDUR"):
+        made("strip", COHE=C, PDUR=0.1)
 
 
 def rocking_by_springs(mass, inertia, turning, times):
