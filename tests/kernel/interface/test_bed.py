@@ -361,6 +361,66 @@ def test_a_strip_thrown_over_rocks_and_settles_as_on_many_springs():
     assert np.abs(balance - balance[0]).max() < 1e-3 * history.energies[:, 3].max() + 5.0
 
 
+def rocking_in_space(mass, inertia, turning, lasting, dt):
+    """Rotations about both axes and lift of a rectangle thrown over, and its settlement.
+
+    Many springs, central differences: no code of the package. The opening is v + a s2 - b s1.
+    """
+    n, weight = 40, 0.3 * FACTORS["rectangle"] * C * B * L
+    s1, s2 = (
+        x.ravel() for x in np.meshgrid(*(((np.arange(n) + 0.5) / n - 0.5) * x for x in (B, L)))
+    )
+    area, k, q = B * L / n**2, 8e7 / (B * L), FACTORS["rectangle"] * C
+    levers = np.stack([s2, -s1, np.ones(n * n)])
+    settled, found = np.zeros(n * n), []
+    x, speed = np.array([0.0, 0.0, -weight / 8e7]), np.array([*turning, 0.0])
+    for step in range(round(lasting / dt) + 1):
+        press = np.maximum(k * (settled - x @ levers), 0.0)
+        settled = settled - np.maximum(press - q, 0.0) / k
+        force = levers @ np.minimum(press, q) * area - np.array([0.0, 0.0, weight])
+        found.append([*x, -settled.mean()])
+        speed = speed + (0.5 if step == 0 else 1.0) * dt * force / np.array(
+            [inertia, inertia, mass]
+        )
+        x = x + dt * speed
+    return np.array(found)
+
+
+def test_a_rectangle_thrown_over_both_its_edges_rocks_as_on_many_springs():
+    weight, inertia, turning, dt = 0.3 * FACTORS["rectangle"] * C * B * L, 4e6, (0.25, 0.3), 1e-3
+    bench = Bench(SPACE)
+    soil, base = bench.node(0.0, 0.0, -1.0), bench.node(0.0, 0.0, 0.0)
+    bench.fix(soil, "UX", "UY", "UZ", "RX", "RY", "RZ")
+    bench.fix(base, "UX", "UY", "RZ")
+    bench.joint("SEG2", [[soil, base]], "JOI1", "MACRO_SEMELLE", **RECTANGLE, COHE=C)
+    bench.mass(weight / 9.81, base, ("UZ",))
+    bench.mass(inertia, base, ("RX", "RY"))
+    times = np.arange(601) * dt
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, times, bench.mass_matrix,
+            load=bench.load(bench.field((base, "FZ", -weight))),
+            displacement=bench.field((base, "UZ", -weight / 8e7)),
+            velocity=bench.field((base, "RX", turning[0]), (base, "RY", turning[1])),
+            model=bench.model, characteristics=bench.characteristics,
+        )
+    )  # fmt: skip
+    recorder = Recorder(len(times))
+    history = integrate(problem, [recorder])
+    exact = rocking_in_space(weight / 9.81, inertia, turning, times[-1], dt / 4)[::4]
+    u, n = recorder.of("u"), problem.numbering
+    found = u[:, [n.index_of(base, name) for name in ("RX", "RY", "UZ")]]
+    largest = np.abs(exact).max(axis=0)
+    assert (largest[:2] > 0.01).all()
+    # 16 by 16 places against 40 by 40
+    assert (np.abs(found - exact[:, :3]) < 0.02 * largest[:3]).all()
+    bed = problem.interface.beds[0]
+    settled = -recorder.of("state")[-1, bed.points, 0] @ bed.areas / (B * L)
+    assert settled == pytest.approx(exact[-1, 3], rel=0.02)
+    balance = history.energies[:, :5].sum(axis=1) - history.energies[:, 5]
+    assert np.abs(balance - balance[0]).max() < 2e-3 * history.energies[:, 3].max() + 5.0
+
+
 def three_rows(x, w, t, state):
     """A history of three alike instants, as observers get it."""
     return SimpleNamespace(w=np.stack([w] * 3), t=np.stack([t] * 3), state=np.stack([state] * 3))
