@@ -99,12 +99,6 @@ MESSAGES: dict[str, Message] = {
         "the joints must be in MODELE of the run, and instants be saved, from DEBUT on",
         "les joints doivent être dans MODELE du calcul, et des instants gardés, à partir de DEBUT",
     ),
-    "bilanssi-macro": Message(
-        "@BILANSSI: a macro-element knows force and moment, not where the footing touches",
-        "@BILANSSI : un macro-élément connaît force et moment, pas où la semelle touche",
-        "use joints along the footing (JOI2, JOI3, JOI4 ...)",
-        "utiliser des joints le long de la semelle (JOI2, JOI3, JOI4 ...)",
-    ),
     "bilanssi-no-weight": Message(
         "@BILANSSI: nothing presses the footing at its first instant, t = {1} s: force {2} N",
         "@BILANSSI : rien n'appuie la semelle à son premier instant, t = {1} s : force {2} N",

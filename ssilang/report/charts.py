@@ -118,7 +118,7 @@ class _Of:
 
     def _footing(self, k: int) -> list[Chart]:
         columns, footing = self.calculation.columns, self.calculation.footings[k]
-        pairs = footing["kind"] != "faces"
+        pairs = footing["kind"] == "pairs"
         time, axis = columns["time"], self._axis("report.time", "s")
         made = []
         for name, code, unit, scale in (

@@ -50,7 +50,23 @@ T1 . 'TEMPS_CALCULES' = TI ; PASAPAS T1 ;
 LU = EXTR (EVOL 'TEMP' T1 'DEPLACEMENTS' 'UY' P1) 'ORDO' ;
 @VERIFIE T1 'highest' (MAXI LU) -10. 100. ; @VERIFIE T1 'lowest' (MINI LU) -10. 100. ;
 """
-FIGURES = ("highest", "lowest", "one", "instants", "work", "pressed", "lifted")
+FOOTING = """OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; AG = 1. ; PS = 0. 0. ; PC = 0. 1. ; T1 = TABL ;
+L1 = DROI 16 (-8. 0.) (8. 0.) ; S = L1 TRAN 12 (0. -6.) ; MID = L1 POIN 'DROI' PS (0. 1.) 2.1 ;
+MS = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MS 'YOUN' 3.E7 'NU' 0.3 'RHO' 1800. ;
+OPTI ELEM SEG2 ; M = MODE (MANU 'SEG2' PS PC) 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;
+T1 . 'MODELE' = M ; T1 . 'CARACTERISTIQUES' = MATE M 'KN' 4.E8 'KS' 2.E8 'LARG' 4. 'COHE' 5.E4 ;
+T1 . 'RIGI' = (RIGI MS A) ET (BLOQ 'DEPL' (COTE 3 S)) ET (RELA 'CORI' 'DEPL' 'ROTA' PS MID) ;
+T1 . 'MASS' = (MASS MS A) ET (MASS 'DEPL' 4.E4 PC) ET (MASS 'ROTA' 2.E5 PC) ;
+TI = PROG 0. 'PAS' 5.E-3 'NPAS' 80 ; EV = EVOL 'MANU' TI (AG * (SIN (1500. * TI))) ;
+T1 . 'CHAR' = (CHAR 'MECA' (FORC (0. -4.E5) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.))) ET
+ (CHAR 'MECA' ((FORC (5.E4 0.) PC) ET (MOME 'MZ' 4.E5 PC)) EV) ;
+T1 . 'TEMPS_CALCULES' = TI ; T1 . 'PAS_SAUVES' = 1 ; T2 = DYNAMIC T1 ;
+V1 = T2 . 81 . 'VARIABLES_INTERNES' ; LU = EXTR (EVOL 'TEMP' T2 'DEPL' 'RZ' PC) 'ORDO' ;
+@VERIFIE T1 'highest' (MAXI LU) -10. 100. ; @VERIFIE T1 'lowest' (MINI LU) -10. 100. ;
+@VERIFIE T1 'settled' (EXTR V1 'TASS' 1 1 1) 1. 1. ;
+@VERIFIE T1 'lost' (EXTR V1 'EPER' 1 1 1) 1.E6 1.E6 ;
+"""
+FIGURES = ("highest", "lowest", "one", "instants", "work", "pressed", "lifted", "settled", "lost")
 
 
 @pytest.fixture
@@ -89,6 +105,16 @@ def test_runs_that_meet_find_what_they_find_alone(tmp_path, procedure):
     assert len({row["highest"] for row in rows}) == 5
     for row in rows:
         assert together_of(row, tmp_path / "a") == [5]
+
+
+def test_footings_that_yield_go_side_by_side(tmp_path):
+    deck = tmp_path / "case.ssi"
+    deck.write_text(FOOTING)
+    values = [{"AG": 1.0 + i} for i in range(3)]
+    rows = run_together(tasks_of(deck, tmp_path / "a", values))
+    assert_same_figures(rows, [run_task(t) for t in tasks_of(deck, tmp_path / "b", values)])
+    assert 0.0 < rows[0]["settled"] < rows[1]["settled"] < rows[2]["settled"]
+    assert [together_of(row, tmp_path / "a") for row in rows] == [[3]] * 3
 
 
 def test_runs_that_fail_before_or_behind_the_integration_leave_the_others(deck, tmp_path):

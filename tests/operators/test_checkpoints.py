@@ -27,7 +27,21 @@ T . 'BLOCAGES_MECANIQUES' = B ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 3. ;
 STEEL = PLATE.replace("{n}", "3") % ("'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'", "'SIGY' 2.E8")
 ELASTIC = PLATE.replace("{n}", "3") % ("'ELASTIQUE'", "")
 LARGE = PLATE.replace("{n}", "12") % ("'ELASTIQUE'", "")
+FOOTING = """
+OPTI DIME 3 ELEM SEG2 ; PS = 0. 0. -1. ; PC = 0. 0. 0. ; T = TABL ; N0 = 1.5E6 ;
+M = MODE (MANU 'SEG2' PS PC) 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;
+A = MATE M 'KN' 4.E8 'KS' 2.E8 'LARG' 4. 'LONG' 6. 'COHE' 5.E4 'PDUR' 0.3 ;
+T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'RIGI' = BLOQ 'DEPL' 'ROTA' PS ;
+T . 'MASS' = (MASS 'DEPL' 1.5E5 PC) ET (MASS 'ROTA' 1.E6 PC) ;
+C = EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.) ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. 0. (-1. * N0)) PC) C) ET
+ (CHAR 'MECA' ((FORC (2.E5 -3.E5 0.) PC) ET (MOME 'MX' 9.E5 'MY' 1.5E6 'MZ' 2.E5 PC))
+  (EVOL 'MANU' (PROG 0. 0.1 0.3 9.) (PROG 0. 1. -1. -1.))) ;
+T . 'TEMPS_CALCULES' = PROG 0. PAS 5.E-3 0.3 ; T . 'PAS_SAUVES' = 2 ;
+"""
 DECKS = {
+    "a footing in space on ground that yields": FOOTING + EVERY + "T2 = DYNAMIC T ; "
+    "V = T2 . 30 . 'VARIABLES_INTERNES' ; MESS (EXTR V 'TASS' 1 1 1) (EXTR V 'PART' 1 1 1) ;",
     "bodies that rock": ROCKING + EVERY + "T . 'RELATIONS_SAUVEES' = TABL ; "
     "T . 'RELATIONS_SAUVEES' . 'SOL' = BLO ; T2 = DYNAMIC T ;",
     "two calculations": ROCKING + EVERY + "T2 = DYNAMIC T ; T . 'VITE' = 2. * (T . 'VITE') ; "

@@ -465,6 +465,70 @@ def test_strains_are_kept_of_small_displacements_only(refused):
     assert "linear strains" in said
 
 
+NEAR, FAR, DASH, MASS, TURN = 4.0e8, 6.0e8, 8.0e6, 1.0e5, 2.0e5
+FAR_FIELD = f"""
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PS = 0. 0. ; PC = 0. 0.001 ; N0 = 1.E6 ; T = TABL ;
+M = MODE (MANU 'SEG2' PS PC) 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;
+T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MATE M 'KN' {NEAR} 'KS' 1.E8 'LARG' 4. {{ground}} ;
+T . 'RIGI' = (APPU 'UY' {FAR} PS) ET (APPU 'RZ' {FAR} PS) ET (BLOQ 'UX' (PS ET PC)) ;
+T . 'AMOR' = (APPU 'UY' {DASH} PS) ET (APPU 'RZ' {DASH} PS) ;
+T . 'MASS' = (MASS 'DEPL' {MASS} PC) ET (MASS 'ROTA' {TURN} PC) ;
+V0 = 1.E6 / {NEAR} ; V1 = 1.E6 / {FAR} ;
+T . 'CHAR' = CHAR 'MECA' (FORC (0. -1.E6) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;
+T . 'DEPL' = (MANU 'CHPO' PC 2 'UY' (-1. * (V0 + V1)) 'RZ' 0.) ET
+ (MANU 'CHPO' PS 2 'UY' (-1. * V1) 'RZ' 0.) ;
+T . 'VITE' = MANU 'CHPO' PC 2 'UY' 0. 'RZ' {{speed}} ;
+T . 'TEMPS_CALCULES' = PROG 0. PAS 2.E-4 0.2 ; T . 'PAS_SAUVES' = 1 ; R = DYNAMIC T ;
+TC = EXTR (EVOL 'TEMP' R 'DEPL' 'RZ' PC) 'ORDO' ; TS = EXTR (EVOL 'TEMP' R 'DEPL' 'RZ' PS) 'ORDO' ;
+FN = EXTR (EVOL 'TEMP' R 'CONTRAINTES' 'EFFX' M 1 1 1) 'ORDO' ; E = T . 'ENERGIES' ;
+VS = EXTR (EVOL 'TEMP' R 'VITE' 'RZ' PS) 'ORDO' ;
+MZ = EXTR (EVOL 'TEMP' R 'CONTRAINTES' 'MOMZ' M 1 1 1) 'ORDO' ;
+"""
+
+
+def far_field(speed, ground="", more=""):
+    """Rotations of footing and ground, force between them, energies, of a footing thrown over."""
+    result = run_text(FAR_FIELD.format(speed=speed, ground=ground))
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    energies = {str(k): np.array(v.values) for k, v in find("E").items() if str(k) != "TEMPS"}
+    return [np.array(find(name).values) for name in ["TC", "TS", "FN", *more.split()]], energies
+
+
+def test_dashpots_below_the_ground_of_a_footing_in_full_contact():
+    """A spring below a mass, in line with a spring and a dashpot: three exponentials."""
+    (turn, ground, _), energies = far_field(0.05)
+    k = NEAR * 4.0**2 / 12
+    A = np.array([[0, 1, 0], [-k / TURN, 0, k / TURN], [k / DASH, 0, -(k + FAR) / DASH]])
+    rates, shapes = np.linalg.eig(A)
+    parts = np.linalg.solve(shapes, np.array([0.0, 0.05, 0.0]).astype(complex))
+    exact = (shapes @ (parts[:, None] * np.exp(rates[:, None] * np.arange(1001) * 2e-4))).real
+    np.testing.assert_allclose(turn, exact[0], atol=2e-4 * np.abs(exact[0]).max())
+    np.testing.assert_allclose(ground, exact[2], atol=2e-4 * np.abs(exact[2]).max())
+    rate = (k * exact[0] - (k + FAR) * exact[2]) / DASH
+    assert energies["AMORTIE"][-1] == pytest.approx(DASH * np.trapezoid(rate**2) * 2e-4, rel=1e-3)
+
+
+def test_dashpots_below_the_ground_brake_no_footing_that_has_left_it():
+    (turn, below, force), energies = far_field(0.8)
+    flying = (force[1:-1] == 0.0) & (force[:-2] == 0.0) & (force[2:] == 0.0)
+    assert flying.sum() > 400
+    bend = np.abs(np.diff(turn, 2))
+    assert bend[flying].max() < 1e-9 * bend.max()
+    free = below[1:-1][flying][:20]  # the ground alone goes back: K theta + C theta' = 0
+    np.testing.assert_allclose(np.log(free[1:] / free[:-1]) / 2e-4, -FAR / DASH, rtol=1e-3)
+    assert np.abs(energies["ECART"]).max() < 1e-3 * energies["AMORTIE"][-1]
+
+
+def test_dashpots_below_ground_that_yields_carry_what_it_carries():
+    (_, below, _, rate, moment), energies = far_field(0.8, "'COHE' 2.E5", "VS MZ")
+    np.testing.assert_allclose(
+        moment[1:], (FAR * below + DASH * rate)[1:], atol=1e-6 * np.abs(moment).max()
+    )
+    assert energies["DISSIPEE"][-1] > energies["AMORTIE"][-1] > 1e3
+    assert np.abs(energies["ECART"]).max() < 1e-3 * energies["AMORTIE"][-1]
+
+
 @pytest.mark.parametrize("length", ["", "'LONG' 9."])
 def test_a_footing_in_the_plane_turns_over_its_width_however_far_it_goes_on_behind(found, length):
     """KN LARG^2 / 12, KN being that of the whole footing (Winkler's bed, integrated)."""

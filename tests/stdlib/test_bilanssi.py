@@ -185,17 +185,101 @@ def test_what_has_no_verdict_is_refused_by_name(text, code):
     assert result.errors[0].code == code
 
 
-def test_a_macro_element_is_refused_and_dead_load_and_missing_weight_are_told():
-    macro = (
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PC = 0. 0. ; PS = 0. -1. ; J = MANU 'SEG2' PS PC ;"
-        "M = MODE J MECANIQUE ELASTIQUE MACRO_SEMELLE JOI1 ;"
-        f"A = MATE M 'KN' {K} 'KS' {K} 'LARG' 4. ;"
-        "B = (BLOQ 'UX' 'UY' 'RZ' PS) ET (BLOQ 'UX' PC) ;"
-    )
-    result = run_text(macro + PUSH.replace("(FORC (1. 0.) PC)", "(FORC (0. -1.) PC)") + VERDICT)
-    assert result.errors[0].code == "stdlib.bilanssi-macro"
+def test_dead_load_and_missing_weight_are_told():
     result = run_text(STRIP + PUSH + "V . 'CAPACITE' = 1.E5 ; R = @BILANSSI V ;")
     assert [w.code for w in result.session.warnings] == ["stdlib.bilanssi-dead-load"]
     lifted = PUSH.replace(f"(0. {-N})", "(0. 0.)").replace("0. 1. 2. 3. 4. ; P", "0. 1. ; P")
     result = run_text(STRIP + lifted + "R = @BILANSSI V ;")
     assert "stdlib.bilanssi-no-weight" in [w.code for w in result.session.warnings]
+
+
+def macro(law, sizes, dimension=2):
+    """A macro-element under a base that turns and slides; C below, PUSH pushes it 1 m above."""
+    names = "'UX' 'UY' 'RZ'" if dimension == 2 else "'UX' 'UY' 'UZ' 'RX' 'RY' 'RZ'"
+    points = "PC = 0. 0. ; PS = 0. -1. ;" if dimension == 2 else "PC = 0. 0. 0. ; PS = 0. 0. -1. ;"
+    return (
+        f"OPTI DIME {dimension} {'MODE PLAN DEFO' if dimension == 2 else ''} ELEM SEG2 ; {points}"
+        f"J = MANU 'SEG2' PS PC ; M = MODE J MECANIQUE ELASTIQUE {law} JOI1 ;"
+        f"A = MATE M {sizes} ; B = BLOQ {names} PS ;"
+    )
+
+
+AT_BASE = PUSH.replace("(FORC (1. 0.) PC)", "((FORC (1. 0.) PC) ET (MOME 'MZ' -1. PC))")
+
+
+def test_a_macro_element_has_the_statics_of_a_strip():
+    stiff = f"'KN' {K * B} 'KS' {K} 'LARG' {B}"
+    got = verdict(macro("MACRO_SEMELLE", stiff) + AT_BASE + VERDICT)
+    e = np.array([0.0, *SHEARS]) / N
+    lifted = e > B / 6
+    share = np.where(lifted, 3.0 * (0.5 - e / B), 1.0)
+    toe = np.where(lifted, 2.0 * N / (3.0 * (B / 2 - e)), N / B * (1.0 + 6.0 * e / B))
+    np.testing.assert_allclose(got["FORCE"], N, rtol=1e-9)
+    assert got["ENFONCEMENT"][1] == pytest.approx(N / (K * B), rel=1e-9)
+    np.testing.assert_allclose(got["MOMENT"], [0.0, *(-h for h in SHEARS)], atol=1e-3)
+    np.testing.assert_allclose(got["PART"], share, rtol=1e-9)
+    np.testing.assert_allclose(got["PRESSION"], toe, rtol=1e-9)
+    np.testing.assert_allclose(got["RENVERSEMENT"][1:], [N * B / 2 / h for h in SHEARS], rtol=1e-9)
+    np.testing.assert_allclose(got["GLISSEMENT"][1:], [MU * N / h for h in SHEARS], rtol=1e-9)
+    # the edge that lifts: pressures fall to nothing where the base does, along a line
+    turn = np.abs(got["ROTATION"])
+    np.testing.assert_allclose(turn[2:], toe[2:] / K / (share[2:] * B), rtol=1e-9)
+    np.testing.assert_allclose(got["OUVERTURE"], turn * B * (1 - share), rtol=1e-9)
+
+
+def test_a_strip_on_clay_presses_and_drags_as_far_as_the_clay_goes():
+    """A first push: N = q b + q r/2, r = q/(k theta) the part whose ground is still elastic."""
+    c = 3.0 * N / ((2 + np.pi) * B)  # N is a third of the capacity
+    most = N * (B - B / 3) / 2
+    text = macro("MACRO_SEMELLE", f"'KN' {50 * K * B} 'KS' {50 * K} 'LARG' {B} 'COHE' {c!r}")
+    moments = [part * most for part in (0.3, 0.6, 0.93)]
+    pushed = (
+        PUSH.replace("200000.0 600000.0 900000.0", " ".join(f"{m:.1f}" for m in moments))
+        .replace("(FORC (1. 0.) PC)", "(MOME 'MZ' -1. PC)")
+        .replace("(FORC (0. ", "(FORC (2.E4 ")
+    )
+    got = verdict(text + pushed + VERDICT)
+    np.testing.assert_allclose(got["FORCE"], N, rtol=1e-6)
+    np.testing.assert_allclose(got["MOMENT"][1:], [-m for m in moments], rtol=1e-6)
+    assert got["PRESSION"][-1] == pytest.approx((2 + np.pi) * c, rel=0.02)  # less by the drag
+    elastic = (2 + np.pi) * c / (50 * K * np.abs(got["ROTATION"][-1]))
+    assert 0.1 * B < elastic < 0.5 * B
+    assert got["PART"][-1] == pytest.approx(1 / 3 + elastic / (2 * B), abs=1 / 64)  # stripes
+    np.testing.assert_allclose(got["GLISSEMENT"], MU * N / 2.0e4, rtol=1e-6)
+    np.testing.assert_allclose(got["RENVERSEMENT"][-1], N * B / 2 / moments[-1], rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("law", "sizes", "area", "second", "edge"),
+    [
+        ("MACRO_SEMELLE", "'LARG' 6. 'LONG' 4.", 24.0, (4**3 * 6 / 12, 6**3 * 4 / 12), (2.0, 3.0)),
+        ("MACRO_DISQUE", "'RAYO' 2.", 4 * np.pi, (4 * np.pi, 4 * np.pi), (2.0, 2.0)),
+    ],
+)
+def test_a_macro_element_in_space_has_both_its_axes(law, sizes, area, second, edge):
+    moment, shear = 2.0e5, 3.0e4
+    turn = f"(MOME 'MX' {moment} 'MY' {moment / 2} PC)"
+    push = (
+        PUSH.replace("(FORC (0. ", "(FORC (0. 0. ")
+        .replace("(FORC (1. 0.) PC)", f"(FORC ({shear} {2 * shear} 0.) PC)")
+        .replace("0. 0. 200000.0 600000.0 900000.0", "0. 0. 1. 1. 1.")
+        .replace("ET (CHAR", f"ET (CHAR 'MECA' {turn} E) ET (CHAR")
+        .replace("0. 1. 2. 3. 4. ; P", "0. 1. 2. ; P")
+    )
+    text = macro(law, f"'KN' {K * area} 'KS' {K} 'QN' {K} {sizes}", 3)
+    got = verdict(text + push + VERDICT)
+    turns = moment / (K * second[0]), 0.5 * moment / (K * second[1])
+    reach = np.hypot(*turns) * edge[0] if law == "MACRO_DISQUE" else np.dot(turns, edge)
+    np.testing.assert_allclose(got["FORCE"], N, rtol=1e-9)
+    assert got["ROTATION"][-1] == pytest.approx(np.hypot(*turns), rel=1e-9)
+    assert got["PRESSION"][-1] == pytest.approx(N / area + K * reach, rel=1e-9)
+    assert got["PART"][-1] == 1.0
+    assert got["GLISSEMENT"][-1] == pytest.approx(MU * N / (shear * np.sqrt(5)), rel=1e-9)
+    factors = N * edge[0] / moment, N * edge[1] / (moment / 2)
+    assert got["RENVERSEMENT"][-1] == pytest.approx(min(factors), rel=1e-9)
+
+
+def verdict(text):
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    return histories(result)

@@ -15,8 +15,9 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.kinematics import JointCells
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.parameters import HARD_AREA
 from ssilang.kernel.interface.laws.places import n_places, place
 
 
@@ -35,7 +36,9 @@ class Bed:
         opens by `v + theta s`.
     areas : array (g,)
     parameters : array (N_PARAMETERS,)
-        The same at all places.
+        Means over the area.
+    strengths : array (g,)
+        What the ground bears at each place, pressed or dragged, over the mean.
     """
 
     owner: int
@@ -43,6 +46,14 @@ class Bed:
     arms: FloatArray
     areas: FloatArray
     parameters: FloatArray
+    strengths: FloatArray
+
+    @property
+    def table(self) -> FloatArray:
+        """Parameters of the places, (g, N_PARAMETERS)."""
+        found = np.tile(self.parameters, (len(self.areas), 1))
+        found[:, [Parameter.COHE, Parameter.QULT]] *= self.strengths[:, None]
+        return found
 
     @property
     def points(self) -> slice:
@@ -79,6 +90,16 @@ class Bed:
         """Share (...) of its area that presses, from w, t (..., g, d) at its places."""
         return np.asarray((self.pressures(w, t) > 0.0) @ self.areas / self.areas.sum())
 
+    def tractions(self, w: FloatArray, state: FloatArray) -> FloatArray:
+        """What yielding takes (..., g, d) at its places, from w and state (..., g, ...) there."""
+        kn, ks = self.parameters[Parameter.BED_KN], self.parameters[Parameter.BED_KS]
+        t = np.empty_like(w)
+        for i, slip in enumerate((Variable.SLIP1, Variable.SLIP2)[: w.shape[-1] - 1]):
+            t[..., i] = -ks * state[..., slip]
+        press = kn * np.maximum(state[..., Variable.XI] - w[..., -1], 0.0)
+        t[..., -1] = -press - kn * np.minimum(w[..., -1], 0.0)
+        return t
+
     def pressures(self, w: FloatArray, t: FloatArray) -> FloatArray:
         """Pressures (..., g) of the bed itself from jumps and what yielding takes (..., g, d)."""
         elastic = self.parameters[Parameter.BED_KN] * np.minimum(w[..., -1], 0.0)
@@ -108,12 +129,30 @@ def bed_of(code: LawCode, table: FloatArray, dimension: int, owner: int, first: 
         raise MaterialError("kernel.interface.bed-one-shear-stiffness")
     found = np.array([place(code, dimension, i, table) for i in range(n_places(dimension))])
     arms, areas = found[:, : dimension - 1], found[:, 2]
+    strengths = np.ones(len(areas))
+    if table[Parameter.PDUR] > 0.0:
+        arms, areas, strengths = with_hard_spots(arms, areas, table[Parameter.PDUR])
     p = np.zeros(N_PARAMETERS)
     p[Parameter.COHE], p[Parameter.FROT] = table[Parameter.COHE], table[Parameter.FROT]
     p[Parameter.QULT] = table[Parameter.QULT] or bearing_factor(code, table) * table[Parameter.COHE]
     p[Parameter.BED_KN] = table[Parameter.KN] / areas.sum()
     p[Parameter.BED_KS] = table[Parameter.KS1] / areas.sum()
-    return Bed(owner, first, arms, areas, p)
+    return Bed(owner, first, arms, areas, p, strengths)
+
+
+def with_hard_spots(
+    arms: FloatArray, areas: FloatArray, share: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Arms, areas and strengths of places a part of whose area has this share of the strength.
+
+    A place that is turned back over yields against its own hard spots, which still press: its
+    loops are wider than an even one's, while stiffness, and strength in whatever direction, are
+    the same (all that each part bears grows alike: the sum of such domains is their mean).
+    """
+    parts = np.array([1.0 - HARD_AREA, HARD_AREA])
+    strengths = np.array([1.0 - share, share]) / parts
+    n = len(areas)
+    return np.repeat(arms, 2, axis=0), np.outer(areas, parts).ravel(), np.tile(strengths, n)
 
 
 def twisting_stiffness(code: LawCode, table: FloatArray) -> float:

@@ -36,7 +36,7 @@ def common_results(
         Of its places.
     """
     k, g, d = w.shape
-    p = np.tile(bed.parameters, (k * g, 1))
+    p = np.tile(bed.table, (k, 1))
     codes = np.full(k * g, LawCode.BED)
     at_places = energies_of_points(
         codes, w.reshape(-1, d), t.reshape(-1, d), state.reshape(k * g, -1), p

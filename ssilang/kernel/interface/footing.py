@@ -19,6 +19,9 @@ from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.outline import Outline, outline_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.assembly import Numbering
 
@@ -30,7 +33,7 @@ class Loads(NamedTuple):
     """What a footing carries at some instants; m rotation axes.
 
     Moment and rotation are those of the structure on the soil, so that a footing on springs has
-    a positive stiffness. Where it says nan, the law of the joint has no such thing.
+    a positive stiffness.
     """
 
     share: FloatArray  # (k,) of the area in contact, 0 to 1
@@ -73,9 +76,9 @@ class Footing:
     lengths : array (n_cells,)
         Area of each cell, with `ends`.
     pairs : bool
-        Whether its joints have two points.
-    macro : bool
-        Whether it is a macro-element, whose jumps are rotations and opening.
+        Whether its joints have two points, whose pressures are forces.
+    outline : Outline or None
+        Base of a macro-element, whose jumps are rotations and opening.
     bed : Bed or None
         Its bed, where the ground of a macro-element yields.
     """
@@ -91,13 +94,13 @@ class Footing:
     ends: sp.csr_array | None = None
     lengths: FloatArray = field(default_factory=lambda: np.zeros(0))
     pairs: bool = False
-    macro: bool = False
+    outline: Outline | None = None
     bed: Bed | None = None
 
     @property
     def area(self) -> float:
         """Its area (number of joints where these have two points)."""
-        return float(self.weights.sum())
+        return float(self.weights.sum()) if self.outline is None else self.outline.area
 
     @property
     def normal(self) -> FloatArray:
@@ -116,14 +119,11 @@ class Footing:
         u : array (k, c)
             Displacements at `unknowns`.
         """
-        if self.bed is not None:
-            return self._bed_loads(self.bed, w, t)
+        if self.outline is not None:
+            return self._macro_loads(self.outline, w, t)
         w, t = w[:, self.points], t[:, self.points]
         wn, tn = w[..., -1], t[..., -1]
         opening, pressure = np.maximum(wn, 0.0).max(axis=1), np.maximum(-tn, 0.0).max(axis=1)
-        if self.macro:
-            nothing = np.full(len(w), np.nan)
-            return Loads(nothing, -tn[:, 0], nothing, opening, t[:, 0, :-1], w[:, 0, :-1])
         vectors = _in_space(np.einsum("g,gij,kgi->kgj", self.weights, self.frames, t))
         arms = self.places - self.centre
         share: FloatArray = (wn <= 0.0) @ self.weights / self.area
@@ -142,15 +142,22 @@ class Footing:
             u @ self.turn.T,
         )
 
-    def _bed_loads(self, bed: Bed, w: FloatArray, t: FloatArray) -> Loads:
-        """Of a macro-element whose ground yields: its places know where it presses."""
-        at, t_bed, w_bed = self.points[0], t[:, bed.points], w[:, bed.points]
-        whole = t[:, at] + bed.taken(t_bed)
-        pressures = bed.pressures(w_bed, t_bed)
+    def _macro_loads(self, outline: Outline, w: FloatArray, t: FloatArray) -> Loads:
+        """Of a macro-element: its outline knows where it presses, or the places of its bed do.
+
+        It opens above the ground at rest, wherever this has settled to.
+        """
+        at = self.points[0]
+        own, whole = w[:, at], t[:, at]
+        share, pressure = outline.share(own), outline.pressure(own)
+        if self.bed is not None:
+            w_bed, t_bed = w[:, self.bed.points], t[:, self.bed.points]
+            whole = whole + self.bed.taken(t_bed)
+            share = self.bed.in_contact(w_bed, t_bed)
+            pressure = self.bed.pressures(w_bed, t_bed).max(axis=1)
         return Loads(
-            bed.in_contact(w_bed, t_bed), -whole[:, -1], pressures.max(axis=1),
-            np.maximum(w[:, at, -1], 0.0), whole[:, :-1], w[:, at, :-1],
-        )  # fmt: skip
+            share, -whole[:, -1], pressure, outline.opening(own), whole[:, :-1], own[:, :-1]
+        )
 
     def _at_ends(self, values: FloatArray) -> FloatArray:
         """Values (k, g) of the points at both ends of each cell, (k, n_cells, 2)."""
@@ -324,7 +331,9 @@ def _macro(joints: JointCells, point: int, cell: int, interface: Interface) -> F
     frame, d = joints.frames[cell], joints.element.dimension
     axes = np.array([[0.0, 0.0, 1.0]]) if d == 2 else frame[0, : d - 1]
     bed = next((b for b in interface.beds if b.owner == point), None)
+    outline = outline_of(law_of(joints.zone.behaviour).code, interface.parameters[point], d)
     return Footing(
         np.array([point]), np.ones(1), frame, place, place[0], axes, np.zeros(0, np.int64),
-        np.zeros((len(axes), 0)), pairs=True, macro=True, bed=bed,
+        np.zeros((len(axes), 0)), pairs=outline.code == LawCode.SPRINGS,
+        outline=outline, bed=bed,
     )  # fmt: skip

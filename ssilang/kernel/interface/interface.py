@@ -184,7 +184,7 @@ def interface_of(
     for bed in beds:  # the closed form above knows what its ground bears
         place, cell = _at(joints, bed.owner)
         tables[place][cell, Parameter.QULT] = bed.parameters[Parameter.QULT]
-    tables += [np.tile(bed.parameters, (len(bed.areas), 1)) for bed in beds]
+    tables += [bed.table for bed in beds]
     codes += [np.full(len(bed.areas), LawCode.BED, dtype=np.int64) for bed in beds]
     return Interface(
         tuple(joints),

@@ -172,6 +172,11 @@ _JOINTS = (
        "Pression que le sol supporte ; par défaut COHE fois 5,14 (filante), "
        "5,14 (1 + 0,2 B/L) (rectangle), 6,05 (disque)", _YIELDING, range=NOT_NEGATIVE,
        usual=between(0.0, 1e9)),
+    _p("PDUR", "", "Share of the ground's strength in hard spots, a tenth of the area; 0: none; "
+       "more than 0.1: loops widen, stiffness and strength stay",
+       "Part de la résistance du sol en points durs, un dixième de l'aire ; 0 : aucun ; plus de "
+       "0.1 : les boucles s'élargissent, raideur et résistance restent", _YIELDING,
+       range=between(0.0, 1.0)),
     _p("EF", "Pa/m", "Normal stiffness beyond the closing ECN",
        "Raideur normale au-delà de la fermeture ECN", range=NOT_NEGATIVE),
     _p("ECN", "m", "Closing beyond which the normal stiffness is EF; 0: never",

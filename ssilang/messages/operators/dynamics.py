@@ -190,6 +190,12 @@ MESSAGES: dict[str, Message] = {
         "MAILLAGE_SAUVE must hold the joints' mesh, or be left out",
         "MAILLAGE_SAUVE doit contenir le maillage des joints, ou être omis",
     ),
+    "footing-no-variables": Message(
+        "the ground of the macro-element yields: its internal variables are needed at each instant",
+        "le sol du macro-élément plastifie : il faut ses variables internes à chaque instant",
+        "the run must save VARIABLES_INTERNES with CONTRAINTES",
+        "le calcul doit garder VARIABLES_INTERNES avec CONTRAINTES",
+    ),
     "several-footings": Message(
         "the joints of the model are {count} footings",
         "les joints du modèle font {count} semelles",

@@ -7,21 +7,24 @@ from typing import cast
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.family import displacement_names
-from ssilang.kernel.interface.footing import Footing, footings_of
+from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import (
     Interface,
     interface_of,
-    is_macro,
     joint_zones,
     point_values,
+    state_from_field,
 )
 from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Table
 
@@ -35,19 +38,22 @@ _TURNING = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
     arg("motion", "LISTCHPO", en="displacements", fr="déplacements"),
     arg("tractions", "TABLE", en="tractions of the same instants, from 1",
         fr="contraintes des mêmes instants, à partir de 1"),
+    opt("variables", "TABLE", en="internal variables of the same instants, from 1",
+        fr="variables internes des mêmes instants, à partir de 1"),
     family="dynamics",
     help=Help(
         en="What a footing carries at some instants, for @BILANSSI: a table of lists PART (share "
         "of the area in contact), FORCE (along the mean normal, positive in compression), CISA "
         "(across it), PRESSION (largest), OUVERTURE (largest), ENFONCEMENT (mean motion of the "
         "upper side into the soil); MOMENT, ROTATION and BRAS (from the centre to the edges) by "
-        "axis; AIRE. What a macro-element's law does not know is left out.",
+        "axis; AIRE. A macro-element whose ground yields needs its internal variables.",
         fr="Ce que porte une semelle à des instants, pour @BILANSSI : une table de listes PART "
         "(part de l'aire en contact), FORCE (selon la normale moyenne, positive en compression), "
         "CISA (en travers), PRESSION (la plus grande), OUVERTURE (la plus grande), ENFONCEMENT "
         "(mouvement moyen de la face supérieure vers le sol) ; MOMENT, ROTATION et BRAS (du centre "
-        "aux bords) par axe ; AIRE. Ce que la loi d'un macro-élément ignore est omis.",
-        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 ;",
+        "aux bords) par axe ; AIRE. Un macro-élément dont le sol plastifie a besoin de ses "
+        "variables internes.",
+        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 (TAB3) ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 4 (0. 0.) (4. 0.) ; "
             "F = S PLUS (0. 0.) ; J = RACC 1.E-3 F S ; "
@@ -59,7 +65,12 @@ _TURNING = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
     ),
 )  # fmt: skip
 def zsem(
-    call: Call, model: Model, characteristics: CellField, motion: ListChpo, tractions: Table
+    call: Call,
+    model: Model,
+    characteristics: CellField,
+    motion: ListChpo,
+    tractions: Table,
+    variables: Table | None,
 ) -> Table:
     """Loads of the footing at each instant."""
     zones = joint_zones(model)
@@ -72,7 +83,11 @@ def zsem(
     if len(footings) != 1:
         raise call.error("operators.dynamics.several-footings", model, count=len(footings))
     u = np.array([_values(numbering, field) for field in displacements])
-    moving = np.isin(numbering.codes, [numbering.code(n) for n in displacement_names(zones[0])])
+    footing = footings[0]
+    names = displacement_names(zones[0])
+    if footing.outline is not None:  # whose jumps are rotations too
+        names = numbering.unknowns
+    moving = np.isin(numbering.codes, [numbering.code(n) for n in names])
     if (lost := np.isnan(u).any(axis=0) & moving).any():
         node = numbering.table.told(numbering.nodes[np.flatnonzero(lost)[0]])
         raise call.error("operators.dynamics.footing-not-kept", motion, node=node)
@@ -80,7 +95,50 @@ def zsem(
     w = np.array([_jumps(interface, row) for row in u])
     stresses = [cast(CellField, tractions.get(i + 1)) for i in range(len(u))]
     t = np.array([point_values(interface, field, "traction") for field in stresses])
-    return _results(interface, footings[0], numbering, w, t, u)
+    if footing.bed is not None:
+        state = np.array([state_from_field(interface, x) for x in _variables(call, variables, u)])
+        at = footing.bed.points
+        t[:, at] = footing.bed.tractions(w[:, at], state[:, at])
+        t[:, footing.points[0]] -= footing.bed.taken(t[:, at])
+    shear = _shear(interface, footing, (w, t, u), characteristics, numbering)
+    loads = footing.loads(w, t, u[:, footing.unknowns])
+    return _results(interface, footing, numbering, shear, loads, u)
+
+
+def _variables(call: Call, given: Table | None, u: FloatArray) -> list[CellField]:
+    """Internal variables at the instants of u (k, n)."""
+    found = [None if given is None else given.get(i + 1) for i in range(len(u))]
+    if any(field is None for field in found):
+        raise call.error("operators.dynamics.footing-no-variables", given)
+    return cast("list[CellField]", found)
+
+
+def _shear(
+    interface: Interface,
+    footing: Footing,
+    values: tuple[FloatArray, FloatArray, FloatArray],
+    characteristics: CellField,
+    numbering: Numbering,
+) -> FloatArray:
+    """Force (k,) across the mean normal, from jumps, tractions and displacements."""
+    (w, t, u), d = values, interface.dimension
+    if footing.outline is None:
+        push = np.einsum("g,gij,kgi->kj", footing.weights, footing.frames, t[:, footing.points])
+        normal = footing.normal[:d]
+        push -= (push @ normal)[:, None] * normal
+    elif footing.bed is not None:  # its places drag
+        at, ks = footing.bed.points, footing.bed.parameters[Parameter.BED_KS]
+        drag = t[:, at, : d - 1] + ks * w[:, at, : d - 1]
+        push = np.einsum("g,kgi->ki", footing.bed.areas, drag)
+    else:  # springs beside the interface
+        (j,) = interface.joints
+        table = joint_parameters(j, zone_field(j.zone, characteristics))[0]
+        codes = np.array([numbering.code(n) for n in displacement_names(j.zone)])
+        resolve = j.zone.cells.nodes.resolve
+        upper, lower = (u[:, numbering.index(resolve(s[0]), codes)] for s in (j.upper, j.lower))
+        push = (upper - lower) @ j.frames[0, 0, : d - 1].T
+        push *= table[[Parameter.KS1, Parameter.KS2][: d - 1]]
+    return np.asarray(np.linalg.norm(push, axis=1))
 
 
 def _numbering(model: Model) -> Numbering:
@@ -116,33 +174,34 @@ def _results(
     interface: Interface,
     footing: Footing,
     numbering: Numbering,
-    w: FloatArray,
-    t: FloatArray,
+    shear: FloatArray,
+    loads: Loads,
     u: FloatArray,
 ) -> Table:
-    loads = footing.loads(w, t, u[:, footing.unknowns])
-    made = {"FORCE": loads.force, "OUVERTURE": loads.opening}
+    normal = footing.normal[: interface.dimension]
     result = Table()
-    if not footing.macro:
-        made |= {"PART": loads.share, "PRESSION": loads.pressure}
-        push = np.einsum("g,gij,kgi->kj", footing.weights, footing.frames, t[:, footing.points])
-        normal = footing.normal[: push.shape[1]]
-        across = push - (push @ normal)[:, None] * normal
-        made["CISA"] = np.linalg.norm(across, axis=1)
-        made["ENFONCEMENT"] = -_mean_motion(interface.joints, numbering, u, normal)
-    for name, values in made.items():
+    for name, values in {
+        "PART": loads.share,
+        "FORCE": loads.force,
+        "CISA": shear,
+        "PRESSION": loads.pressure,
+        "OUVERTURE": loads.opening,
+        "ENFONCEMENT": -_mean_motion(interface.joints, numbering, u, normal),
+    }.items():
         result.set(name, ListReel(values))
     result.set("AIRE", footing.area)
-    for name, rows in (("MOMENT", loads.moment), ("ROTATION", loads.rotation)):
+    levers = (
+        _arms(interface.joints, footing) if footing.outline is None else footing.outline.levers()
+    )
+    for name, rows in (
+        ("MOMENT", loads.moment.T),
+        ("ROTATION", loads.rotation.T),
+        ("BRAS", levers),
+    ):
         inner = Table()
-        for axis, values in enumerate(rows.T, 1):
+        for axis, values in enumerate(rows, 1):
             inner.set(axis, ListReel(values))
         result.set(name, inner)
-    arms = Table()
-    if not footing.macro:
-        for axis, ends in enumerate(_arms(interface.joints, footing), 1):
-            arms.set(axis, ListReel(ends))
-    result.set("BRAS", arms)
     return result
 
 
@@ -168,9 +227,7 @@ def _arms(joints: tuple[JointCells, ...], footing: Footing) -> FloatArray:
     None in axisymmetry, which carries no moment.
     """
     places = [
-        j.zone.cells.nodes.coordinates[j.zone.cells.nodes.resolve(j.upper).ravel()]
-        for j in joints
-        if not is_macro(j)
+        j.zone.cells.nodes.coordinates[j.zone.cells.nodes.resolve(j.upper).ravel()] for j in joints
     ]
     arms = np.concatenate(places) - footing.centre
     levers = np.cross(footing.axes[:, None], arms[None]) @ footing.normal  # (m, nodes)

@@ -179,7 +179,7 @@ def _told(footing: Footing, problem: Problem) -> dict[str, Any]:
         "normal": footing.normal.tolist(),
         "axes": axis_names(footing.axes),
         "points": len(footing.points),
-        "kind": "macro" if footing.macro else "pairs" if footing.pairs else "faces",
+        "kind": "pairs" if footing.pairs else "macro" if footing.outline else "faces",
     }
 
 

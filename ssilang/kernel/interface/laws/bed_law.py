@@ -26,7 +26,6 @@ import math
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
 
@@ -100,17 +99,16 @@ def _on_curve(
 
 @compiled
 def _returned(
-    p_try: float, T_try: float, p: FloatArray
+    p_try: float, T_try: float, kn: float, ks: float, c: float, q: float, friction: float
 ) -> tuple[float, float, float, float, float, float]:
     """p, T and derivatives by the tries, back within the capacity."""
-    kn, ks, c, q = p[Par.BED_KN], p[Par.BED_KS], p[Par.COHE], p[Par.QULT]
-    if T_try <= c and (p_try <= 0.5 * q or p_try <= _bearing(T_try / c, q)):
+    # below the chord of the curve, which is concave, no arc cosine is needed
+    if T_try <= c and (2.0 * c * (p_try - q) <= -q * T_try or p_try <= _bearing(T_try / c, q)):
         found = (p_try, T_try, 1.0, 0.0, 0.0, 1.0)
     elif p_try <= 0.5 * q:
         found = (p_try, c, 1.0, 0.0, 0.0, 0.0)
     else:
         found = _on_curve(p_try, T_try, kn, ks, q, c)
-    friction = p[Par.FROT]
     if friction >= 0.0 and found[1] > friction * found[0]:
         most = corner_pressure(q, c, friction)
         if p_try < most:
@@ -119,51 +117,79 @@ def _returned(
     return found
 
 
-@seldom
 @compiled
-def bed_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
+def _place(
+    k: int,
+    w: FloatArray,
+    state: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
 ) -> None:
-    """What yielding takes from an elastic bed, new state and tangent, written in place.
-
-    State: XI settlement (<= 0), SLIP1 SLIP2, SHEAR_LOSS energy lost.
-    """
-    n = w.shape[0] - 1
-    kn, ks = p[Par.BED_KN], p[Par.BED_KS]
-    clear(D)
-    copy_state(state, new)
-    touching = w[n] < state[Var.XI]
-    p_try = -kn * (w[n] - state[Var.XI]) if touching else 0.0
+    """What yielding takes from an elastic bed, new state and tangent, at the place k of many."""
+    n = w.shape[1] - 1
+    kn, ks = p[k, Par.BED_KN], p[k, Par.BED_KS]
+    for i in range(n + 1):
+        for j in range(n + 1):
+            D[k, i, j] = 0.0
+    for i in range(state.shape[1]):
+        new[k, i] = state[k, i]
+    touching = w[k, n] < state[k, Var.XI]
+    p_try = -kn * (w[k, n] - state[k, Var.XI]) if touching else 0.0
     T_try = 0.0
     for i in range(n):
-        T_try += (w[i] - state[Var.SLIP1 + i]) ** 2
+        T_try += (w[k, i] - state[k, Var.SLIP1 + i]) ** 2
     T_try = ks * math.sqrt(T_try)
-    press, drag, pp, pT, Tp, TT = _returned(p_try, T_try, p)
+    press, drag, pp, pT, Tp, TT = _returned(
+        p_try, T_try, kn, ks, p[k, Par.COHE], p[k, Par.QULT], p[k, Par.FROT]
+    )
     ratio = drag / T_try if T_try > 0.0 else 1.0
     spent = 0.0
     if press != p_try:
-        new[Var.XI] = w[n] + press / kn
+        new[k, Var.XI] = w[k, n] + press / kn
         spent += press * (p_try - press) / kn
     # less the elastic bed
-    closed = w[n] < 0.0
-    t[n] = -press - (kn * w[n] if closed else 0.0)
-    D[n, n] = (kn * pp if touching else 0.0) - (kn if closed else 0.0)
+    closed = w[k, n] < 0.0
+    t[k, n] = -press - (kn * w[k, n] if closed else 0.0)
+    D[k, n, n] = (kn * pp if touching else 0.0) - (kn if closed else 0.0)
     for i in range(n):
-        trial = ks * (w[i] - state[Var.SLIP1 + i])
+        trial = ks * (w[k, i] - state[k, Var.SLIP1 + i])
         e_i = trial / T_try if T_try > 0.0 else 0.0
-        t[i] = ratio * trial - ks * w[i]
+        t[k, i] = ratio * trial - ks * w[k, i]
         if drag != T_try:
-            moved = (1.0 - ratio) * (w[i] - state[Var.SLIP1 + i])
-            new[Var.SLIP1 + i] += moved
+            moved = (1.0 - ratio) * (w[k, i] - state[k, Var.SLIP1 + i])
+            new[k, Var.SLIP1 + i] += moved
             spent += ratio * trial * moved
         for j in range(n):
-            e_j = ks * (w[j] - state[Var.SLIP1 + j]) / T_try if T_try > 0.0 else 0.0
-            D[i, j] = ks * (TT - ratio) * e_i * e_j
-        D[i, i] += ks * ratio - ks
+            e_j = ks * (w[k, j] - state[k, Var.SLIP1 + j]) / T_try if T_try > 0.0 else 0.0
+            D[k, i, j] = ks * (TT - ratio) * e_i * e_j
+        D[k, i, i] += ks * ratio - ks
         if touching:
-            D[n, i] = -pT * ks * e_i
-            D[i, n] = -kn * Tp * e_i
-    new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + spent
+            D[k, n, i] = -pT * ks * e_i
+            D[k, i, n] = -kn * Tp * e_i
+    new[k, Var.SHEAR_LOSS] = state[k, Var.SHEAR_LOSS] + spent
+
+
+@seldom
+@compiled
+def bed_points(
+    first: int,
+    end: int,
+    w: FloatArray,
+    state: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+) -> None:
+    """What yielding takes at the places from `first` to before `end`, written in place.
+
+    All in one call, by their numbers: a view of each array for each place takes longer than the
+    law. State: XI settlement (<= 0), SLIP1 SLIP2, SHEAR_LOSS energy lost.
+    """
+    for k in range(first, end):
+        _place(k, w, state, p, t, new, D)
 
 
 @compiled

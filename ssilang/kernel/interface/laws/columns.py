@@ -52,6 +52,7 @@ class Parameter(IntEnum):
     KPOS = 24  # shear stiffness once it yields
     ETA = 25  # how sharply it does
     BETA = 26  # share of the hysteresis that unloads as it loads
+    PDUR = 27  # share of the ground's strength in hard spots under a footing
 
 
 class Variable(IntEnum):

@@ -130,7 +130,7 @@ LAWS: dict[str, Law] = {
     "MACRO_SEMELLE": Law(
         LawCode.STRIP,
         ("KN", "KS", "LARG"),
-        ("LONG", "COHE", "QULT", "FROT"),
+        ("LONG", "COHE", "QULT", "FROT", "PDUR"),
         check_macro_parameters,
         rocking=_rocking_rectangle,
         in_space=("LONG",),
@@ -138,7 +138,7 @@ LAWS: dict[str, Law] = {
     "MACRO_DISQUE": Law(
         LawCode.DISC,
         ("KN", "KS", "RAYO"),
-        ("COHE", "QULT", "FROT"),
+        ("COHE", "QULT", "FROT", "PDUR"),
         check_macro_parameters,
         rocking=_rocking_disc,
     ),

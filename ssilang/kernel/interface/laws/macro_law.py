@@ -189,21 +189,24 @@ def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: Floa
 @seldom
 @compiled
 def macro_energy(code: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
-    """Stored energy of a macro-element, without what its ground takes."""
+    """Stored energy of a macro-element, without what its ground takes.
+
+    Over ground that yields `E_at + share (E - E_at)`, E_at that of the places and E that of the
+    closed form. By `_over_places`, `w.t/2 = E_at + share^2 (E - E_at)`, so that E alone is needed.
+    """
     d = w.shape[0]
-    stored: float = 0.0
+    half: float = 0.0
     for i in range(d):
-        stored += 0.5 * w[i] * t[i]
+        half += 0.5 * w[i] * t[i]
     if p[Par.COHE] == 0.0:
-        return stored
-    exact, at, D = np.zeros(d), np.zeros(d), np.zeros((d, d))
+        return half
+    exact, D = np.zeros(d), np.zeros((d, d))
     _elastic(code, w, p, exact, D)
-    pressed_at_places(code, w, p, at, D)
     share, _ = _share(w, p)
-    stored = 0.0
+    stored = half
     for i in range(d):
-        stored += 0.5 * w[i] * (at[i] + share * (exact[i] - at[i]))
-    return stored
+        stored += 0.5 * share * w[i] * exact[i]
+    return stored / (1.0 + share)
 
 
 @compiled

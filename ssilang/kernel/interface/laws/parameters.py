@@ -12,6 +12,9 @@ DEFAULTS: dict[str, float] = {"FROT": -1.0, "ETA": 1.0, "BETA": 0.5}
 """What laws take for the parameters that are not given, if not 0: a joint without tension, the
 plainest hysteresis."""
 
+HARD_AREA = 0.1
+"""Share of the area of each place under a footing that its hard spots take (PDUR)."""
+
 
 def check_sdm_parameters(parameters: FloatArray) -> None:
     """Refuse parameters for which the SDM law has no traction or several.
@@ -76,8 +79,11 @@ def check_macro_parameters(parameters: FloatArray) -> None:
         _refuse(columns[name] < 0, columns[name], name, "> 0")
     for name in ("COHE", "QULT"):
         _refuse(columns[name] < 0, columns[name], name, ">= 0")
+    spots = columns["PDUR"]
+    even = (spots == 0) | ((spots > HARD_AREA) & (spots < 1))
+    _refuse(~even, spots, "PDUR", f"0, {HARD_AREA} < ... < 1")
     strong = columns["COHE"] == 0.0
-    for name, idle in (("QULT", 0.0), ("FROT", -1.0)):
+    for name, idle in (("QULT", 0.0), ("FROT", -1.0), ("PDUR", 0.0)):
         if (strong & (columns[name] > idle)).any():
             raise MaterialError("kernel.interface.macro-needs-cohe", name=name)
 

@@ -58,6 +58,24 @@ def place(code: int, dimension: int, i: int, p: FloatArray) -> tuple[float, floa
 
 
 @compiled
+def _pressed_stripes(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
+    """`pressed_at_places` of a strip, whose m stripes that press stand at one of its edges."""
+    theta, v, width = w[0], w[1], p[Par.LARG]
+    m = STRIPES if v < 0.0 else 0
+    if theta != 0.0:
+        edge = STRIPES * (0.5 - v / (abs(theta) * width)) - 0.5
+        m = math.ceil(min(max(edge, 0.0), float(STRIPES)))
+    k, step = p[Par.KN] / STRIPES, width / STRIPES
+    # of s = step (i + 1/2) - width/2, i < m
+    far = 0.5 * step * m * m
+    first = far - 0.5 * width * m
+    second = step * step * m * (4.0 * m * m - 1.0) / 12.0 - width * (far - 0.25 * width * m)
+    D[0, 0], D[1, 1] = k * second, k * m
+    D[0, 1] = D[1, 0] = k * first if theta >= 0.0 else -k * first
+    t[0], t[1] = D[0, 0] * theta + D[0, 1] * v, D[1, 0] * theta + D[1, 1] * v
+
+
+@compiled
 def pressed_at_places(
     code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray
 ) -> None:
@@ -66,6 +84,9 @@ def pressed_at_places(
     Both follow from area, first and second moments of the places that press.
     """
     d = w.shape[0]
+    if d == 2 and code == LawCode.STRIP:
+        _pressed_stripes(w, p, t, D)
+        return
     whole, area, m1, m2, m11, m12, m22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     v, by_1, by_2 = (w[1], w[0], 0.0) if d == 2 else (w[2], -w[1], w[0])
     for i in range(n_places(d)):

@@ -20,7 +20,7 @@ from ssilang.kernel.interface.laws.bearing_law import (
     pendulum_energy,
     pendulum_point,
 )
-from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_point
+from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_points
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
@@ -66,7 +66,17 @@ def point_response(
     elif code == LawCode.PENDULUM:
         pendulum_point(w, state, p, t, new, D)
     elif code == LawCode.BED:
-        bed_point(w, state, p, t, new, D)
+        d = w.shape[0]
+        bed_points(
+            0,
+            1,
+            w.reshape((1, d)),
+            state.reshape((1, state.shape[0])),
+            p.reshape((1, p.shape[0])),
+            t.reshape((1, d)),
+            new.reshape((1, new.shape[0])),
+            D.reshape((1, d, d)),
+        )
     else:
         macro_point(code, w, state, p, t, new, D)
 
@@ -83,8 +93,16 @@ def respond(
     D: FloatArray,
 ) -> None:
     """`point_response` on n points: w, t (n, d), state, new (n, N_STATE), D (n, d, d)."""
-    for i in range(w.shape[0]):
-        point_response(codes[i], w[i], state[i], p[i], t[i], new[i], D[i])
+    i, n = 0, w.shape[0]
+    while i < n:
+        if codes[i] == LawCode.BED:
+            first = i
+            while i < n and codes[i] == LawCode.BED:
+                i += 1
+            bed_points(first, i, w, state, p, t, new, D)
+        else:
+            point_response(codes[i], w[i], state[i], p[i], t[i], new[i], D[i])
+            i += 1
 
 
 @compiled
