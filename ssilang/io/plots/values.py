@@ -6,7 +6,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from ssilang.io.errors import OutputError
 from ssilang.io.plots.patches import Faces
 from ssilang.io.vtk.grid import matching_cells
 from ssilang.kernel.base.arrays import FloatArray
@@ -122,15 +121,3 @@ def _von_mises(part: CellFieldBlock) -> FloatArray | None:
     a, b, c = (value(n) for n in normal)
     shears = sum(value(n) ** 2 for n in shear)
     return np.asarray(np.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2 + 3 * shears))
-
-
-def check_component(field: NodeField | CellField, component: str) -> None:
-    """Refuse a component that the field has not.
-
-    Raises
-    ------
-    OutputError
-    """
-    names = component_names(field)
-    if component not in names:
-        raise OutputError("io.field-no-component", component=component, names=names)

@@ -20,7 +20,6 @@ from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import Motion
 
-CORRECTIONS = ("FAUX", "MASSE", "RIGIDITE")
 MASSLESS = 1e-10
 """Share of the step's matrix added to the mass, so that massless nodes move freely."""
 

@@ -228,12 +228,3 @@ def values_in_order(field: NodeField, names: Iterable[str], nodes: IntArray | No
         else:
             parts.append(part.values if nodes is None else part.at(nodes))
     return np.concatenate(parts) if parts else np.empty(0)
-
-
-def nodal_norm(field: NodeField, names: Iterable[str]) -> NodeValues:
-    """Square root of the sum of squares of components at each node."""
-    nodes = field.node_ids
-    total = np.zeros(len(nodes))
-    for name in names:
-        total += field.values_at(name, nodes) ** 2
-    return NodeValues(nodes, np.sqrt(total))

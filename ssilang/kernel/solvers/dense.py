@@ -1,4 +1,4 @@
-"""Dense factors in compiled code: LU with row exchanges, one right side or many."""
+"""Dense products and factors in compiled code: LU with row exchanges, one right side or many."""
 
 from __future__ import annotations
 
@@ -11,6 +11,13 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 BLOCK = 32  # columns factorised together
 WIDE = 96  # of large matrices: the rest is read as many times less
 LARGE = 512  # rows of a large matrix
+
+
+@apart
+@compiled
+def multiply(A: FloatArray, B: FloatArray, product: FloatArray) -> None:
+    """Product A B by BLAS: the way there takes longer to compile than most of its callers."""
+    np.dot(A, B, product)
 
 
 @compiled_fast
@@ -74,7 +81,8 @@ def factorise_dense(A: FloatArray, pivots: IntArray) -> bool:
                 for i in range(k + 1, k1):
                     for j in range(k1, n):
                         A[i, j] -= A[i, k] * A[k, j]
-            product = np.dot(_part(A, k1, n, k0, k1), _part(A, k0, k1, k1, n))
+            product = np.empty((n - k1, n - k1))
+            multiply(_part(A, k1, n, k0, k1), _part(A, k0, k1, k1, n), product)
             subtract_from(A, product, k1, k1)
     return True
 

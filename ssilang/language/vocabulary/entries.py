@@ -71,7 +71,8 @@ class TableEntry:
     types : tuple of str
         Type words; FLOTTANT takes an ENTIER. Empty: any object.
     default : number, bool, word, or (English, French)
-        What counts if the entry is not given; a pair only says it.
+        What counts if the entry is not given; a pair only says it. Given to an unused entry, it
+        is what happens anyway.
     values : tuple of str
         Words that a MOT may be.
     length : int
@@ -143,11 +144,6 @@ class Declaration:
     name: str
     arguments: tuple[Argument, ...]
     entries: tuple[TableEntry, ...]
-
-    @cached_property
-    def by_path(self) -> dict[tuple[str, ...], TableEntry]:
-        """Entries by their path."""
-        return {e.path: e for e in self.entries}
 
     @cached_property
     def _inside(self) -> dict[tuple[str, ...], dict[str, TableEntry]]:

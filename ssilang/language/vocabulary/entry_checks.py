@@ -140,10 +140,10 @@ class TableCheck:
         where: tuple[object, ...],
         given: list[tuple[Any, Any]],
     ) -> None:
-        """Warn, once for a table, of what changes nothing; FAUX asks for nothing."""
+        """Warn, once for a table, of what changes nothing; FAUX and a default ask for nothing."""
         known = [(i, v, self.declared.at(path, i)) for i, v in given if v is not False]
         # other entries that nobody reads are those of tables that operators make
-        unused = [(i, e) for i, _, e in known if e is not None and e.theme == UNUSED]
+        unused = [(i, e) for i, v, e in known if e and e.theme == UNUSED and v != e.fallback]
         readers = _Readers(self.session, self.place, table, len(path) > 1)
         told = [(i, e) for i, e in unused if self.aloud and not readers.read(str(i).rstrip())]
         if not told:

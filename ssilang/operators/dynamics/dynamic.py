@@ -107,7 +107,7 @@ def zdyn(call: Call, table: Table) -> Table:
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
         if not problem.small:
-            tell_ahead("_factorise", "run_interleaved")
+            tell_ahead("sparse")
     try:
         with recorded(record):
             history = _integrated(entries, problem, observers, line, bodies)

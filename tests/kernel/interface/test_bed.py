@@ -194,6 +194,7 @@ def test_ground_of_great_strength_is_the_elastic_macro_element(name):
 
 STEP = st.tuples(st.floats(-0.02, 0.02), st.floats(-0.03, 0.005), st.floats(-0.01, 0.01))
 FEET = {name: made(name, COHE=C) for name in SHAPES}
+ASIDE = (1.2345e-6, -3.4567e-6, 2.3456e-7)  # round numbers stand where the ground begins to yield
 
 
 @settings(max_examples=25, deadline=None)
@@ -217,7 +218,7 @@ def test_the_tangent_of_the_footing_is_the_derivative(name, first, then):
     footing = FEET[name]
     footing.state = footing.joints.initial_state()
     footing.move(motion_of(footing, *first))
-    motion, h = motion_of(footing, *then), 1e-8
+    motion, h = motion_of(footing, *np.add(then, ASIDE)), 1e-8
     if footing.space:
         motion = motion + np.array([0.0, 1e-3, 0.0, 5e-4, 0.0, 2e-4])
     K = footing.stiffness(motion)

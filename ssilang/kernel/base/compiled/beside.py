@@ -4,8 +4,9 @@ While a function is compiled, those that it reaches by address (`apart`) become 
 most of them next. They are told to another process, which compiles them and keeps their code; the
 run loads what it finds done. Who makes a file of a function's name compiles it; the run waits where
 the other has begun, and never the other way. What only Python calls is not known before its turn:
-`ahead.txt` has the types of the largest ones, which all decks share. Were they others, the other
-process would work in vain, and no answer would change.
+`ahead.toml` has the types that most decks share, room by room, and the other process is told of a
+room when the run compiles the first function of it. Were they others, the other process would work
+in vain, and no answer would change.
 
 Nothing starts but where it was allowed (the command line does) and there is a second core. The
 other process is given names and types by a pipe, writes only kept code, and ends with the run,
@@ -15,7 +16,6 @@ however that ends.
 from __future__ import annotations
 
 import atexit
-import base64
 import hashlib
 import importlib
 import os
@@ -26,7 +26,7 @@ import sys
 import tempfile
 import threading
 import time
-import zlib
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -38,7 +38,12 @@ PACKAGES = Path(__file__).parents[4]
 """Where the package lies."""
 POLL = 0.002  # s
 LENGTH = 4  # bytes that tell how long a task is
-AHEAD = Path(__file__).with_name("ahead.txt")
+AHEAD = Path(__file__).with_name("ahead.toml")
+KERNEL = "ssilang.kernel."
+
+
+Task = tuple[str, bytes]
+"""Title of a function with its types, and its pickled module, name and types."""
 
 
 def free_cores() -> int:
@@ -53,9 +58,10 @@ class Beside:
     """The other process as the run sees it; in the other process, what waits there."""
 
     def __init__(self) -> None:
-        self.found: list[bytes] | None = None  # in the other process: of what it compiles
+        self.found: list[Task] | None = None  # in the other process: of what it compiles
         self._told: set[str] = set()
         self._own: set[str] = set()  # taken by this process
+        self._rooms: set[str] = set()  # told of
         self._process: subprocess.Popen[bytes] | None = None
         self._claims: Path | None = None
 
@@ -65,17 +71,27 @@ class Beside:
             return
         self._told.add(name)
         if self.found is not None:
-            self.found.append(task)
+            self.found.append((name, task))
             return
         if self._process is None and "beside" in ALLOWED:
             self._start()
         process = self._process
         if process is not None and process.stdin is not None:
             try:
-                process.stdin.write(len(task).to_bytes(LENGTH, "little") + task)
+                parts = name.encode(), task
+                heads = (len(part).to_bytes(LENGTH, "little") for part in parts)
+                process.stdin.write(b"".join([*heads, *parts]))
                 process.stdin.flush()
             except OSError:  # it has ended: the run goes on alone
                 self.end()
+
+    def enter(self, module: str) -> None:
+        """The run compiles a function of a module: others of its room will be needed too."""
+        room = module.removeprefix(KERNEL).partition(".")[0]
+        if self.found is None and room not in self._rooms:
+            self._rooms.add(room)
+            for name, task in tasks_ahead(room):
+                self.tell(name, task)
 
     @contextmanager
     def taking(self, name: str) -> Iterator[bool]:
@@ -142,21 +158,23 @@ class Beside:
         The last is the first: the run takes others itself. Of what a function calls, however, the
         first comes first.
         """
-        self._claims, waiting = Path(claims), list[bytes]()
+        self._claims, waiting = Path(claims), list[Task]()
         threading.Thread(target=self._read, args=(sys.stdin.buffer, waiting), daemon=True).start()
         while True:
             if not waiting:
                 time.sleep(POLL)
                 continue
-            module, name, args = pickle.loads(waiting.pop())
+            module, name, args = pickle.loads(waiting.pop()[1])
             self.found = []
             with suppress(Exception):  # the run will tell
                 getattr(importlib.import_module(module), name).compile(args)
-            waiting += reversed(self.found)
+            waiting += [task for task in reversed(self.found) if task[0] not in dict(waiting)]
 
-    def _read(self, tasks: IO[bytes], waiting: list[bytes]) -> None:
-        while head := tasks.read(LENGTH):
-            waiting.append(tasks.read(int.from_bytes(head, "little")))
+    def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
+        while heads := tasks.read(2 * LENGTH):
+            sizes = (int.from_bytes(head, "little") for head in (heads[:LENGTH], heads[LENGTH:]))
+            name, task = (tasks.read(size) for size in sizes)
+            waiting.append((name.decode(), task))
         if self._claims is not None:
             shutil.rmtree(self._claims, ignore_errors=True)
         os._exit(0)
@@ -166,17 +184,36 @@ BESIDE = Beside()
 """Of this process."""
 
 
-def tell_ahead(*names: str) -> None:
-    """Tell of functions that the run will call from Python, the first needed last."""
-    for name, task in tasks_ahead().items():
-        if name in names:
-            BESIDE.tell(title(*pickle.loads(task)), task)
+def tell_ahead(room: str) -> None:
+    """Tell of functions that the run will call from Python: a room of `ahead.toml`."""
+    BESIDE.enter(room)
 
 
-def tasks_ahead() -> dict[str, bytes]:
-    """Pickled module, name and types of functions by their names."""
-    lines = (line.split() for line in AHEAD.read_text(encoding="ascii").splitlines())
-    return {name: zlib.decompress(base64.b64decode(text)) for name, text in lines}
+def tasks_ahead(room: str) -> list[Task]:
+    """Functions of a room of `ahead.toml`, in the order of need; none of a room it has not."""
+    from numba import types
+
+    known = tomllib.loads(AHEAD.read_text(encoding="ascii"))
+    records: dict[str, Any] = {}
+
+    def types_of(text: str) -> Iterator[Any]:
+        for word in text.split():
+            times, _, kind = word.rpartition("*")
+            name, _, indices = kind.rstrip("]").partition("[")
+            one = records.get(name) or getattr(types, name)
+            yield from [types.Array(one, int(indices), "C") if indices else one] * int(times or 1)
+
+    for path, text in known["records"].items():
+        module, _, name = path.rpartition(".")
+        kind = getattr(importlib.import_module(KERNEL + module), name)
+        made: Any = types.BaseTuple  # numba's, untyped
+        records[name] = made.from_types([*types_of(text)], kind)
+    found = []
+    for path, text in known.get(room, {}).items():
+        module, _, name = path.rpartition(".")
+        task = KERNEL + module, name, (*types_of(text),)
+        found.append((title(*task), pickle.dumps(task)))
+    return found
 
 
 def title(module: str, name: str, args: tuple[Any, ...]) -> str:

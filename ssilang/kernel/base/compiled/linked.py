@@ -83,6 +83,7 @@ class _Compiler(compiler.Compiler):
 
     def _compile_core(self) -> Any:
         if self.state.library is None:
+            BESIDE.enter(self.state.func_id.modname)
             codegen = self.state.targetctx.codegen()
             self.state.library = _Whole(codegen, self.state.func_id.func_qualname)
             self.state.library.enable_object_caching()
@@ -112,13 +113,13 @@ class Linked(CPUDispatcher):
         self._parts: dict[Types, Any] = {}
 
     def compile(self, sig: Any) -> Any:
-        """Code that Python can call, or by its address."""
+        """Code that Python can call, or by its address; none of what the run makes itself."""
         args = getattr(sig, "args", sig)
         if args in self.overloads:
             return super().compile(sig)
         function = title(self.py_func.__module__, self.py_func.__qualname__, args)
-        with _without_collections(), BESIDE.taking(function):
-            return super().compile(sig)
+        with _without_collections(), BESIDE.taking(function) as mine:
+            return super().compile(sig) if mine or BESIDE.found is None else None
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Type of a call in compiled code: numba asks before it compiles the call."""

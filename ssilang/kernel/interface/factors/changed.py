@@ -22,6 +22,7 @@ from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
+    multiply,
     solve_factors,
     solve_factors_together,
 )
@@ -130,23 +131,24 @@ def _correct(changes: Changes, place: IntArray, change: FloatArray, x: FloatArra
     for j in range(n):
         if place[j] >= 0:
             jumps[place[j]] = j
-    right, own = np.empty(count), np.empty((count, count))
+    right, own = np.empty((count, 1)), np.empty((count, count))
     for a in range(count):
-        right[a] = x[jumps[a]]
+        right[a, 0] = x[jumps[a]]
         for b in range(count):
             own[a, b] = changes.Z[changes.row[jumps[b]], jumps[a]]
-    small = np.dot(change, own)
-    right = np.dot(change, right)
+    small, turned = np.empty((count, count)), np.empty((count, 1))
+    multiply(change, own, small)
+    multiply(change, right, turned)
     for a in range(count):
         small[a, a] += 1.0
     order = np.empty(count, np.int64)
     if not factorise_dense(small, order):
         return False
-    solve_factors(small, order, right)
+    solve_factors_together(small, order, turned)
     for a in range(count):
         row = changes.row[jumps[a]]
         for i in range(n):
-            x[i] -= right[a] * changes.Z[row, i]
+            x[i] -= turned[a, 0] * changes.Z[row, i]
     return True
 
 

@@ -11,7 +11,7 @@ from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed, jump_stiffness
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.solvers.dense import factorise_dense
+from ssilang.kernel.solvers.dense import factorise_dense, multiply
 
 
 class LU(NamedTuple):
@@ -30,7 +30,7 @@ def _times_stiffness(S: FloatArray, K: FloatArray, A: FloatArray) -> None:
             if K[k, j] != 0.0:
                 terms += 1
     if 4 * terms > n * n:
-        np.dot(S, K, A)
+        multiply(S, K, A)
     else:
         # rows of K as a sparse matrix
         start, column, value = np.zeros(n + 1, np.int64), np.empty(terms, np.int64), np.empty(terms)

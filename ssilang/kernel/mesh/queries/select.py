@@ -130,17 +130,6 @@ def nearest_node(mesh: Mesh, position: FloatArray) -> int:
     return int(ids[np.linalg.norm(mesh.nodes.coordinates[ids] - position, axis=1).argmin()])
 
 
-def nearest_nodes(mesh: Mesh, positions: FloatArray) -> IntArray:
-    """Nodes of a mesh nearest to positions (m, 3)."""
-    from scipy.spatial import cKDTree
-
-    ids = mesh.node_ids
-    if not len(ids):
-        raise MeshError("kernel.mesh.mesh-empty-no-nearest")
-    _, where = cKDTree(mesh.nodes.coordinates[ids]).query(positions)
-    return ids[np.asarray(where)]
-
-
 def junctions(mesh: Mesh) -> IntArray:
     """Nodes where more than two cells meet, increasing."""
     ends = [b.connectivity[:, [0, -1]] for b in mesh.blocks if b.kind.dimension == 1]

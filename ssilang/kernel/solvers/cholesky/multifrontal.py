@@ -17,7 +17,7 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.base.memory import fits
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.dissection import Tree
-from ssilang.kernel.solvers.dense import subtract_from
+from ssilang.kernel.solvers.dense import multiply, subtract_from
 
 WIDTH = 32
 BLAS_ROWS = 192  # rows of a front from which BLAS is called
@@ -293,7 +293,7 @@ def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) 
         for a in range(w):
             for i in range(m):
                 right[a, i] = F[k0 + a, k1 + i]
-        np.dot(inverse, right, P)
+        multiply(inverse, right, P)
         return
     for a in range(w):
         p = P[a]
@@ -318,7 +318,9 @@ def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
                     right[k - k0, i - j0] = F[k, i]
                 for i in range(left.shape[0]):
                     left[i, k - k0] = F[k, j0 + i]
-            subtract_from(F, np.dot(left, right), j0, j0)
+            product = np.empty((left.shape[0], right.shape[1]))
+            multiply(left, right, product)
+            subtract_from(F, product, j0, j0)
         return
     for j in range(k1, limit):
         f = F[j, j:]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import inspect
 import os
 import pickle
 import subprocess
@@ -9,18 +11,18 @@ import sys
 import time
 
 import pytest
+from numba.core import types
 from numba.core.caching import NullCache
 
-from ssilang.kernel.base.compiled import PLAIN, beside
+from ssilang.kernel.base.compiled import PLAIN, beside, linked
 from ssilang.kernel.base.compiled import apart as apart_module
 from ssilang.kernel.base.compiled.apart import apart, seldom
-from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead
+from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.solvers.cholesky import multifrontal
-from ssilang.kernel.stepping.rests.sparse import interleaved_loop
 from ssilang.kernel.stepping.run import integrate
 from tests.references.soil_block import soil_block
 
+ROOMS = ("interface", "solvers", "sparse")
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
 
@@ -178,18 +180,34 @@ def test_a_run_loads_what_the_other_has_compiled_and_leaves_nobody_behind(tmp_pa
 
 
 def test_types_that_are_told_ahead_are_those_of_a_run():
-    """Else the other process compiles in vain: make `ahead.txt` anew.
-
-    One line a function: its name, and base64 of zlib of the pickle of module, name and types.
-    """
+    """Else the other process compiles in vain: correct `ahead.toml`."""
     integrate(soil_block(steps=5))
-    made = {
-        "run_interleaved": interleaved_loop.run_interleaved,
-        "_factorise": multifrontal._factorise,
-    }
-    tasks = tasks_ahead()
-    assert tasks.keys() == made.keys()
-    for name, function in made.items():
-        module, own, args = pickle.loads(tasks[name])
-        assert (module, own) == (function.__module__, name)
-        assert args in function.overloads
+    tasks = [pickle.loads(task) for room in ROOMS for _, task in tasks_ahead(room)]
+    assert len(tasks) > 20
+    called = 0
+    for module, name, args in tasks:
+        function = getattr(importlib.import_module(module), name)
+        function = getattr(function, "dispatcher", function)
+        assert len(args) == len(inspect.signature(function.py_func).parameters), name
+        called += bool(function.overloads)
+        assert not function.overloads or args in function.overloads, name
+    assert called > 20  # of them all but what only static problems and many jumps enter
+
+
+def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
+    told, run = [], Beside()
+    monkeypatch.setattr(run, "tell", lambda name, task: told.append(name))
+    run.enter("ssilang.kernel.solvers.cholesky.dissection")
+    assert told == [name for name, _ in tasks_ahead("solvers")]
+    run.enter("ssilang.kernel.solvers.dense")
+    run.enter("ssilang.kernel.mesh.queries.select")  # of which nothing is known
+    assert len(told) == len(tasks_ahead("solvers"))
+
+
+def test_the_other_process_leaves_what_the_run_has_begun(tmp_path, monkeypatch):
+    run, other = pair(tmp_path)
+    with run.taking(title(__name__, "half", (types.float64,))):
+        monkeypatch.setattr(linked, "BESIDE", other)
+        assert half.dispatcher.compile((types.int64,)) is not None
+        monkeypatch.setattr(half.dispatcher, "overloads", {})
+        assert half.dispatcher.compile((types.float64,)) is None

@@ -164,6 +164,14 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
     return total
 
 
+@compiled_fast
+def _product(a: FloatArray, b: FloatArray) -> float:
+    total = 0.0
+    for i in range(len(a)):
+        total += a[i] * b[i]
+    return total
+
+
 @apart
 @compiled_fast
 def predict(
@@ -293,9 +301,11 @@ def settle_interface(
     condensed = Condensed(plan.S, plan.R, plan.newmark.end)
     turns, residual = solve_interface(joints, condensed, now, newton)
     if turns > 0:
-        back, released = np.dot(plan.Yr, trial.h), flow.f - trial.f
+        released = np.empty(q)
+        for i in range(q):
+            released[i] = flow.f[i] - trial.f[i]
         for i in range(end - begin):
-            du[begin + i] -= back[i]
+            du[begin + i] -= _product(plan.Yr[i], trial.h)
             sweep.change[begin + i] = _row(plan.JrT, i, released)
         accept(trial, now)
     return turns, residual
