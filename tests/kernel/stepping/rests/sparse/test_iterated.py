@@ -72,6 +72,30 @@ def test_laws_of_the_joint(joint, words):
     assert (openings < 0.0).any()
 
 
+def test_steps_begin_where_the_last_ones_lead(monkeypatch):
+    """The same motion by fewer turns of the linear iterations, joints and supports moving."""
+
+    def turns():
+        made = []
+        begin = iterated.IteratedSolver.__init__
+        with monkeypatch.context() as patch:
+            patch.setattr(
+                iterated.IteratedSolver, "__init__",
+                lambda self, *given: (begin(self, *given), made.append(self))[0],
+            )  # fmt: skip
+            _, kept = run(problem, BY_MULTIGRID)
+        return made[0].turns, np.array([s.u for s in kept])
+
+    problem = soil_block(
+        steps=30, size=(16, 8, 4), joint=FRICTION, damping=(0.5, 2e-3), moving=True
+    )
+    led, u = turns()
+    monkeypatch.setattr(iterated, "COURSE", np.zeros(10**6))  # never so many steps
+    alone, exact = turns()
+    assert led < 0.9 * alone
+    assert np.abs(u - exact).max() < 1e-9 * np.abs(exact).max()
+
+
 def test_moving_supports_and_a_dissipating_scheme():
     assert_same(soil_block(steps=20, size=(16, 8, 4), moving=True, scheme=hht(0.1)))
 
