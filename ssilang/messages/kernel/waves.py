@@ -28,6 +28,16 @@ MESSAGES: dict[str, Message] = {
         "a point lies {height:g} m above the free surface",
         "un point est à {height:g} m au-dessus de la surface libre",
     ),
+    "footing-not-positive": Message(
+        "sizes of a footing are positive",
+        "les dimensions d'une fondation sont positives",
+    ),
+    "footing-too-wide": Message(
+        "the motion differs too fast below the footing: {extent:.3g} radians over half of it",
+        "le mouvement varie trop vite sous la fondation : {extent:.3g} radians sur sa moitié",
+        "smaller frequencies or larger speeds; are the units those of the SI?",
+        "des fréquences plus basses ou des vitesses plus grandes ; les unités sont-elles SI ?",
+    ),
     "record-too-short": Message(
         "a record has two points at least and a positive step",
         "un signal a au moins deux points et un pas positif",

@@ -58,6 +58,82 @@ MESSAGES: dict[str, Message] = {
         "P and SV in the plane, all three in space",
         "P et SV dans le plan, toutes les trois dans l'espace",
     ),
+    "component-of-dimension": Message(
+        "COMPOSANTE {component} is no direction in dimension {dimension}",
+        "COMPOSANTE {component} n'est pas une direction en dimension {dimension}",
+        "UX or UY (upwards) in a plane, UX, UY or UZ (upwards) in space",
+        "UX ou UY (vers le haut) dans un plan, UX, UY ou UZ (vers le haut) dans l'espace",
+    ),
+    "incoherence-negative": Message(
+        "INCOHERENCE is not negative, found {value:g}",
+        "INCOHERENCE n'est pas négative, trouvé {value:g}",
+    ),
+    "incoherence-range": Message(
+        "INCOHERENCE {value:g} is above {largest:g}: Luco and Wong's coherency is used from 0.1 to "
+        "{largest:g}",
+        "INCOHERENCE {value:g} dépasse {largest:g} : la cohérence de Luco et Wong s'emploie de 0.1 "
+        "à {largest:g}",
+        severity="warning",
+    ),
+    "motion-coherent": Message(
+        "neither INCOHERENCE nor VITESSE_APPARENTE: the footing moves as the ground",
+        "ni INCOHERENCE ni VITESSE_APPARENTE : la fondation bouge comme le sol",
+        severity="warning",
+    ),
+    "apparent-speed-range": Message(
+        "VITESSE_APPARENTE {value:g} m/s is slower than any wave along a ground of {shear:g} m/s "
+        "({slowest:.4g} m/s)",
+        "VITESSE_APPARENTE {value:g} m/s est plus lente que toute onde le long d'un sol de "
+        "{shear:g} m/s ({slowest:.4g} m/s)",
+        "a shear wave at an angle to the vertical has Vs over its sine",
+        "une onde de cisaillement inclinée sur la verticale a Vs sur le sinus de son angle",
+        severity="warning",
+    ),
+    "azimuth-of-nothing": Message(
+        "without VITESSE_APPARENTE no wave passes",
+        "sans VITESSE_APPARENTE aucune onde ne passe",
+    ),
+    "azimuth-of-strip": Message(
+        "waves pass across a BANDE",
+        "les ondes passent en travers d'une BANDE",
+    ),
+    "entry-not-positive": Message(
+        "{index} is positive, not {value:g}",
+        "{index} est positif, pas {value:g}",
+    ),
+    "strip-in-space": Message(
+        "FORME BANDE goes in a plane",
+        "FORME BANDE va dans un plan",
+        "a long RECTANGLE in space, or OPTI DIME 2",
+        "un RECTANGLE allongé dans l'espace, ou OPTI DIME 2",
+    ),
+    "size-of-other-shape": Message(
+        "it is the size of another FORME",
+        "c'est la dimension d'une autre FORME",
+    ),
+    "equal-steps-of-record": Message(
+        "ACCELERATION has equal steps of time that grow",
+        "ACCELERATION a des pas de temps égaux et croissants",
+        "IPOL it first",
+        "interpolez-la d'abord par IPOL",
+    ),
+    "frequencies-or-record": Message(
+        "FREQUENCES or ACCELERATION is needed",
+        "il faut FREQUENCES ou ACCELERATION",
+    ),
+    "frequencies-negative": Message(
+        "FREQUENCES are one at least, none negative (lowest {value:g} Hz)",
+        "FREQUENCES en compte une au moins, aucune négative (la plus basse {value:g} Hz)",
+    ),
+    "motion-before-record": Message(
+        "the footing moves {seconds:.3g} s before the record begins, by {share:.2g} of its peak, "
+        "since the wave reaches its edge first: this is cut off",
+        "la fondation bouge {seconds:.3g} s avant le début du signal, de {share:.2g} de son "
+        "maximum, car l'onde atteint d'abord son bord : c'est coupé",
+        "put that duration of zeros before the record",
+        "mettre cette durée de zéros avant le signal",
+        severity="warning",
+    ),
     "wave-already-there": Message(
         "the wave is there before its record begins, by {seconds:.3g} s at the first point",
         "l'onde est là avant le début de son signal, de {seconds:.3g} s au premier point",
