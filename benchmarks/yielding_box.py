@@ -159,12 +159,14 @@ class Top:
         self.wanted = np.ones(count, bool)
         self.node = int(case.tower[0, -1])
         self.values: list[float] = []
+        self.at = -1
         self.strain = np.zeros(0)
 
     def receive(self, snapshot: Snapshot) -> None:
         """One more instant."""
-        at = snapshot.problem.numbering.index_of(self.node, "UX")
-        self.values.append(float(snapshot.u[at]))
+        if self.at < 0:
+            self.at = snapshot.problem.numbering.index_of(self.node, "UX")
+        self.values.append(float(snapshot.u[self.at]))
         if isinstance(snapshot, BulkSnapshot):
             self.strain = snapshot.bulk_state[0].variables[:, 0]
 

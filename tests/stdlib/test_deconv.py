@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
 
 SOIL = "NU1 = 0.3 ; G1 = 2.E8 ; E1 = 2. * (1. + NU1) * G1 ; RO1 = 2000. ; "
 MATRICES = (
@@ -153,3 +154,21 @@ def test_refusals():
         result = run_text(start + f"T2 = {call} ;")
         assert result.exit_code == 1
         assert text in result.message
+
+
+@pytest.mark.parametrize(("cells", "too_coarse"), [(4, True), (5, False)])
+def test_a_layer_whose_nodes_are_too_far_apart_is_told(cells, too_coarse):
+    """At the cut-off of 4 Hz and 31.62 m/s, 8 heights a wavelength are 0.988 m."""
+    soil = PLANE.format(mode="PLAN DEFO").replace("TRAN 4", f"TRAN {cells}")
+    result = run_text(
+        soil + SOIL.replace("2.E8", "2.E6") + SIGNAL + LAYER
+        + "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 4. ;"
+        + "T3 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 4. ;"
+    )  # fmt: skip
+    assert result.exit_code == 0, result.message
+    told = [w for w in result.session.warnings if w.code.endswith("layer-too-coarse")]
+    assert len(told) == too_coarse
+    if too_coarse:
+        text, _ = sentence(told[0], "en")
+        assert "from 0 to 8 m" in text
+        assert "1 m apart: at 4 Hz and 31.62 m/s they may be 0.988 m (8 a wavelength)" in text

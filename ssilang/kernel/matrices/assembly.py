@@ -266,11 +266,20 @@ def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
 
 NEGATIVE = 1e-12
 """Share of the largest mass up to which a negative one is rounding."""
+HISTORIES = ("HXX", "HYY", "HXY")
+"""Histories of stress in a matched layer (`kernel/waves`): their inertia is negative."""
 
 
-def negative_mass(mass: sp.csr_array, numbering: Numbering) -> tuple[Sentence, float] | None:
-    """The unknown whose motion the most negative mass resists, and that mass; None without."""
+def negative_mass(
+    mass: sp.csr_array, numbering: Numbering, but: tuple[str, ...] = ()
+) -> tuple[Sentence, float] | None:
+    """The unknown whose motion the most negative mass resists, and that mass; None without.
+
+    Unknowns with the names `but` are not looked at.
+    """
     diagonal = mass.diagonal()
+    for name in but:
+        diagonal[numbering.where(name)] = 0.0
     if diagonal.size == 0 or diagonal.min() >= -NEGATIVE * np.abs(diagonal).max():
         return None
     worst = int(np.argmin(diagonal))
@@ -298,15 +307,19 @@ def _has_negative_minor(matrix: sp.csr_array) -> bool:
     return bool((squares > (1.0 + 1e-9) * products + floor).any())
 
 
-def refuse_negative_mass(mass: sp.csr_array, numbering: Numbering) -> None:
+def refuse_negative_mass(
+    mass: sp.csr_array, numbering: Numbering, but: tuple[str, ...] = ()
+) -> None:
     """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
+
+    Unknowns with the names `but` may.
 
     Raises
     ------
     KernelError
         Naming the unknown with the most negative one.
     """
-    found = negative_mass(mass, numbering)
+    found = negative_mass(mass, numbering, but)
     if found is not None:
         raise KernelError("kernel.matrices.mass-negative", unknown=found[0], mass=found[1])
 

@@ -26,7 +26,7 @@ from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.large.passes import ZonePass
+    from ssilang.kernel.plasticity.large.blocks import ZonePass
     from ssilang.kernel.plasticity.large.pattern import Pattern
 
 FreeStrain = Callable[[float], FloatArray]
@@ -37,7 +37,7 @@ State = tuple[PointState, ...]
 
 
 MANY_POINTS = 2_000
-"""Points from which a zone is worth the loading of compiled code."""
+"""Points from which a zone is worth the loading of compiled code for a few steps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +55,10 @@ class Answer:
         Work of the stresses over the step (average of both ends).
     rate : array (n,) or None
         Change of the forces with the time alone, where they have one.
+    beyond : tuple of array (n_cells,) or None
+        How far cells of each zone are beyond yielding at most, where compiled passes tell.
+    make_terms : callable or None
+        Makes `terms`, if they are asked for.
     """
 
     force: FloatArray
@@ -62,6 +66,14 @@ class Answer:
     state: State
     work: float
     rate: FloatArray | None = None
+    beyond: tuple[FloatArray | None, ...] = ()
+    make_terms: Callable[[], FloatArray] | None = None
+
+    @cached_property
+    def terms(self) -> FloatArray:
+        """Terms (nnz,) of the tangent in the pattern of the zones."""
+        assert self.make_terms is not None
+        return self.make_terms()
 
     @cached_property
     def tangent(self) -> sp.csr_array:
@@ -71,11 +83,15 @@ class Answer:
 
 @dataclass(frozen=True, eq=False)
 class _OfZone:
-    """A zone's state after a step, the work over it, and what adds its tangent to terms (nnz,)."""
+    """A zone's state after a step, the work over it, and what adds its tangent to terms (nnz,).
+
+    Where the zone is passed by compiled code, `beyond` (n_cells,) as `pass_over` has it.
+    """
 
     state: PointState
     work: float
     add_tangent: Callable[[FloatArray], None]
+    beyond: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,12 +107,15 @@ class Bulk:
         Number of unknowns.
     free : dict
         Strains without stress in time, by position of the zone.
+    least : int
+        Points from which a zone is worth the loading of compiled code.
     """
 
     zones: tuple[PlasticPoints, ...]
     places: tuple[NDArray[np.int32], ...]
     size: int
     free: dict[int, FreeStrain] = field(default_factory=dict)
+    least: int = field(default=MANY_POINTS, kw_only=True)
 
     @property
     def symmetric(self) -> bool:
@@ -127,19 +146,32 @@ class Bulk:
 
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
-        force = np.zeros(self.size)
-        found = [self._respond(i, old, du, time, force) for i, old in enumerate(state)]
+        return self._answered(state, du, time, False)
 
-        def tangent() -> sp.csr_array:
+    def respond_whole(self, state: State, du: FloatArray, time: float) -> Answer:
+        """The same where the tangent will be asked for: one pass finds all."""
+        return self._answered(state, du, time, True)
+
+    def _answered(self, state: State, du: FloatArray, time: float, whole: bool) -> Answer:
+        force = np.zeros(self.size)
+        found = [self._respond(i, old, du, time, force, whole) for i, old in enumerate(state)]
+
+        def terms() -> FloatArray:
             data = self.terms.blank()
             for one in found:
                 one.add_tangent(data)
-            return self.terms.matrix(data)
+            return data
 
-        return Answer(force, tangent, tuple(f.state for f in found), sum(f.work for f in found))
+        def tangent() -> sp.csr_array:
+            return self.terms.matrix(answer.terms)
+
+        states, work = tuple(f.state for f in found), sum(f.work for f in found)
+        beyond = tuple(f.beyond for f in found)
+        answer = Answer(force, tangent, states, work, beyond=beyond, make_terms=terms)
+        return answer
 
     def _respond(
-        self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray
+        self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray, whole: bool
     ) -> _OfZone:
         """A zone's answer; its forces are added to `force` (n,)."""
         free, freed = old.free, np.zeros((0, 6))
@@ -148,20 +180,24 @@ class Bulk:
             freed = free - old.free
         compiled = self.passes[i]
         if compiled is not None:
-            new, work = compiled.respond(old, du, freed, force)
+            D = compiled.blank_tangents(whole)
+            new = compiled.respond(old, du, freed, force, D)
 
             def add_tangent(data: FloatArray) -> None:
-                compiled.add_tangent(old, du, freed, self.terms.slots[i], data)
+                if not whole:
+                    compiled.add_tangent(old, du, freed, self.terms.slots[i], data)
+                else:
+                    compiled.add_stiffness(D, self.terms.slots[i], data)
 
             state = PointState(new.stress, new.plastic, free, new.variables, time)
-            return _OfZone(state, work, add_tangent)
+            return _OfZone(state, new.work, add_tangent, new.beyond)
         zone, places = self.zones[i], self.places[i]
         strain = zone.strains(du[places])
         strain = strain - freed if len(freed) else strain
-        found, whole = zone.respond(old.stress, strain, old.variables, time - old.time)
+        found, strained = zone.respond(old.stress, strain, old.variables, time - old.time)
         force += np.bincount(places.ravel(), zone.forces(found.stress).ravel(), self.size)
         elastic = found.elastic_strain(zone.parameters, old.stress)
-        plastic = old.plastic + whole - elastic
+        plastic = old.plastic + strained - elastic
         density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
         return _OfZone(
             PointState(found.stress, plastic, free, found.variables, time),
@@ -172,7 +208,9 @@ class Bulk:
     @cached_property
     def passes(self) -> tuple[ZonePass | None, ...]:
         """Compiled passes of the zones that have them."""
-        return tuple(_pass_of(*each) for each in zip(self.zones, self.places, strict=True))
+        return tuple(
+            _pass_of(*each, self.least) for each in zip(self.zones, self.places, strict=True)
+        )
 
     @cached_property
     def terms(self) -> Pattern:
@@ -199,7 +237,8 @@ class Bulk:
 
     def stored(self, state: State) -> float:
         """Elastic energy."""
-        return sum(z.stored(s) for z, s in zip(self.zones, state, strict=True))
+        pairs = zip(self.passes, self.zones, state, strict=True)
+        return sum((z if over is None else over).stored(s) for over, z, s in pairs)
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars)."""
@@ -218,9 +257,10 @@ class Bulk:
         return np.zeros(self.size)
 
 
-def _pass_of(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:
-    plain = type(points) is PlasticPoints and points.law.columns is not None
-    if not plain or points.count < MANY_POINTS:
+def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:
+    law = points.law
+    plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
+    if not plain or points.count < least:
         return None
     from ssilang.kernel.plasticity.large.passes import zone_pass
 

@@ -16,7 +16,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, _Trial
+from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, BulkTrial
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.plasticity.snapshot import BulkSnapshot
 from ssilang.kernel.solvers.backends import factorise
@@ -76,7 +76,7 @@ class Found:
     x: float
     turns: int
     residual: float
-    trial: _Trial | None = None
+    trial: BulkTrial | None = None
 
 
 class FollowingSolver(BulkSolver):
@@ -153,20 +153,20 @@ class FollowingSolver(BulkSolver):
     def _settled(self) -> bool:
         return len(self.residuals) >= 3 and max(self.residuals[-3:]) <= STALLED and self._stalled()
 
-    def standing(self, motion: Motion) -> _Trial:
+    def standing(self, motion: Motion) -> BulkTrial:
         """The state as it is."""
         nothing = np.zeros(len(motion.u))
         return self._trial(motion, nothing, nothing, motion.contact)
 
     def _at(
         self, motion: Motion, r: FloatArray, way: Way, x: float, s: float, split: Split
-    ) -> _Trial:
+    ) -> BulkTrial:
         du = split.du + split.rest + s * split.unit
         self.time = self.since + self.pace * (x + s)
         return self._trial(motion, r + (x + s) * way.push, du, motion.contact)
 
     def _split(
-        self, motion: Motion, now: _Trial, x: float, missing: FloatArray, way: Way
+        self, motion: Motion, now: BulkTrial, x: float, missing: FloatArray, way: Way
     ) -> Split | None:
         T, V = self.constraints.T, self.constraints.V
         whole = self.A + now.K + self.share * now.answer.tangent
@@ -204,7 +204,7 @@ class FollowingSolver(BulkSolver):
 
     def _chosen(
         self, motion: Motion, r: FloatArray, way: Way, x: float, split: Split, found: list[float]
-    ) -> tuple[float, _Trial] | None:
+    ) -> tuple[float, BulkTrial] | None:
         """The parameter that leaves the least out of balance; at first, the one that goes on."""
         if len(found) > 1 and not split.du.any():
             before = split.unit if self.last is None else self.last

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,10 +12,14 @@ from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import Trial, new_trial
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.solvers.backends import DISSECTION, dissection_pays
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.large.positive import PositiveFactors
 
 TURNS = 30
 TOLERANCE = 1e-10
@@ -29,7 +34,7 @@ PATIENCE = 8
 
 
 @dataclass(frozen=True, eq=False)
-class _Trial:
+class BulkTrial:
     """A displacement under trial: answers of bodies and joints, what is out of balance.
 
     `free` (n,) is that without contact, `pushed` (size,) the reactions and frictions of contact.
@@ -37,7 +42,7 @@ class _Trial:
 
     du: FloatArray
     answer: Answer
-    K: sp.csr_array
+    K: sp.csr_array | FloatArray
     joints: Trial
     rest: FloatArray
     residual: float
@@ -79,6 +84,9 @@ class BulkSolver(FullNewtonSolver):
     ) -> None:
         super().__init__(problem, A, share)
         self.bulk, self.state, self.force = bulk, state, bulk.force(state)
+        self._positive = _positive_factors(problem, bulk)
+        if self._positive is not None:
+            self.factor = DISSECTION
         table = problem.numbering.table
         ends = table.coordinates[problem.numbering.nodes]
         self.extent = float(np.ptp(ends, axis=0).max(initial=0.0)) if len(ends) else 0.0
@@ -106,12 +114,30 @@ class BulkSolver(FullNewtonSolver):
         supports far beyond what equilibrium does, and Newton's method would set out from there.
         """
         now = self._trial(motion, r, np.zeros_like(held), motion.contact.copy())
-        whole = self.A + now.K + self.share * now.answer.tangent
         try:
-            step, pushed = self._turn(motion, whole, now.free - whole @ held, held, gap, now.pushed)
+            step, pushed = self._corrected(motion, now, gap, held)
         except SingularFactorError:
             return held, None
         return held + step, pushed
+
+    def _corrected(
+        self, motion: Motion, now: BulkTrial, gap: FloatArray, held: FloatArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """What the tangents of a trial ask for beyond it, beside a motion of the supports.
+
+        Raises
+        ------
+        SingularFactorError
+        """
+        whole = self.A + now.K + self.share * now.answer.tangent
+        if self._positive is not None:
+            free = now.free if held is None else now.free - whole @ held
+            step = self._positive.solve(whole, sp.csr_array(now.K), free)
+            if step is not None:
+                return step, now.pushed
+        if held is None:
+            return self._turn(motion, whole, now.free, now.du, gap, now.pushed)
+        return self._turn(motion, whole, now.free - whole @ held, held, gap, now.pushed)
 
     def _newton(
         self,
@@ -124,9 +150,8 @@ class BulkSolver(FullNewtonSolver):
         now = self._trial(motion, r, start, motion.contact.copy() if pushed is None else pushed)
         self.residuals = [now.residual]
         for turn in range(1, TURNS + 1):
-            whole = self.A + now.K + self.share * now.answer.tangent
             try:
-                step, pushed = self._turn(motion, whole, now.free, now.du, gap, now.pushed)
+                step, pushed = self._corrected(motion, now, gap)
             except SingularFactorError:
                 return StepOutcome(now.du, 0, now.residual)
             now = self._searched(motion, r, now, step, pushed)
@@ -148,8 +173,8 @@ class BulkSolver(FullNewtonSolver):
         return StepOutcome(now.du, 1 - len(self.residuals), self.residuals[-1])
 
     def _searched(
-        self, motion: Motion, r: FloatArray, now: _Trial, step: FloatArray, pushed: FloatArray
-    ) -> _Trial:
+        self, motion: Motion, r: FloatArray, now: BulkTrial, step: FloatArray, pushed: FloatArray
+    ) -> BulkTrial:
         """The step, halved while what is out of balance would grow.
 
         Finite displacements take whole steps: bending stretches at first, then falls at once. So
@@ -163,7 +188,9 @@ class BulkSolver(FullNewtonSolver):
             length = 0.5 * length
         return found
 
-    def _trial(self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray) -> _Trial:
+    def _trial(
+        self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray
+    ) -> BulkTrial:
         joints = new_trial(motion.w.shape, len(motion.f))
         answer = self.bulk.respond(self.state, du, self.time)
         K, force = self._joints(motion, du, joints)
@@ -178,8 +205,22 @@ class BulkSolver(FullNewtonSolver):
         floor = RIGID * stiff * moved
         scale = max(sum(float(np.abs(x).max(initial=0.0)) for x in parts), floor, 1e-300)
         residual = float(np.abs(rest).max(initial=0.0)) / scale
-        return _Trial(du, answer, K, joints, rest, residual, free, pushed)
+        return BulkTrial(du, answer, K, joints, rest, residual, free, pushed)
 
     def _stalled(self) -> bool:
         last = self.residuals[-3:]
         return len(last) == 3 and max(last) <= STALLED and last[-1] > 0.3 * last[0]
+
+
+def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
+    """Cholesky factors for large bodies with symmetric tangents and no contact."""
+    plain = type(bulk) is Bulk and bulk.symmetric and problem.contact is None
+    if not plain or not problem.constraints.associated:
+        return None
+    if problem.solver.name not in (None, DISSECTION):
+        return None
+    if not dissection_pays(problem.numbering.size):
+        return None
+    from ssilang.kernel.plasticity.large.positive import PositiveFactors
+
+    return PositiveFactors(problem)

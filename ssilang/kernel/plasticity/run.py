@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -45,6 +45,8 @@ HALVINGS = 7
 """How often a step that does not converge is cut in two."""
 MANY = 1_000
 """Unknowns from which steps keep a factor; below, factors take less than the loading of code."""
+WORTH = 30_000
+"""Points times steps from which a zone is worth the loading of compiled code."""
 SAME_STEP = 1e-9
 """Relative difference below which two steps of time share their matrix."""
 
@@ -138,7 +140,8 @@ def step_bulk_statics(run: BulkRun) -> History:
     problem = run.problem
     factors = problem.loading.at(problem.times)
     with _recorded(run) as history:
-        solver = BulkSolver(problem, problem.K, 1.0, run.bulk, run.state)
+        solver = newton_solver(problem, problem.K, 1.0, run.bulk, run.state)
+        _name(run, history, solver)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
         history.energies[0] = run.motion.energies
         steps = KeptSteps(run.keeper, history, run.motion, solver, run)
@@ -168,7 +171,7 @@ def _recorded(run: BulkRun) -> Iterator[History]:
     history.seconds += time.perf_counter() - started
 
 
-def _name(run: BulkRun, history: History, solver: type[BulkSolver]) -> None:
+def _name(run: BulkRun, history: History, solver: BulkSolver | type[BulkSolver]) -> None:
     history.loop = f"{solver.loop} (plastic bodies: {run.bulk.words})"
     history.solver = solver.factor
     history.method = Sentence(solver.said)
@@ -293,7 +296,7 @@ def _moving_step(
             turns=-outcome.turns,
         )
     history.iterations = max(history.iterations, outcome.turns)
-    _name(run, history, loop.kind)
+    _name(run, history, loop.solver)
 
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
@@ -308,6 +311,16 @@ def _start(run: BulkRun, factors: FloatArray) -> None:
     m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
 
 
+def newton_solver(
+    problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
+) -> BulkSolver:
+    """Newton's method on all unknowns, with dense matrices where these are few."""
+    from ssilang.kernel.plasticity.small.dense import DenseSolver, is_small
+
+    chosen = DenseSolver if is_small(problem, bulk) else BulkSolver
+    return chosen(problem, A, share, bulk, state)
+
+
 class _BulkLoop(SparseLoop):
     """The steps of `SparseLoop` with the bodies' forces among the loads."""
 
@@ -316,16 +329,19 @@ class _BulkLoop(SparseLoop):
         self.bulk_run = run
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
         self._closed = closed_at_start(run.problem)
+        self._increments = np.zeros((0, run.problem.numbering.size))
+        self._carries = type(run.bulk) is Bulk and run.problem.contact is None
         self._begin()
 
     def memory(self) -> dict[str, Any]:
         """Relations that are closed, and what the solvers of the step lengths remember."""
         solvers = [{"dt": dt, "kept": memory(solver)} for dt, solver, _ in self._solvers]
-        return {"closed": self._closed.copy(), "solvers": solvers}
+        increments = self._increments.copy()
+        return {"closed": self._closed.copy(), "solvers": solvers, "increments": increments}
 
     def recall(self, kept: dict[str, Any]) -> None:
         """Go on from a motion that was put back."""
-        self._closed[:] = kept["closed"]
+        self._closed[:], self._increments = kept["closed"], kept["increments"]
         for known in kept["solvers"]:
             recall(self._solver(known["dt"])[0], known["kept"])
         self._begin()
@@ -344,15 +360,25 @@ class _BulkLoop(SparseLoop):
         self._solvers = [*self._solvers[-3:], (dt, solver, impact)]
         return solver, impact
 
+    def _guess(self, dt: float) -> FloatArray | None:
+        """The increment of a step as those of the last two go on, None where contact may change.
+
+        Points that flow have the tangent of flow from the first turn on.
+        """
+        if not self._carries or len(self._increments) < 2:
+            return None
+        found: FloatArray = dt * (2 * self._increments[1] - self._increments[0])
+        return found
+
     @property
-    def kind(self) -> type[BulkSolver]:
-        """How the last steps were solved."""
-        return type(self._solvers[-1][1])
+    def solver(self) -> BulkSolver:
+        """What solved the last steps."""
+        return self._solvers[-1][1]
 
     def _made(self, A: sp.csr_array, dt: float, share: float) -> BulkSolver:
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
         if self.bulk_run.full or self.problem.numbering.size < MANY:
-            return BulkSolver(self.problem, A, share, bulk, state)
+            return newton_solver(self.problem, A, share, bulk, state)
         from ssilang.kernel.plasticity.large.accelerated import AcceleratedSolver, is_accelerated
 
         if is_accelerated(self.problem, bulk, A):
@@ -370,9 +396,11 @@ class _BulkLoop(SparseLoop):
         r = self._predict(n, load0 - old, load1 - old)
         dd = p.loading.imposed @ factors[1] - p.constraints.C @ m.u
         pushed = m.contact.copy()
+        solver.guess = self._guess(dt)
         outcome = solver.solve(m, r, dd, self._gap(factors[1]))
         if outcome.turns <= 0:
             return outcome
+        self._increments = np.stack([*self._increments[-1:], outcome.du / dt])
         stored, driven = run.stored(), run.bulk.pushed(run.state)
         run.state, run.force = solver.state, solver.force
         driven = driven + run.bulk.pushed(run.state)
@@ -400,5 +428,7 @@ def run_bulk(
     full: bool = False,
 ) -> History:
     """Step a problem with plastic bodies through its times."""
+    if type(bulk) is Bulk and bulk.least * len(problem.times) > WORTH:
+        bulk = replace(bulk, least=WORTH // len(problem.times))
     run = BulkRun(problem, bulk, state, tuple(observers), progress, keeper=keeper, full=full)
     return integrate_bulk(run) if dynamic else step_bulk_statics(run)

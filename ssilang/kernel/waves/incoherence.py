@@ -1,337 +1,193 @@
-"""Motion of a rigid footing under a ground motion that differs below it.
+"""Motion of a rigid base under waves that pass along it and differ from point to point.
 
-The ground moves by a field of the cross spectral density (Luco and Wong 1986)
+A rigid base without mass averages the motion of the ground below it. Between two points at a
+distance s, waves of the circular frequency w that go along x at the apparent speed c have the
+coherency of Luco and Wong (1986, *Response of a rigid foundation to a spatially random ground
+motion*, Earthquake Engng. Struct. Dyn. 14, 891-908), V being the speed of shear waves,
 
-    S(x, x') = S0 exp(-(decay |x - x'|)^2) exp(-i k . (x - x')),
+    Gamma = exp(-(gamma w s / V)^2) exp(-i w (x - x') / c)
 
-decay = gamma w / Vs for the incoherence, k = w / V for the passage of a wave. A rigid massless
-footing follows in the mean: its translation is the plain mean of the ground's over the area, its
-rotation the slope that fits best (Scanlan 1976; Iguchi 1984 with equal weights). No traction
-weights them, so that scattering is left aside. Spectra of both are double integrals over the
-area, which depend on the distance s = x - x' alone: with the middle of both points as the other
-variable they are single integrals of what two footings shifted by s have in common.
+The spectra of the base's translation and rotation are those of a point times
 
-The field is real in the middle of a symmetric footing: the translation of a wave that passes is in
-phase with the motion at the centre, its slope a quarter of a period before or behind.
+    T^2 = 1/A^2 int int Gamma dA dA' ,   M^2 = 1/I^2 int int x x' Gamma dA dA' ,   I = int x^2 dA
+
+Here all points count alike (Veletsos and Prasad 1989, *Seismic interaction of structures and soils:
+stochastic approach*, J. Struct. Engng. 115, 935-956); Luco and Wong weight them by the tractions
+below the base. Over the distance s the double integrals become simple ones of what the shape and
+its copy moved by s have in common.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
+from typing import Literal
 
 import numpy as np
+from scipy.special import j0, j1
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import MaterialError
 
-#: two rules of Gauss and Legendre, one twice the other, agree by this share of a spectrum ...
-RELATIVE = 1e-9
-#: ... or by this part of that of a ground that moves as one (rounding)
-ABSOLUTE = 2e-15
-#: points of the first and of the last rule
-FIRST, LAST = 32, 4096
-#: values of an integrand that are held at once
-AT_ONCE = 1 << 18
+Shape = Literal["strip", "rectangle", "disc"]
+
+POINTS = 20
+"""Gauss points on each part of a distance."""
+PHASE, DECAY = 4.0, 3.0
+"""Radians of the phase, and lengths of the decay, on each part: rounding is all that is left."""
+
+
+@dataclass(frozen=True)
+class RigidBase:
+    """Shape of a base and its half sizes (m): along the way of the waves, and across it.
+
+    A disc has its radius as both, a strip has nothing across.
+    """
+
+    shape: Shape
+    along: float
+    across: float = 0.0
+
+    def __post_init__(self) -> None:
+        sizes = (self.along, self.across) if self.shape == "rectangle" else (self.along,)
+        if min(sizes) <= 0.0:
+            raise MaterialError("kernel.waves.base-without-size")
+
+    @property
+    def torsion_share(self) -> float:
+        """I over the polar moment: torsion by unit rotation; 0 of a strip."""
+        if self.shape == "strip":
+            return 0.0
+        if self.shape == "disc":
+            return 0.5
+        return self.along**2 / (self.along**2 + self.across**2)
+
+
+@dataclass(frozen=True)
+class Ground:
+    """How motions differ: speed of shear waves (m/s), gamma, apparent speed (m/s, None: no way).
+
+    Raises
+    ------
+    MaterialError
+        For a speed that is not positive, a negative gamma.
+    """
+
+    shear: float
+    gamma: float = 0.0
+    apparent: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.shear <= 0.0 or (self.apparent is not None and self.apparent <= 0.0):
+            raise MaterialError("kernel.waves.speed-not-positive")
+        if self.gamma < 0.0:
+            raise MaterialError("kernel.waves.gamma-negative", gamma=self.gamma)
+
+    def numbers(self, frequency: float) -> tuple[float, float]:
+        """Decay gamma w / V and wave number w / c (1/m) at a frequency (Hz)."""
+        w = 2 * np.pi * frequency
+        return self.gamma * w / self.shear, 0.0 if self.apparent is None else w / self.apparent
 
 
 @dataclass(frozen=True)
 class Factors:
-    """Motion of the footing over that of the ground at its centre.
+    """What a base makes of unit motion at each frequency.
 
     Attributes
     ----------
-    mean : array (n,)
-        Translation: root of the ratio of spectral densities. Its sign is that of the wave
-        that passes, without incoherence.
-    slopes : array (n, 2)
-        1/m, along x and y. The slope's Fourier transform (exp(iwt)) is -i times this one times
-        that of the motion.
-    coherence : array (n, 2)
-        Between translation and slopes: 1 in a wave that passes, 0 without one.
+    translation : array (n,)
+    rotation : array (n,)
+        About the axis across the way, of vertical motion (1/m).
+    torsion : array (n,)
+        About the vertical, of motion across the way (1/m); zeros of a strip.
     """
 
-    mean: FloatArray
-    slopes: FloatArray
-    coherence: FloatArray
+    translation: FloatArray
+    rotation: FloatArray
+    torsion: FloatArray
 
 
-@dataclass(frozen=True)
-class Strip:
-    """An endless strip across x (half width in m)."""
-
-    half: float
-
-    def __post_init__(self) -> None:
-        _positive(self.half)
-
-    def passage(self, k: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Factors of a wave: mean (n,) and slopes (n, 2), 1/m; k (n, 2) in rad/m."""
-        mean, slope = _line(k[:, 0] * self.half)
-        return mean, np.stack([slope / self.half, 0 * slope], axis=1)
-
-    def spectra(self, decay: FloatArray, k: FloatArray) -> FloatArray:
-        """Columns mean, slope along x, along y, and both of these with the mean (n, 5)."""
-        mean, slope, cross = _line_spectra(decay * self.half, k[:, 0] * self.half).T
-        zero = 0 * mean
-        return np.stack([mean, slope / self.half**2, zero, cross / self.half, zero], axis=1)
+def factors(base: RigidBase, ground: Ground, frequencies: FloatArray) -> Factors:
+    """Factors of translation, rotation and torsion at frequencies (n,) in Hz."""
+    mean_of = _disc if base.shape == "disc" else _rectangle
+    found = [mean_of(base, *ground.numbers(float(f))) for f in frequencies]
+    squares = np.array(found, float).reshape(len(frequencies), 2)
+    translation, rotation = np.sqrt(np.maximum(squares, 0.0)).T
+    return Factors(translation, rotation, base.torsion_share * rotation)
 
 
-@dataclass(frozen=True)
-class Rectangle:
-    """Half sides along x and y (m)."""
-
-    half_x: float
-    half_y: float
-
-    def __post_init__(self) -> None:
-        _positive(self.half_x, self.half_y)
-
-    def passage(self, k: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """See Strip."""
-        mean_x, slope_x = _line(k[:, 0] * self.half_x)
-        mean_y, slope_y = _line(k[:, 1] * self.half_y)
-        slopes = [slope_x * mean_y / self.half_x, slope_y * mean_x / self.half_y]
-        return mean_x * mean_y, np.stack(slopes, axis=1)
-
-    def spectra(self, decay: FloatArray, k: FloatArray) -> FloatArray:
-        """See Strip: Gauss's bell is a product along the axes."""
-        a, b = self.half_x, self.half_y
-        mean_x, slope_x, cross_x = _line_spectra(decay * a, k[:, 0] * a).T
-        mean_y, slope_y, cross_y = _line_spectra(decay * b, k[:, 1] * b).T
-        columns = [mean_x * mean_y, slope_x * mean_y / a**2, mean_x * slope_y / b**2]
-        return np.stack([*columns, cross_x * mean_y / a, mean_x * cross_y / b], axis=1)
-
-    def torsion(self) -> tuple[float, float]:
-        """What slopes along x (of motion along y) and along y (along x) turn the footing by:
-        shares of the polar moment of inertia."""
-        a2, b2 = self.half_x**2, self.half_y**2
-        return a2 / (a2 + b2), b2 / (a2 + b2)
+def frequencies_of(acceleration: FloatArray, step: float) -> FloatArray:
+    """Frequencies (Hz) of a record (n,) and of as many zeros behind it, which keep ends apart."""
+    return np.asarray(np.fft.rfftfreq(2 * len(acceleration), step), float)
 
 
-@dataclass(frozen=True)
-class Disc:
-    """A disc (radius in m)."""
-
-    radius: float
-
-    def __post_init__(self) -> None:
-        _positive(self.radius)
-
-    def passage(self, k: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """See Strip: 2 J1(z)/z and 8 J2(z)/z."""
-        from scipy.special import jv
-
-        length = np.hypot(k[:, 0], k[:, 1])
-        z = np.maximum(length * self.radius, 1e-9)
-        way = k / np.maximum(length, 1e-300)[:, None]
-        return 2 * jv(1, z) / z, (8 * jv(2, z) / z / self.radius)[:, None] * way
-
-    def spectra(self, decay: FloatArray, k: FloatArray) -> FloatArray:
-        """See Strip."""
-        length = np.hypot(k[:, 0], k[:, 1])
-        way = k / np.maximum(length, 1e-300)[:, None]
-        pairs = np.stack([decay, length], axis=1) * self.radius
-        mean, even, odd, cross = _integrated(_disc_integrand, pairs, np.array([1.0, 4, 4, 2])).T
-        turned = way[:, 0] ** 2 - way[:, 1] ** 2
-        r = self.radius
-        columns = [mean, (even - odd * turned) / r**2, (even + odd * turned) / r**2]
-        return np.stack([*columns, cross * way[:, 0] / r, cross * way[:, 1] / r], axis=1)
-
-    def torsion(self) -> tuple[float, float]:
-        """See Rectangle."""
-        return 0.5, 0.5
+def averaged(acceleration: FloatArray, factor: ComplexArray | FloatArray) -> FloatArray:
+    """A record (n,) by a factor at each of `frequencies_of` it."""
+    n = len(acceleration)
+    spectrum = np.fft.rfft(acceleration, 2 * n)
+    return np.asarray(np.fft.irfft(spectrum * factor, 2 * n)[:n], float)
 
 
-Footing = Strip | Rectangle | Disc
+@cache
+def _gauss() -> tuple[FloatArray, FloatArray]:
+    points, weights = np.polynomial.legendre.leggauss(POINTS)
+    return (points + 1) / 2, weights / 2
 
 
-def factors(footing: Footing, decay: FloatArray, k: FloatArray) -> Factors:
-    """Motion of a rigid footing on a ground whose motion differs below it.
-
-    Parameters
-    ----------
-    footing : Footing
-    decay : array (n,)
-        gamma w / Vs, 1/m.
-    k : array (n, 2)
-        Wave numbers along x and y, w / V times the direction of the way, 1/m.
-    """
-    mean, slopes = footing.passage(k)
-    coherence = (np.abs(slopes) > 0).astype(float)
-    some = decay > 0
-    if np.any(some):
-        spectra = np.maximum(footing.spectra(decay[some], k[some]), [0, 0, 0, -np.inf, -np.inf])
-        roots = np.sqrt(spectra[:, :3])
-        both = roots[:, :1] * roots[:, 1:]
-        share = np.abs(spectra[:, 3:]) / np.where(both > 0, both, 1.0)
-        coherence[some] = np.minimum(np.where(both > 0, share, 0.0), 1.0)
-        mean[some] = np.where(mean[some] < 0, -1, 1) * roots[:, 0]
-        slopes[some] = np.where(slopes[some] < 0, -1, 1) * roots[:, 1:]
-    return Factors(mean, slopes, coherence)
+def _nodes(end: float, decay: float, number: float) -> tuple[FloatArray, FloatArray]:
+    """Points and weights of an integral from 0 to `end`, in parts that the waves ask for."""
+    points, weights = _gauss()
+    parts = 1 + int(end * (number / PHASE + decay / DECAY))
+    width = end / parts
+    places = (np.arange(parts)[:, None] + points).ravel() * width
+    return places, np.tile(weights, parts) * width
 
 
-@dataclass(frozen=True)
-class Filtered:
-    """Records of the footing: translation (n,), slopes (n, 2) in 1/m, and what was cut off.
-
-    Attributes
-    ----------
-    lost : float
-        Largest translation before the record begins, over the largest of all.
-    early : float
-        Seconds by which the translation begins before the record.
-    """
-
-    mean: FloatArray
-    slopes: FloatArray
-    lost: float
-    early: float
+def _rectangle(base: RigidBase, decay: float, number: float) -> tuple[float, float]:
+    """T^2 and M^2 of a rectangle or strip: products of those of its sides."""
+    first, turned = _line(base.along, decay, number)
+    second = _line(base.across, decay, 0.0)[0] if base.shape == "rectangle" else 1.0
+    return first * second, turned * second
 
 
-#: share of the peak above which a record has begun
-BEGUN = 0.01
+def _line(half: float, decay: float, number: float) -> tuple[float, float]:
+    """Means over a line of half length a: of two points, and of their moments."""
+    s, weights = _nodes(2 * half, decay, number)
+    both = half - s / 2  # half of what the line and its copy have in common
+    # the coherency less one: the moments' weights have no mean
+    less = np.expm1(-((decay * s) ** 2)) * np.cos(number * s) - 2 * np.sin(number * s / 2) ** 2
+    mean = 1.0 + 2 * float(weights @ (2 * both * less)) / (2 * half) ** 2
+    moments = 2 * both**3 / 3 - s**2 / 2 * both
+    return mean, 2 * float(weights @ (moments * less)) / (2 * half**3 / 3) ** 2
 
 
-def filtered(record: FloatArray, step: float, at: Callable[[FloatArray], Factors]) -> Filtered:
-    """Translation and slopes of the footing from the motion at its centre.
-
-    Parameters
-    ----------
-    record : array (n,)
-        Motion by equal steps, at rest before and behind.
-    step : float
-        s.
-    at : callable
-        Factors at frequencies (Hz).
-
-    Notes
-    -----
-    By Fourier's transform, as long a rest put behind as the record lasts. What the footing does
-    before the record's first instant stands at the end of that rest.
-    """
-    n = len(record)
-    size = 1 << int(np.ceil(np.log2(2 * n)))
-    frequencies = np.arange(size // 2 + 1) / (size * step)
-    spectrum = np.fft.rfft(record, size)
-    of = at(frequencies)
-    mean = np.fft.irfft(spectrum * of.mean, size)
-    slopes = [np.fft.irfft(-1j * spectrum * of.slopes[:, i], size)[:n] for i in range(2)]
-    before = np.abs(mean[size - (size - n) // 2 :])
-    largest = float(np.abs(mean).max()) or 1.0
-    begun = np.flatnonzero(before > BEGUN * largest)
-    early = float(len(before) - begun[0]) * step if len(begun) else 0.0
-    lost = float(before.max(initial=0.0)) / largest
-    return Filtered(mean[:n], np.stack(slopes, axis=1), lost, early)
-
-
-def _positive(*lengths: float) -> None:
-    if not all(length > 0 for length in lengths):
-        raise MaterialError("kernel.waves.footing-not-positive")
-
-
-def _line(z: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A wave over a line of half length 1: sin(z)/z, and its slope 3 (sin z - z cos z)/z^2."""
-    from scipy.special import spherical_jn
-
-    mean, slope = spherical_jn(0, np.abs(z)), 3 * spherical_jn(1, np.abs(z))
-    return mean, np.where(z < 0, -slope, slope)
-
-
-def _line_spectra(decay: FloatArray, z: FloatArray) -> FloatArray:
-    """Mean, slope and both (n, 3) of a line of half length 1; z its wave number."""
-    pairs = np.stack([decay, z], axis=1)
-    return _integrated(_line_integrand, pairs, np.array([1.0, 3, 1]))
-
-
-def _line_integrand(u: FloatArray, decay: FloatArray, z: FloatArray) -> list[FloatArray]:
-    """Integrands (n, points) over u from 0 to 1, the distance being s = 2 u.
-
-    What two lines shifted by s have in common is 2 m long, m = 1 - u, and the product of both
-    positions about its middle p is p^2 - u^2, whose integral is 2/3 m^3 - 2 m u^2. Its mean over
-    all shifts is zero: 1 is taken from the coherency, so that slow motion keeps its digits.
-    """
-    s, m = 2 * u, 1 - u
-    less = np.expm1(-((decay * s) ** 2))
-    bell, angle = 1 + less, z * s
-    mean = 2 * m * bell * np.cos(angle)
-    reduced = less * np.cos(angle) - 2 * np.sin(angle / 2) ** 2
-    slope = 9 * (2 * m**3 / 3 - 2 * m * u**2) * reduced
-    return [mean, slope, 6 * u * m * bell * np.sin(angle)]
-
-
-def _disc_integrand(u: FloatArray, decay: FloatArray, z: FloatArray) -> list[FloatArray]:
-    """Integrands (n, points) over u from 0 to 1, for radius 1.
-
-    The distance is r = 2 cos(a), a = pi u / 2 being half the angle of what two discs shifted by r
-    have in common: twice a segment, whose area and second moments about its chord (`along` the
-    shift) and across it are textbook ones (Bronstein). Directions of the shift are integrated to
-    Bessel's functions. The slope along a direction is `even` less `odd` times the cosine of twice
-    its angle to the wave's way.
-    """
-    from scipy.special import jv
-
-    a = np.pi * u / 2
-    sin, cos = np.sin(a), np.cos(a)
-    sector, cube = a - sin * cos, sin**3
-    area = 2 * sector
-    across = (3 * sector - 2 * cube * cos) / 6
-    from_centre = (sector + 2 * cube * cos) / 4
-    along = 2 * (from_centre - 4 * cos * cube / 3 + cos**2 * sector) - cos**2 * area
-    r = 2 * cos
-    jacobian = np.pi * sin * r  # r dr
-    less, x = np.expm1(-((decay * r) ** 2)), z * r
-    bell, j0 = 1 + less, jv(0, x)
-    reduced = less * j0 + np.where(np.abs(x) < 0.1, _j0_less_one(x), j0 - 1)
-    mean = 2 / np.pi * area * bell * j0 * jacobian
-    even = 16 / np.pi * (along + across) * reduced * jacobian
-    odd = 16 / np.pi * (along - across) * bell * jv(2, x) * jacobian
-    return [mean, even, odd, 4 / np.pi * r * area * bell * jv(1, x) * jacobian]
-
-
-def _j0_less_one(x: FloatArray) -> FloatArray:
-    q = x * x / 4
-    return -q * (1 - q / 4 * (1 - q / 9 * (1 - q / 16)))
-
-
-Integrand = Callable[[FloatArray, FloatArray, FloatArray], list[FloatArray]]
-
-
-def _integrated(integrand: Integrand, pairs: FloatArray, scale: FloatArray) -> FloatArray:
-    """Integrals (n, columns) over 0 to 1 by rules that double until they agree.
-
-    Parameters
-    ----------
-    integrand : callable
-        Of points (points,), decays and wave numbers (n, 1).
-    pairs : array (n, 2)
-        Decays and wave numbers.
-    scale : array (columns,)
-        What the integrals are of the order of, for rounding.
-    """
-    result = np.empty((len(pairs), len(scale)))
-    left = np.arange(len(pairs))
-    count, before = FIRST, _by_rule(integrand, pairs, FIRST, len(scale))
-    while len(left):
-        count *= 2
-        if count > LAST:
-            raise MaterialError("kernel.waves.footing-too-wide", extent=float(pairs[left].max()))
-        now = _by_rule(integrand, pairs[left], count, len(scale))
-        # the larger ones of a row bear the rounding of the small ones
-        wrong = np.abs(now - before) > RELATIVE * np.abs(now) + ABSOLUTE * scale
-        done = ~np.any(wrong, axis=1)
-        result[left[done]] = now[done]
-        left, before = left[~done], now[~done]
-    return result
-
-
-def _by_rule(integrand: Integrand, pairs: FloatArray, count: int, columns: int) -> FloatArray:
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    points, weights = (nodes + 1) / 2, weights / 2
-    result = np.empty((len(pairs), columns))
-    rows = max(1, AT_ONCE // count)
-    for start in range(0, len(pairs), rows):
-        part = pairs[start : start + rows]
-        of = integrand(points, part[:, :1], part[:, 1:])
-        result[start : start + rows] = np.stack([values @ weights for values in of], axis=1)
-    return result
+def _disc(base: RigidBase, decay: float, number: float) -> tuple[float, float]:
+    """T^2 and M^2 of a disc; `s = 2 R cos(angle)`, where the common lens is smooth."""
+    radius = base.along
+    angle, weights = _nodes(np.pi / 2, 2 * radius * decay, 2 * radius * number)
+    half = radius * np.cos(angle)
+    s, weights = 2 * half, weights * 2 * radius * np.sin(angle)
+    # the lens: its area, its second moments along s and across it
+    area = 2 * radius**2 * (angle - np.sin(angle) * np.cos(angle))
+    fourth = np.sin(4 * angle) / 32
+    across = 4 / 3 * radius**4 * (3 * angle / 8 - np.sin(2 * angle) / 4 + fourth)
+    along = 4 * radius**2 * (
+        radius**2 * (angle / 8 - fourth)
+        - 2 * radius * half * np.sin(angle) ** 3 / 3
+        + half**2 * (angle / 2 - np.sin(2 * angle) / 4)
+    )  # fmt: skip
+    phase = number * s
+    ratio = np.full_like(phase, 0.5)  # J1(z)/z
+    np.divide(j1(phase), phase, out=ratio, where=phase > 0.0)
+    loss = np.exp(-((decay * s) ** 2))
+    mean = (
+        1.0
+        + 2
+        * np.pi
+        * float(weights @ (s * area * (loss * j0(phase) - 1.0)))
+        / (np.pi * radius**2) ** 2
+    )
+    apart = (along - s**2 / 4 * area) * (loss * (j0(phase) - ratio) - 0.5)
+    turned = apart + across * (loss * ratio - 0.5)
+    moment = np.pi * radius**4 / 4
+    return mean, 2 * np.pi * float(weights @ (s * turned)) / moment**2

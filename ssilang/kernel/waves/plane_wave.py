@@ -110,6 +110,8 @@ def plane_motion(
         for histories, factor in ((u, -1 / omega**2), (v, -1j / omega), (a, 1.0)):
             histories[place] = _history(here * factor, padded, finer)[:, :count]
     early = _early(u, v, delay + along * slowness - depths / ground.shear.min())
+    if wave.kind == "SV" and slowness * ground.primary[-1] > 1:
+        early = max(early, _lead(v, wave.step / finer))
     u -= u[..., :1]
     return WaveMotion(wave.start + np.arange(count) * wave.step / finer, u, v, a, early)
 
@@ -134,3 +136,16 @@ def _early(u: FloatArray, v: FloatArray, delays: FloatArray) -> float:
     if not moving or not u.size:
         return 0.0
     return float(max(-delays.min(), 0.0))
+
+
+def _lead(v: FloatArray, step: float) -> float:
+    """Time (s) before which a wave beyond the critical angle moves less than `EARLY`.
+
+    Its parts are the record's Hilbert transform, which has no beginning: velocity grows as the
+    inverse square of the time that is left to the pulse.
+    """
+    largest = np.abs(v).max(axis=(0, 1))
+    ahead = float(np.argmax(largest)) * step
+    if largest[0] <= EARLY * largest.max():
+        return 0.0
+    return ahead * (float(np.sqrt(largest[0] / (EARLY * largest.max()))) - 1)

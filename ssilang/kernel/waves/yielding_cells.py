@@ -1,4 +1,7 @@
-"""Cells whose forces no stiffness gives: those of a plastic law, or of a joint that opens."""
+"""Cells whose forces no stiffness gives: those of a plastic law, or of a joint that opens.
+
+And those of a free field that have yielded: no linear ground moves as they did.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +12,17 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.plasticity.points import is_plastic
+
+PLASTIC = "EPSE"
+"""Cumulated plastic strain among internal variables."""
+NOTHING = 1e-9
+"""Plastic strain that changes no motion."""
 
 
 @dataclass(frozen=True)
@@ -60,3 +69,50 @@ def _is_linear(zone: Zone) -> bool:
 
 def _keys(nodes: IntArray) -> list[bytes]:
     return [row.tobytes() for row in np.sort(nodes.astype(np.int64), axis=1)]
+
+
+@dataclass(frozen=True)
+class Yielded:
+    """Largest cumulated plastic strain, middle of its cell, number of cells that have yielded."""
+
+    strain: float
+    place: FloatArray
+    count: int
+
+
+def yielded(variables: CellField, nodes: IntArray, axis: int | None = None) -> Yielded | None:
+    """Cells of a free field that have yielded, of those whose motion some nodes take.
+
+    Parameters
+    ----------
+    variables : CellField
+        Internal variables at the end of the free field.
+    nodes : array (n,)
+        Nodes that take the motion.
+    axis : int or None
+        Upward axis, if they take that of a column at their height; None for that of their own.
+    """
+    count, worst, place = 0, 0.0, np.zeros(0)
+    for block in variables.blocks:
+        if PLASTIC not in block.components or not len(block.cells):
+            continue
+        strain = np.asarray(block.components[PLASTIC], dtype=float).max(axis=1)
+        strain = np.broadcast_to(strain, (len(block.cells),))
+        found = np.flatnonzero((strain > NOTHING) & _concerned(block.cells, nodes, axis))
+        count += len(found)
+        if len(found) and strain[found].max() > worst:
+            cell = int(found[np.argmax(strain[found])])
+            worst = float(strain[cell])
+            place = block.cells.nodes.shown(block.cells.coordinates[cell].mean(axis=0))
+    return Yielded(worst, place, count) if count else None
+
+
+def _concerned(cells: CellBlock, nodes: IntArray, axis: int | None) -> BoolArray:
+    """Which cells have these nodes alone, or reach in between their heights."""
+    if axis is None:
+        return np.asarray(np.isin(cells.connectivity, nodes).all(axis=1), bool)
+    heights = cells.nodes.coordinates[nodes, axis]
+    own = cells.coordinates[..., axis]
+    low, high = own.min(axis=1), own.max(axis=1)
+    slack = 1e-6 * (high - low)
+    return np.asarray((high > heights.min() + slack) & (low < heights.max() - slack), bool)

@@ -3,6 +3,15 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "base-without-size": Message(
+        "a base has half sizes above zero", "les demi-côtés d'une base sont positifs"
+    ),
+    "speed-not-positive": Message(
+        "speeds of waves are above zero", "les vitesses d'ondes sont positives"
+    ),
+    "gamma-negative": Message(
+        "incoherence {gamma:.4g} is negative", "l'incohérence {gamma:.4g} est négative"
+    ),
     "layers-differ": Message(
         "each layer needs a density, two speeds and a damping",
         "chaque couche a une masse volumique, deux vitesses et un amortissement",
@@ -27,16 +36,6 @@ MESSAGES: dict[str, Message] = {
     "above-the-surface": Message(
         "a point lies {height:g} m above the free surface",
         "un point est à {height:g} m au-dessus de la surface libre",
-    ),
-    "footing-not-positive": Message(
-        "sizes of a footing are positive",
-        "les dimensions d'une fondation sont positives",
-    ),
-    "footing-too-wide": Message(
-        "the motion differs too fast below the footing: {extent:.3g} radians over half of it",
-        "le mouvement varie trop vite sous la fondation : {extent:.3g} radians sur sa moitié",
-        "smaller frequencies or larger speeds; are the units those of the SI?",
-        "des fréquences plus basses ou des vitesses plus grandes ; les unités sont-elles SI ?",
     ),
     "record-too-short": Message(
         "a record has two points at least and a positive step",
@@ -69,5 +68,32 @@ MESSAGES: dict[str, Message] = {
     "outside-column": Message(
         "the column goes from {low:g} to {high:g} m, the ground has nodes at {height:g} m",
         "la colonne va de {low:g} à {high:g} m, le sol a des noeuds à {height:g} m",
+    ),
+    "matched-layer-plane-strain": Message(
+        "a matched layer stands in plane strain alone",
+        "une couche adaptée n'existe qu'en déformations planes",
+        "in other modes dampers of the edges (AMOR) absorb; they want more distance",
+        "dans les autres modes, des amortisseurs de bord (AMOR) absorbent ; ils veulent plus de "
+        "distance",
+    ),
+    "matched-layer-elements": Message(
+        "a matched layer takes solid elements (QUA4, QUA8, TRI3, TRI6), not {element}",
+        "une couche adaptée prend des éléments massifs (QUA4, QUA8, TRI3, TRI6), pas {element}",
+    ),
+    "matched-layer-isotropic": Message(
+        "a matched layer is linear and isotropic, not {behaviour}",
+        "une couche adaptée est linéaire et isotrope, pas {behaviour}",
+    ),
+    "nothing-beyond-box": Message(
+        "the layer does not reach beyond the box that the ground inside fills",
+        "la couche ne dépasse pas la boîte que remplit le sol à l'intérieur",
+    ),
+    "layer-in-box": Message(
+        "{count} {count:element|elements} of the layer (the first at {place:words}) "
+        "{count:lies|lie} in the box that the ground inside fills",
+        "{count} {count:élément|éléments} de la couche (le premier en {place:words}) "
+        "{count:est|sont} dans la boîte que remplit le sol à l'intérieur",
+        "the box has sides along the axes; all in it is ground inside",
+        "la boîte a des côtés selon les axes ; tout ce qui y est est sol à l'intérieur",
     ),
 }

@@ -32,6 +32,31 @@ MESSAGES: dict[str, Message] = {
         "donner AMORTISSEURS, avec les matrices de DYNAMIC, ou un massif plus large",
         severity="warning",
     ),
+    "reflection-of-layer": Message(
+        "REFLEXION is between 0 and 1, not {reflection:g}",
+        "REFLEXION est entre 0 et 1, pas {reflection:g}",
+    ),
+    "thin-layer": Message(
+        "the layer is {cells:.2g} elements thick: with fewer than {fewest} it reflects as much as "
+        "dampers",
+        "la couche a {cells:.2g} éléments d'épaisseur : avec moins de {fewest} elle réfléchit "
+        "autant que des amortisseurs",
+        "8 elements are usual",
+        "8 éléments sont l'usage",
+        severity="warning",
+    ),
+    "free-field-yields": Message(
+        "the free field has yielded where the linear ground of the box takes its motion: {count} "
+        "{count:element|elements}, the most at {place:words} (cumulated plastic strain "
+        "{strain:.3g})",
+        "le champ libre a plastifié là où le sol linéaire du massif prend son mouvement : {count} "
+        "{count:élément|éléments}, le plus en {place:words} (déformation plastique cumulée "
+        "{strain:.3g})",
+        "no linear ground moves so: a linear column, of the moduli that ISSLEQ finds, given to the "
+        "box too",
+        "aucun sol linéaire ne bouge ainsi : une colonne linéaire, aux modules que trouve ISSLEQ, "
+        "donnés aussi au massif",
+    ),
     "soil-yields-outside": Message(
         "{count} {count:element|elements} of {law} (the first at {place:words}) "
         "{count:is|are} in the layer or outside it, where the soil has to be linear",
@@ -57,82 +82,6 @@ MESSAGES: dict[str, Message] = {
         "les ondes {wave} ne sont pas disponibles en dimension {dimension}",
         "P and SV in the plane, all three in space",
         "P et SV dans le plan, toutes les trois dans l'espace",
-    ),
-    "component-of-dimension": Message(
-        "COMPOSANTE {component} is no direction in dimension {dimension}",
-        "COMPOSANTE {component} n'est pas une direction en dimension {dimension}",
-        "UX or UY (upwards) in a plane, UX, UY or UZ (upwards) in space",
-        "UX ou UY (vers le haut) dans un plan, UX, UY ou UZ (vers le haut) dans l'espace",
-    ),
-    "incoherence-negative": Message(
-        "INCOHERENCE is not negative, found {value:g}",
-        "INCOHERENCE n'est pas négative, trouvé {value:g}",
-    ),
-    "incoherence-range": Message(
-        "INCOHERENCE {value:g} is above {largest:g}: Luco and Wong's coherency is used from 0.1 to "
-        "{largest:g}",
-        "INCOHERENCE {value:g} dépasse {largest:g} : la cohérence de Luco et Wong s'emploie de 0.1 "
-        "à {largest:g}",
-        severity="warning",
-    ),
-    "motion-coherent": Message(
-        "neither INCOHERENCE nor VITESSE_APPARENTE: the footing moves as the ground",
-        "ni INCOHERENCE ni VITESSE_APPARENTE : la fondation bouge comme le sol",
-        severity="warning",
-    ),
-    "apparent-speed-range": Message(
-        "VITESSE_APPARENTE {value:g} m/s is slower than any wave along a ground of {shear:g} m/s "
-        "({slowest:.4g} m/s)",
-        "VITESSE_APPARENTE {value:g} m/s est plus lente que toute onde le long d'un sol de "
-        "{shear:g} m/s ({slowest:.4g} m/s)",
-        "a shear wave at an angle to the vertical has Vs over its sine",
-        "une onde de cisaillement inclinée sur la verticale a Vs sur le sinus de son angle",
-        severity="warning",
-    ),
-    "azimuth-of-nothing": Message(
-        "without VITESSE_APPARENTE no wave passes",
-        "sans VITESSE_APPARENTE aucune onde ne passe",
-    ),
-    "azimuth-of-strip": Message(
-        "waves pass across a BANDE",
-        "les ondes passent en travers d'une BANDE",
-    ),
-    "entry-not-positive": Message(
-        "{index} is positive, not {value:g}",
-        "{index} est positif, pas {value:g}",
-    ),
-    "strip-in-space": Message(
-        "FORME BANDE goes in a plane",
-        "FORME BANDE va dans un plan",
-        "a long RECTANGLE in space, or OPTI DIME 2",
-        "un RECTANGLE allongé dans l'espace, ou OPTI DIME 2",
-    ),
-    "size-of-other-shape": Message(
-        "it is the size of another FORME",
-        "c'est la dimension d'une autre FORME",
-    ),
-    "equal-steps-of-record": Message(
-        "ACCELERATION has equal steps of time that grow",
-        "ACCELERATION a des pas de temps égaux et croissants",
-        "IPOL it first",
-        "interpolez-la d'abord par IPOL",
-    ),
-    "frequencies-or-record": Message(
-        "FREQUENCES or ACCELERATION is needed",
-        "il faut FREQUENCES ou ACCELERATION",
-    ),
-    "frequencies-negative": Message(
-        "FREQUENCES are one at least, none negative (lowest {value:g} Hz)",
-        "FREQUENCES en compte une au moins, aucune négative (la plus basse {value:g} Hz)",
-    ),
-    "motion-before-record": Message(
-        "the footing moves {seconds:.3g} s before the record begins, by {share:.2g} of its peak, "
-        "since the wave reaches its edge first: this is cut off",
-        "la fondation bouge {seconds:.3g} s avant le début du signal, de {share:.2g} de son "
-        "maximum, car l'onde atteint d'abord son bord : c'est coupé",
-        "put that duration of zeros before the record",
-        "mettre cette durée de zéros avant le signal",
-        severity="warning",
     ),
     "wave-already-there": Message(
         "the wave is there before its record begins, by {seconds:.3g} s at the first point",
@@ -174,6 +123,65 @@ MESSAGES: dict[str, Message] = {
         "begin the record with {rest:.2g} s of zeros: waves cross the layers before they are felt",
         "commencez l'enregistrement par {rest:.2g} s de zéros : les ondes traversent les couches "
         "avant d'être ressenties",
+        severity="warning",
+    ),
+    "base-without-question": Message(
+        "FREQUENCES for factors is missing, or ACCELERATION for the record of the base",
+        "il manque FREQUENCES pour les facteurs, ou ACCELERATION pour le signal de la base",
+    ),
+    "negative-frequency": Message(
+        "the frequency {frequency:.4g} Hz is negative",
+        "la fréquence {frequency:.4g} Hz est négative",
+    ),
+    "ground-not-elastic": Message(
+        "the ground has YOUNG and MASSE_VOLUMIQUE above 0, POISSON between -1 and 0.5",
+        "le sol a YOUNG et MASSE_VOLUMIQUE positifs, POISSON entre -1 et 0.5",
+    ),
+    "size-of-base": Message(
+        "the base {shape} needs {name}, in metres, above zero",
+        "la base {shape} demande {name}, en mètres, positif",
+    ),
+    "incoherence-sign": Message(
+        "INCOHERENCE {gamma:.4g} and VITESSE_APPARENTE {speed:.4g} are not negative; a speed is "
+        "not zero",
+        "INCOHERENCE {gamma:.4g} et VITESSE_APPARENTE {speed:.4g} ne sont pas négatives ; une "
+        "vitesse n'est pas nulle",
+        "without VITESSE_APPARENTE the waves come from below",
+        "sans VITESSE_APPARENTE les ondes viennent d'en dessous",
+    ),
+    "incoherence-large": Message(
+        "INCOHERENCE {gamma:.3g} is beyond what arrays have shown (0 to {most:.3g})",
+        "INCOHERENCE {gamma:.3g} dépasse ce que des réseaux ont montré (0 à {most:.3g})",
+        "most dense arrays are fitted by 0.1 to 0.3",
+        "0,1 à 0,3 convient à la plupart des réseaux denses",
+        severity="warning",
+    ),
+    "passage-slow": Message(
+        "waves pass at {speed:.4g} m/s, slower than Rayleigh's on this ground (shear waves: "
+        "{shear:.4g} m/s)",
+        "les ondes passent à {speed:.4g} m/s, moins vite que celles de Rayleigh sur ce sol (ondes "
+        "de cisaillement : {shear:.4g} m/s)",
+        "VITESSE_APPARENTE is Vs over the sine of the incidence, 1000 m/s and more for most quakes",
+        "VITESSE_APPARENTE vaut Vs sur le sinus de l'incidence, 1000 m/s et plus pour la plupart "
+        "des séismes",
+        severity="warning",
+    ),
+    "motion-everywhere-the-same": Message(
+        "the motion is the same everywhere: INCOHERENCE is zero and VITESSE_APPARENTE is not given",
+        "le mouvement est partout le même : INCOHERENCE est nulle et VITESSE_APPARENTE absente",
+        "give one of them, else the base moves as the ground",
+        "donner l'une des deux, sinon la base bouge comme le sol",
+        severity="warning",
+    ),
+    "layer-too-coarse": Message(
+        "the layer from {top:.4g} to {bottom:.4g} m below the surface has nodes {height:.3g} m "
+        "apart: at {frequency:.3g} Hz and {speed:.4g} m/s they may be {wanted:.3g} m ({nodes} a "
+        "wavelength)",
+        "la couche de {top:.4g} à {bottom:.4g} m sous la surface a des noeuds distants de "
+        "{height:.3g} m : à {frequency:.3g} Hz et {speed:.4g} m/s ils peuvent l'être de "
+        "{wanted:.3g} m ({nodes} par longueur d'onde)",
+        "make the layer's mesh finer, or lower FC if less matters",
+        "affiner le maillage de la couche, ou baisser FC si moins importe",
         severity="warning",
     ),
     "footing-not-kept": Message(

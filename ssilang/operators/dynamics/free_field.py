@@ -14,11 +14,14 @@ from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
-    from ssilang.kernel.records.soil_column import FreeField
+    from ssilang.kernel.records.soil_column import FreeField, SoilColumn
 
 _CODE = "operators.dynamics.waves-before-the-record"
 _BEGUN = 0.05
 """Share of the largest velocity that is in the ground before a motion begins, unheard."""
+_COARSE = "operators.dynamics.layer-too-coarse"
+_NODES = 8
+"""Heights between nodes that carry a wavelength."""
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 
@@ -72,7 +75,33 @@ def zcol(call: Call, table: Table) -> Table:
     )
     if field.begun > _BEGUN and all(w.code != _CODE for w in call.session.warnings):
         entries.warn(_CODE, share=100 * field.begun, rest=1.5 * soil.crossing)
+    _tell_coarse(entries, soil, signal, cutoff)
     return _results(field, float(signal.abscissas[0]))
+
+
+def _tell_coarse(entries: Entries, soil: SoilColumn, signal: CurvePart, cutoff: float) -> None:
+    """Warn, once for a script, of the layer whose nodes are farthest apart for its waves."""
+    from ssilang.kernel.waves.resolution import highest_frequency
+
+    heights = entries.get("ECARTS")
+    frequency = min(cutoff, highest_frequency(signal.abscissas, signal.ordinates))
+    if heights is None or frequency <= 0.0:
+        return
+    speed = np.sqrt(soil.modulus / soil.density)
+    wanted = speed / (_NODES * frequency)
+    i = int(np.argmax(heights.values / wanted))
+    told = any(w.code == _COARSE for w in entries.call.session.warnings)
+    if heights.values[i] > (1 + 1e-9) * wanted[i] and not told:
+        entries.warn(
+            _COARSE,
+            top=soil.tops[i],
+            bottom=soil.tops[i + 1],
+            height=heights.values[i],
+            wanted=wanted[i],
+            frequency=frequency,
+            speed=speed[i],
+            nodes=_NODES,
+        )
 
 
 def _results(field: FreeField, start: float) -> Table:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray, IntArray
     from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.matrices.assembly import Numbering
-    from ssilang.kernel.waves.free_field_forces import Ground, Motion
+    from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
 _MOTION = ("DEPL", "VITE", "ACCE")
 
@@ -58,6 +59,7 @@ def zdrm(call: Call, table: Table) -> Load:
     _outside_is_linear(entries)
     layer = elements_of(_ground(entries), entries.needed("COUCHE"))
     motion = _motion(entries, layer.numbering)
+    _free_field_is_linear(entries, layer)
     _tell_coarse(entries, motion)
     _tell_reflecting(entries, motion)
     forces = layer_forces(layer, entries.needed("INTERIEUR"), motion)
@@ -89,6 +91,7 @@ def zbor(call: Call, table: Table) -> Load:
     edge = entries.needed("FRONTIERE")
     row = elements_at(_ground(entries), edge)
     motion = _motion(entries, row.numbering)
+    _free_field_is_linear(entries, row)
     _tell_coarse(entries, motion)
     forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
     return load_of(row.numbering, motion.times, forces)
@@ -110,6 +113,32 @@ def _edges_are_linear(entries: Entries) -> None:
     found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
     if found is not None:
         raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
+
+
+def _free_field_is_linear(entries: Entries, share: Share) -> None:
+    """Refuse a free field that has yielded where the ground's matrices take its motion."""
+    from ssilang.kernel.waves.yielding_cells import yielded
+
+    table = entries.needed("MOUVEMENT")
+    last = max(i for i in table.indices() if isinstance(i, int))
+    variables = table.get(last).get("VARIABLES_INTERNES")
+    if not isinstance(variables, CellField):
+        return
+    nodes = np.unique(share.numbering.nodes[share.touched])
+    axis = None if entries.get("COLONNE") is None else _upward(share.numbering)
+    found = yielded(variables, nodes, axis)
+    if found is not None:
+        raise entries.error(
+            "operators.dynamics.free-field-yields",
+            strain=found.strain,
+            place=found.place,
+            count=found.count,
+        )
+
+
+def _upward(numbering: Numbering) -> int:
+    """The upward axis, by the translations that there are."""
+    return len([n for n in numbering.unknowns if n in ("UX", "UY", "UZ")]) - 1
 
 
 def _ground(entries: Entries) -> Ground:
@@ -173,7 +202,7 @@ def _column(numbering: Numbering, nodes: IntArray) -> tuple[IntArray, dict[str, 
     """One node a height of the column, and the weights of each unknown's nodes in them."""
     from ssilang.kernel.waves.free_field_forces import along_columns
 
-    axis = len([n for n in numbering.unknowns if n in ("UX", "UY", "UZ")]) - 1
+    axis = _upward(numbering)
     heights = numbering.table.coordinates[:, axis]
     span = float(np.ptp(heights[nodes])) or 1.0
     _, first = np.unique(np.round(heights[nodes] / (1e-7 * span)), return_index=True)

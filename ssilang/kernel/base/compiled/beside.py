@@ -88,7 +88,8 @@ class Beside:
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
         room = module.removeprefix(KERNEL).partition(".")[0]
-        if self.found is None and room not in self._rooms and not self._rooms.add(room):
+        if self.found is None and room not in self._rooms:
+            self._rooms.add(room)
             for name, task in tasks_ahead(room):
                 self.tell(name, task)
 
@@ -205,7 +206,8 @@ def tasks_ahead(room: str) -> list[Task]:
     for path, text in known["records"].items():
         module, _, name = path.rpartition(".")
         kind = getattr(importlib.import_module(KERNEL + module), name)
-        records[name] = types.BaseTuple.from_types([*types_of(text)], kind)
+        made: Any = types.BaseTuple  # numba's, untyped
+        records[name] = made.from_types([*types_of(text)], kind)
     found = []
     for path, text in known.get(room, {}).items():
         module, _, name = path.rpartition(".")

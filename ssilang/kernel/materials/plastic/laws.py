@@ -19,6 +19,7 @@ from ssilang.kernel.materials.plastic import (
     uniaxial,
     von_mises,
 )
+from ssilang.kernel.materials.plastic.backbone import Backbones
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
@@ -63,6 +64,8 @@ class PlasticLaw:
     shaped : callable or None
         The law as its parameters shape it: how many variables there are, what of them is the same
         at all steps. See `law_at`.
+    parts : Backbones or None
+        Parts side by side, of a law that is shaped to have them.
     """
 
     respond: Respond
@@ -79,6 +82,7 @@ class PlasticLaw:
     columns: Columns | None = None
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
+    parts: Backbones | None = None
 
 
 def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
@@ -86,6 +90,7 @@ def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
     return replace(
         law,
         variables=iwan.variables(parts),
+        parts=parts,
         respond=partial(iwan.respond, parts),
         locked=partial(iwan.locked, parts),
     )

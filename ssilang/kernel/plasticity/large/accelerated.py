@@ -19,24 +19,40 @@ from typing import cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import InterfaceState, accept
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.plasticity.large.part import (
+    NEAR,
+    Part,
+    by_zone,
+    cells_for_the_next,
+    cells_nearer,
+    part_of,
+    whole_part,
+)
 from ssilang.kernel.plasticity.newton import RIGID, TOLERANCE, BulkSolver
 from ssilang.kernel.solvers.backends import DISSECTION, factor_pays
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
-from ssilang.kernel.solvers.cholesky.triangular import backward, forward
+from ssilang.kernel.solvers.cholesky.triangular import (
+    backward,
+    backward_runs,
+    forward,
+    forward_runs,
+)
 from ssilang.kernel.stepping.effective import Effective, effective_of, ordering_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
 
-DEPTH = 10  # turns that the acceleration looks back on
-PATIENCE = 12  # turns after which the tangent of what has been reached is factorised
+DEPTH = 16  # turns that the acceleration looks back on
+PATIENCE = 20  # turns after which the tangent of what has been reached is factorised
+EARLY = 3.0  # times the tolerance from which on the next turn may well be the last
+TIGHTER = 0.1  # of the tolerance, where the forces at play were thought too large
 RENEWALS = 3  # in a step, before Newton's method on all unknowns
 MANY_SOLVES = 1_000  # a factor is compared with iterations as if it served so often
 DEPENDENT = 1e-14  # smallest eigenvalue of the turns' products that counts, of the largest
@@ -77,32 +93,93 @@ class Acceleration:
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A factorised step: the bodies' stiffness K in it (c times a tangent), csr (n, n)."""
+    """A factorised step.
+
+    Attributes
+    ----------
+    K : csr array (n, n)
+        The bodies' stiffness in it, c times a tangent.
+    effective : Effective
+    T : csr array (n, r)
+        Motions by the factor's unknowns: scaled, in the order of elimination.
+    order : array (r,)
+        The independent unknown at each place of that order.
+    elastic : bool
+        Whether K is the elastic stiffness, so that p is what flow makes alone.
+    stiff : float
+        Largest term of K.
+    """
 
     K: sp.csr_array
     effective: Effective
+    T: sp.csr_array
+    order: IntArray
+    elastic: bool
+    stiff: float
 
     @property
     def dissected(self) -> DissectedFactor | None:
         """The factor with the interface at its root, None for others."""
-        e = self.effective
-        if e.inverse.factor.name != DISSECTION or (e.root is None and e.right.shape[1]):
-            return None
-        return cast(DissectedFactor, e.inverse.factor)
+        return _dissected(self.effective)
+
+    @property
+    def scale(self) -> FloatArray:
+        """Of the independent unknowns, in the order of elimination."""
+        return self.effective.inverse.scale[self.order]
+
+
+def _dissected(e: Effective) -> DissectedFactor | None:
+    if e.inverse.factor.name != DISSECTION or (e.root is None and e.right.shape[1]):
+        return None
+    return cast(DissectedFactor, e.inverse.factor)
+
+
+@dataclass(eq=False)
+class Step:
+    """A step under way.
+
+    Attributes
+    ----------
+    r, held : array (n,), array (n,) or None
+        Right-hand side, motion of the supports.
+    forwarded : array (r,)
+        Right-hand side of the independent unknowns after the forward solve.
+    known, part : Reference, Part
+    p : array (m,)
+        The load that is looked for, of the part's unknowns.
+    du, answer : array (n,), Answer or None
+        The last motion of the part's unknowns, and what the bodies answer if they all did.
+    """
+
+    motion: Motion
+    r: FloatArray
+    held: FloatArray | None
+    forwarded: FloatArray
+    known: Reference
+    part: Part
+    p: FloatArray
+    du: FloatArray
+    answer: Answer | None = None
 
 
 class AcceleratedSolver(BulkSolver):
     """The step of `BulkSolver` with one factor for many turns and steps.
+
+    While the factor is elastic, and all zones have compiled passes, turns go over the part of the
+    bodies that yields or is near to it; a step ends with a pass over all cells, and goes on with
+    more of them if others yield too.
 
     Attributes
     ----------
     tangent : array (nnz,) or None
         Terms of the tangent that is factorised, None for that of the first step's start.
     load : array (r,)
-        p at the end of the last step, of scaled unknowns.
+        p at the end of the last step, not scaled.
+    cells : array
+        Those of the part, numbered through all zones.
     """
 
-    remembered = (*BulkSolver.remembered, "tangent", "load", "_jumps")
+    remembered = (*BulkSolver.remembered, "tangent", "load", "cells", "_jumps")
     loop, factor, said = "kept factor", DISSECTION, "kernel.plasticity.loop-kept-factor"
 
     def __init__(
@@ -112,8 +189,11 @@ class AcceleratedSolver(BulkSolver):
         self.problem, self.dt = problem, dt
         self.tangent: FloatArray | None = None
         self.load = np.zeros(problem.constraints.T.shape[1])
-        self._acceleration = Acceleration(len(self.load))
+        self.cells = np.zeros(0, np.int64)
+        self._passed = all(bulk.passes) and not bulk.free
         self._reference: tuple[FloatArray | None, Reference] | None = None
+        self._part: tuple[IntArray, Reference, Part] | None = None
+        self._stiff = float(np.abs(A.data).max(initial=0.0))
         self._jumps: Workspace | None = None
         if (joints := problem.interface) is not None:
             self._jumps = workspace((joints.n_points, joints.dimension), joints.size)
@@ -134,95 +214,161 @@ class AcceleratedSolver(BulkSolver):
     def _referred(self) -> Reference:
         """The factor of the tangent that is remembered."""
         if self._reference is None or self._reference[0] is not self.tangent:
-            if self.tangent is None:
+            tangent = self.tangent
+            if tangent is None:
+                start = self.bulk.unloaded() if self._passed else self.state
                 nothing = np.zeros(len(self.force))
-                self.tangent = self.bulk.respond(self.state, nothing, self.time).tangent.data
-            self._reference = (self.tangent, self._factorised(self.tangent))
+                tangent = self.bulk.respond(start, nothing, self.time).tangent.data
+                self.tangent = None if self._passed else tangent
+            self._reference = (self.tangent, self._factorised(tangent))
         return self._reference[1]
 
     def _factorised(self, tangent: FloatArray) -> Reference:
         K = self.bulk.terms.matrix(self.share * tangent)
-        whole = sp.csr_array(self.A + K)
-        return Reference(K, effective_of(self.problem, whole, self.dt, self.share))
+        e = effective_of(self.problem, sp.csr_array(self.A + K), self.dt, self.share)
+        factor, scale = _dissected(e), e.inverse.scale
+        order = np.arange(len(scale)) if factor is None else factor.tree.order
+        T = sp.csr_array((self.constraints.T @ sp.diags_array(scale))[:, order])
+        elastic = self.tangent is None and factor is not None
+        return Reference(K, e, T, order, elastic, float(np.abs(K.data).max(initial=0.0)))
 
-    def _renewed(self, answer: Answer) -> Reference:
-        self.tangent = answer.tangent.data
-        return self._referred()
+    def _part_of(self, known: Reference) -> Part:
+        """The part that the solver's cells make; all if the factor is not elastic."""
+        if self._part is None or self._part[0] is not self.cells or self._part[1] is not known:
+            factor = known.dissected
+            panels = None if factor is None else factor.panels
+            if known.elastic and panels is not None:
+                part = part_of(self.bulk, by_zone(self.bulk, self.cells), known.T, panels)
+            else:
+                part = whole_part(known.T, panels)
+            self._part = (self.cells, known, part)
+        return self._part[2]
 
     # ---- the iteration
 
     def _accelerated(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
-        known, V = self._referred(), self.constraints.V
-        held = self.constraints.particular(dd) if dd.any() else None
-        scale = known.effective.inverse.scale
-        p, size, self.residuals = self.load.copy(), 0.0, []
-        self._acceleration.forget()
+        step = self._begun(motion, r, self.constraints.particular(dd) if dd.any() else None)
+        self.residuals, tolerance = [], TOLERANCE * self._least_size(r)
+        acceleration = Acceleration(len(step.p))
         for turn in range(1, RENEWALS * PATIENCE + 1):
-            moved = self._moved(known, motion, r, p, held)
-            if moved is None:
-                return StepOutcome(p, -turn, np.inf)
-            du = moved
-            answer = self.bulk.respond(self.state, du, self.time)
-            change = self.share * (answer.force - self.force)
-            image = scale * (V.T @ (change - known.K @ du))
-            rest = float(np.abs((image - p) / scale).max(initial=0.0))
-            size = size or self._size(motion, r, du, answer, known)
-            self.residuals.append(rest / size)
-            if not np.isfinite(rest):
-                return StepOutcome(du, -turn, rest)
-            if rest <= TOLERANCE * size:
-                residual = self._residual(motion, r, du, answer, known)
-                if residual <= TOLERANCE:
-                    return self._accepted(motion, du, answer, image, turn, residual)
-            if turn % PATIENCE == 0:
-                known = self._renewed(answer)
-                scale = known.effective.inverse.scale
-                p = scale * (V.T @ (change - known.K @ du))
-                self._acceleration.forget()
-            else:
-                p = self._acceleration.next(p, image)
-        return StepOutcome(du, -len(self.residuals), self.residuals[-1])
+            image = self._image(step)
+            if image is None:
+                return StepOutcome(step.du, -turn, np.inf)
+            rest = np.abs((image - step.p) / step.known.scale[step.part.places])
+            self.residuals.append(float(rest.max(initial=0.0)) * TOLERANCE / tolerance)
+            if not np.isfinite(self.residuals[-1]):
+                return StepOutcome(step.du, -turn, self.residuals[-1])
+            step.p = acceleration.next(step.p, image)
+            late = turn % PATIENCE == 0
+            if self.residuals[-1] > EARLY * TOLERANCE and not late:
+                continue
+            residual = self._whole(step)
+            if residual <= TOLERANCE:
+                return self._accepted(step, turn, residual)
+            tolerance *= TIGHTER
+            if self._widened(step) or late:
+                self._restarted(step, late)
+                acceleration = Acceleration(len(step.p))
+        return StepOutcome(step.du, -len(self.residuals), self.residuals[-1])
 
-    def _moved(
-        self, known: Reference, motion: Motion, r: FloatArray, p: FloatArray,
-        held: FloatArray | None,
-    ) -> FloatArray | None:  # fmt: skip
-        """Increment (n,) for a load p, the joints in equilibrium with it; None without one."""
-        e, c = known.effective, self.constraints
-        right = r if held is None else r - e.A @ held
-        b = e.inverse.scale * (c.V.T @ right) - p
-        factor = known.dissected
+    def _begun(self, motion: Motion, r: FloatArray, held: FloatArray | None) -> Step:
+        """A step with the load of the last one."""
+        known = self._referred()
+        part, e, factor = self._part_of(known), known.effective, known.dissected
+        b = known.T.T @ (r if held is None else r - e.A @ held)
+        if factor is not None:
+            panels, n = factor.panels, len(b)
+            forward(panels, panels.first[0], len(panels.first) - 1, b, n, b, factor.room)
+        p = (self.load[known.order] * known.scale)[part.places]
+        return Step(motion, r, held, b, known, part, p, np.zeros(len(r)))
+
+    def _image(self, step: Step) -> FloatArray | None:
+        """g(p) of the part's unknowns; None without equilibrium of the joints."""
+        if not self._moved(step, step.part):
+            return None
+        if not step.known.elastic:
+            step.answer = self.bulk.respond(self.state, step.du, self.time)
+        return self._load(step)
+
+    def _load(self, step: Step) -> FloatArray:
+        """What the bodies' forces beyond the factor load the part's unknowns with."""
+        part, known = step.part, step.known
+        if not known.elastic:
+            assert step.answer is not None
+            change = self.share * (step.answer.force - self.force) - known.K @ step.du
+            return np.asarray(part.T.T @ change)
+        flow = np.zeros(len(step.du))
+        for over, old in zip(part.passes, self.state, strict=True):
+            over.flow(old, step.du, flow)
+        return np.asarray(part.T.T @ (self.share * flow[part.unknowns]))
+
+    def _whole(self, step: Step) -> float:
+        """Move all, and have all bodies answer: what is out of balance, of the forces at play."""
+        known, factor = step.known, step.known.dissected
+        panels = None if factor is None else factor.panels
+        if not self._moved(step, whole_part(known.T, panels)):
+            return np.inf
+        step.answer = self.bulk.respond(self.state, step.du, self.time)
+        return self._residual(step)
+
+    def _widened(self, step: Step) -> bool:
+        """Whether cells beyond the part yield: it has them, too, then."""
+        if not step.known.elastic or step.answer is None:
+            return False
+        yields = cells_nearer(self.bulk, step.answer.beyond, 0.0)
+        if np.isin(yields, self.cells, assume_unique=True).all():
+            return False
+        self.cells = np.union1d(self.cells, cells_nearer(self.bulk, step.answer.beyond, NEAR))
+        return True
+
+    def _restarted(self, step: Step, renewed: bool) -> None:
+        """Go on from what has been reached with a wider part, or with another factor."""
+        if renewed:
+            assert step.answer is not None
+            self.tangent = step.answer.tangent.data
+            again = self._begun(step.motion, step.r, step.held)
+            step.known, step.forwarded = again.known, again.forwarded
+        step.part = self._part_of(step.known)
+        step.p = self._load(step)
+
+    def _moved(self, step: Step, part: Part) -> bool:
+        """Move a part's unknowns under its load; False without equilibrium of the joints."""
+        known, factor = step.known, step.known.dissected
         if factor is None:
-            return self._moved_by_columns(e, motion, b, held)
-        x = b[factor.tree.order]
-        panels, local = factor.panels, factor.room
-        count, n = len(panels.first) - 1, len(x)
-        forward(panels, panels.first[0], count, x, n, x, local)
+            return self._moved_by_columns(step)
+        e, panels, local = known.effective, factor.panels, factor.room
+        x = np.zeros(len(step.forwarded))
+        x[step.part.places] = -step.p
+        forward_runs(panels, step.part.runs, x, local)
+        x += step.forwarded
+        runs = part.runs
         if e.root is not None:
-            last, begin = count - 1, int(panels.first[-2])
-            backward(panels, last, count, x, x, local)
-            h = self._jumped(e, motion, e.root.J @ x[begin:], held)
+            last, begin = len(panels.first) - 2, int(panels.first[-2])
+            backward(panels, last, last + 1, x, x, local)
+            h = self._jumped(e, step.motion, e.root.J @ x[begin:], step.held)
             if h is None:
-                return None
+                return False
             x[begin:] -= e.root.Y @ h
-            backward(panels, panels.first[0], last, x, x, local)
-        else:
-            backward(panels, panels.first[0], count, x, x, local)
-        b[factor.tree.order] = x
-        du: FloatArray = c.T @ (e.inverse.scale * b)
-        return du if held is None else np.asarray(du + held)
+            runs = np.minimum(runs, last)
+        backward_runs(panels, runs, x, local)
+        step.du[part.unknowns] = part.T @ x[part.places]
+        if step.held is not None:
+            step.du[part.unknowns] += step.held[part.unknowns]
+        return True
 
-    def _moved_by_columns(
-        self, e: Effective, motion: Motion, b: FloatArray, held: FloatArray | None
-    ) -> FloatArray | None:
+    def _moved_by_columns(self, step: Step) -> bool:
         """The same with other factors: the interface's response is kept."""
-        du = self.constraints.T @ (e.inverse.scale * e.inverse.factor.solve(b))
+        known = step.known
+        e, b = known.effective, step.forwarded.copy()
+        b[step.part.places] -= step.p
+        du = known.T @ e.inverse.factor.solve(b)
         if self.interface is not None:
-            h = self._jumped(e, motion, self.interface.J @ du, held)
+            h = self._jumped(e, step.motion, self.interface.J @ du, step.held)
             if h is None:
-                return None
+                return False
             du = du - e.Y @ h
-        return du if held is None else du + held
+        step.du[:] = du if step.held is None else du + step.held
+        return True
 
     def _jumped(
         self, e: Effective, motion: Motion, y0: FloatArray, held: FloatArray | None
@@ -240,43 +386,38 @@ class AcceleratedSolver(BulkSolver):
 
     # ---- what is out of balance
 
-    def _size(
-        self, motion: Motion, r: FloatArray, du: FloatArray, answer: Answer, known: Reference
-    ) -> float:
-        """Forces at play, as Newton's method on all unknowns reckons them."""
-        parts = (r, self.A @ du, answer.force, self.force, self._pushed(motion))
-        stiff = max(float(np.abs(M.data).max(initial=0.0)) for M in (self.A, known.K))
+    def _least_size(self, r: FloatArray) -> float:
+        """What the forces at play are at least, as far as it is known before the step."""
+        size = float(np.abs(r).max(initial=0.0)) + 2 * float(np.abs(self.force).max(initial=0.0))
+        return max(size, 1e-300)
+
+    def _residual(self, step: Step) -> float:
+        """What is out of balance at du, of the forces at play as Newton's method reckons them."""
+        answer, du = step.answer, step.du
+        assert answer is not None
+        linear = self.A @ du
+        rest, parts = step.r - linear, [step.r, linear, answer.force, self.force]
+        rest -= self.share * (answer.force - self.force)
+        if self.interface is not None and self._jumps is not None:
+            pushed = self.interface.J.T @ (self.share * (self._jumps.trial.f - step.motion.f))
+            rest -= pushed
+            parts.append(pushed)
+        size = sum(float(np.abs(x).max(initial=0.0)) for x in parts)
         moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
-        return max(
-            sum(float(np.abs(x).max(initial=0.0)) for x in parts), RIGID * stiff * moved, 1e-300
-        )
+        size = max(size, RIGID * max(self._stiff, step.known.stiff) * moved, 1e-300)
+        return float(np.abs(self.constraints.V.T @ rest).max(initial=0.0)) / size
 
-    def _pushed(self, motion: Motion) -> FloatArray:
-        """Change (n,) of the joints' forces."""
-        if self.interface is None or self._jumps is None:
-            return np.zeros(0)
-        found: FloatArray = self.interface.J.T @ (self.share * (self._jumps.trial.f - motion.f))
-        return found
-
-    def _residual(
-        self, motion: Motion, r: FloatArray, du: FloatArray, answer: Answer, known: Reference
-    ) -> float:
-        """What is out of balance at du, without the factor's rounding, of the forces at play."""
-        rest = r - self.A @ du - self.share * (answer.force - self.force)
-        if self.interface is not None:
-            rest = rest - self._pushed(motion)
-        rest = self.constraints.V.T @ rest
-        return float(np.abs(rest).max(initial=0.0)) / self._size(motion, r, du, answer, known)
-
-    def _accepted(
-        self, motion: Motion, du: FloatArray, answer: Answer, load: FloatArray, turn: int,
-        residual: float,
-    ) -> StepOutcome:  # fmt: skip
+    def _accepted(self, step: Step, turn: int, residual: float) -> StepOutcome:
+        known, answer = step.known, step.answer
+        assert answer is not None
         if self._jumps is not None:
-            accept(self._jumps.trial, _joints_of(motion))
-        self.load[:] = load
+            accept(self._jumps.trial, _joints_of(step.motion))
+        self.load[:] = 0.0
+        self.load[known.order[step.part.places]] = step.p / known.scale[step.part.places]
         self.state, self.force, self.work = answer.state, answer.force, answer.work
-        return StepOutcome(du, turn, residual)
+        if known.elastic:
+            self.cells = cells_for_the_next(self.bulk, self.cells, answer)
+        return StepOutcome(step.du, turn, residual)
 
 
 def _joints_of(motion: Motion) -> InterfaceState:

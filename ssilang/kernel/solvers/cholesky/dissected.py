@@ -40,9 +40,17 @@ class DissectedFactor:
         most: float = np.inf,
     ) -> None:  # fmt: skip
         nothing = np.zeros(0, np.int64)
-        self.tree: Tree = dissection(A, points, nothing if last is None else last)
-        self.panels = factorise_panels(A, self.tree, most)
+        self._factorise(A, dissection(A, points, nothing if last is None else last), most)
+
+    def _factorise(self, A: sp.csr_array, tree: Tree, most: float) -> None:
+        self.tree, self.panels = tree, factorise_panels(A, tree, most)
         self.room = np.empty(longest(self.panels))
+
+    def another(self, A: sp.csr_array, most: float = np.inf) -> DissectedFactor:
+        """Factor of a matrix with the same unknowns and terms, in the same order."""
+        made = DissectedFactor.__new__(DissectedFactor)
+        made._factorise(A, self.tree, most)
+        return made
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, b (n,) or (n, k)."""

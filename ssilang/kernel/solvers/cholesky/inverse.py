@@ -209,7 +209,12 @@ def _try_factors(
     """Factor without pivoting if A seems positive, else with; None if exactly singular."""
     if A.shape[0] == 0:  # everything was pinned
         return _Empty()
-    for positive in (True, False) if symmetric and (A.diagonal() > 0.0).all() else (False,):
+    diagonal = A.diagonal()
+    if symmetric and (diagonal < 0.0).any():
+        negative = _beside_groups(A, np.flatnonzero(diagonal < 0.0), solver, ordering)
+        if negative is not None:
+            return negative
+    for positive in (True, False) if symmetric and (diagonal > 0.0).all() else (False,):
         try:
             factor = factorise(A, positive, solver, ordering)
         except SingularFactorError:
@@ -218,6 +223,19 @@ def _try_factors(
         if not positive or factor.name == MULTIGRID or accurate(A, factor):
             return factor
     return None
+
+
+def _beside_groups(
+    A: sp.csr_array, groups: IntArray, solver: Solver | str | None, ordering: Ordering | None
+) -> Factor | None:
+    """Factor of a matrix that is positive but for small negative groups, None if it is not that."""
+    from ssilang.kernel.solvers.cholesky.small_groups import SmallGroupsFactor
+
+    try:
+        factor = SmallGroupsFactor(A, groups, solver, ordering)
+    except SingularFactorError:
+        return None
+    return factor if accurate(A, factor) else None
 
 
 def accurate(A: sp.csr_array, factor: Factor) -> bool:

@@ -145,6 +145,21 @@ def backward(
 
 
 @compiled
+def forward_runs(L: Panels, runs: IntArray, x: FloatArray, local: FloatArray) -> None:
+    """`forward` on some supernodes, `runs` (k, 2) of them in a row, with all above them."""
+    n = len(x)
+    for i in range(len(runs)):
+        forward(L, runs[i, 0], runs[i, 1], x, n, x, local)
+
+
+@compiled
+def backward_runs(L: Panels, runs: IntArray, x: FloatArray, local: FloatArray) -> None:
+    """`backward` in place on some supernodes, `runs` (k, 2) of them in a row."""
+    for i in range(len(runs) - 1, -1, -1):
+        backward(L, runs[i, 0], runs[i, 1], x, x, local)
+
+
+@compiled
 def solve_column(L: Panels, b: FloatArray, local: FloatArray) -> None:
     """b = (L L^T)^-1 b."""
     count, n, start = len(L.first) - 1, len(b), L.first[0]  # not 0: a literal is a type of its own

@@ -30,6 +30,7 @@ from ssilang.kernel.interface.interface import (
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import (
+    HISTORIES,
     Numbering,
     assemble,
     constraint_matrix,
@@ -155,7 +156,7 @@ def make_problem(inputs: Inputs) -> Problem:
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     _refuse_not_finite(assembled, loading)
-    refuse_negative_mass(assembled["M"], numbering)
+    refuse_negative_mass(assembled["M"], numbering, HISTORIES)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     return Problem(

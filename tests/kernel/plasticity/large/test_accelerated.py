@@ -3,94 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from references.keeper import Ending
 from references.recorder import Recorder
+from references.tower_on_clay import tower_on_clay
 
-from ssilang.kernel import elements
-from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.matrices.relations import Term, relation_rows
-from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
-from ssilang.kernel.plasticity.large import accelerated
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.plasticity.large import accelerated, part
 from ssilang.kernel.plasticity.large.accelerated import Acceleration
 from ssilang.kernel.plasticity.run import run_bulk
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+from ssilang.kernel.solvers.cholesky.triangular import backward_runs, forward_runs
 
-STEPS, DT = 56, 1e-2
-CLAY = {"YOUN": 2e7, "NU": 0.4, "RHO": 1900.0}
-LAWS = {
-    "J2": {"SIG0": 6e4, "SIGI": 6e4, "KISO": 5e5, "VELO": 0.0},
-    "DRUCKER_PARFAIT": {"LTR": 1e4, "LCS": 4e4},
-    "DRUCKER_PRAGER": {
-        "ALFA": 0.1, "BETA": 1.0, "K": 3e4, "ETA": 0.1, "MU": 1.0, "KL": 3e4, "H": 0.0,
-        "GAMM": 0.0, "DELT": 1.0,
-    },
-}  # fmt: skip
-
-
-def grid(table: NodeTable, x0: float, y0: float, nx: int, ny: int) -> np.ndarray:
-    X, Y = np.meshgrid(x0 + np.arange(nx + 1.0), y0 + np.arange(ny + 1.0), indexing="ij")
-    return table.add(np.column_stack([X.ravel(), Y.ravel()])).reshape(nx + 1, ny + 1)
-
-
-def zone(table, ids, law: tuple[str, ...], data: dict[str, float]) -> tuple[Zone, CellField]:
-    cells = np.stack([ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]], -1).reshape(-1, 4)
-    block = CellBlock.make(table, "QUA4", cells)
-    values = {name: np.full((len(block), 1), v) for name, v in data.items()}
-    field = CellField((CellFieldBlock(block, values, "STRESSES", "QUA4"),))
-    return Zone(
-        block, "MECANIQUE", ("ELASTIQUE", "ISOTROPE", *law), "QUA4", Mode.PLANE_STRAIN
-    ), field
-
-
-def tower_on_clay(law: str = "J2", steps: int = STEPS):
-    """Problem, plastic bodies: an elastic tower of 4 x 10 rocks on a box of 32 x 16 that yields."""
-    table = NodeTable()
-    soil, tower = grid(table, 0, -16, 32, 16), grid(table, 14, 0, 4, 10)
-    clay, clay_field = zone(table, soil, ("PLASTIQUE", law), CLAY | LAWS[law])
-    stiff, stiff_field = zone(table, tower, (), {"YOUN": 1e9, "NU": 0.2, "RHO": 1000.0})
-    pairs = np.column_stack([soil[14:19, -1], tower[:, 0]])
-    block, one = CellBlock.make(table, "SEG2", pairs), np.ones((5, 1))
-    names = {"KN": 1e8 * one, "KS": 5e7 * one, "V1X": 0 * one, "V1Y": one}
-    joints = Zone(
-        block, "MECANIQUE", ("ELASTIQUE", "JOINT_SDM", "CISAILLEMENT_ELASTIQUE"), "JOI1",
-        Mode.PLANE_STRAIN,
-    )  # fmt: skip
-    base = soil[:, 0]
-    held = [relation_rows(table, [Term(1.0, u, base)], 0) for u in ("UX", "UY")]
-    K = Matrix(
-        table, (without_stiffness(clay), elements.stiffness(stiff, stiff_field)), tuple(held)
-    )
-    lumped = (elements.mass(clay, clay_field, True), elements.mass(stiff, stiff_field, True))
-    M = Matrix(table, lumped, kind="MASSE")
-    numbering = numbering_of(K, M)
-    mass = assemble(M, numbering).diagonal()
-    shake, weight = np.zeros(numbering.size), np.zeros(numbering.size)
-    along_x, along_y = numbering.where("UX"), numbering.where("UY")
-    shake[along_x] = -mass[along_x]
-    heavy = along_y[np.isin(numbering.nodes[along_y], tower)]
-    weight[heavy] = -9.81 * mass[heavy]
-    shake[along_x[np.isin(numbering.nodes[along_x], tower)]] *= 3.0  # it is pushed over, too
-    times = DT * np.arange(steps + 1)
-    sine = Curve((CurvePart(times, 6.0 * np.sin(2 * np.pi * 2.5 * times)),))
-    load = Load(
-        (
-            LoadPart("MECA", vector_to_field(weight, numbering, dual=True)),
-            LoadPart("MECA", vector_to_field(shake, numbering, dual=True), sine),
-        )
-    )
-    field = CellField((CellFieldBlock(block, names, "STRESSES", "JOI1"),))
-    inputs = Inputs(K, times, M, None, load, model=Model((joints,)), characteristics=field)
-    problem = make_problem(inputs)
-    return problem, bulk_of((clay,), clay_field, numbering)
+STEPS = 56
 
 
 def stepped(law: str = "J2", keeper=None, steps: int = STEPS, full: bool = False):
@@ -121,6 +49,30 @@ def test_a_kept_factor_leads_to_newtons_answer(newton) -> None:
     assert np.abs(strain - newton[2]).max() <= 1e-8 * newton[2].max()
     imbalance = np.abs(history.energies - newton[0].energies).max()
     assert imbalance <= 1e-8 * np.abs(newton[0].energies).max()
+
+
+def test_cells_that_yield_beyond_the_part_are_found(
+    newton, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Parts that begin with nothing but what yields are made wider within steps."""
+    widened, sizes = [], []
+    made, widen = accelerated.AcceleratedSolver._accepted, accelerated.AcceleratedSolver._widened
+    monkeypatch.setattr(
+        accelerated.AcceleratedSolver, "_widened",
+        lambda self, step: widened.append(found := widen(self, step)) or found,
+    )  # fmt: skip
+    monkeypatch.setattr(
+        accelerated.AcceleratedSolver, "_accepted",
+        lambda self, step, *more: sizes.append(len(step.part.places)) or made(self, step, *more),
+    )  # fmt: skip
+    monkeypatch.setattr(accelerated, "NEAR", -1e-9)
+    monkeypatch.setattr(part, "NEAR", -1e-9)
+    monkeypatch.setattr(part, "MISSED", -1e-9)
+    _, u, _, _ = stepped(steps=30)
+    assert sum(widened) > 3
+    assert sizes[0] == 0
+    assert 0 < np.median([n for n in sizes if n]) < 0.7 * u.shape[1]
+    assert np.abs(u - newton[1][:31]).max() <= 1e-8 * np.abs(newton[1]).max()
 
 
 def test_renewed_factors_lead_there_too(newton, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -159,6 +111,30 @@ def test_runs_repeat_to_the_last_bit_and_go_on_to_it(tmp_path: Path) -> None:
 def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not() -> None:
     assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop.startswith("kept factor")
     assert stepped("DRUCKER_PRAGER", steps=3)[0].loop.startswith("full Newton")
+
+
+def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
+    """A grid of 30 x 30 nodes, one unknown each; cells in a corner and one in the middle."""
+    n = 30
+    line = sp.diags_array([-1.0, 2.1, -1.0], offsets=[-1, 0, 1], shape=(n, n))
+    A = sp.csr_array(sp.kron(line, sp.eye_array(n)) + sp.kron(sp.eye_array(n), line))
+    x, y = np.divmod(np.arange(n * n), n)
+    factor = DissectedFactor(A, np.column_stack([x, y]).astype(float))
+    panels, order = factor.panels, factor.tree.order
+    cells = np.array([[0, 1, n, n + 1], [1, 2, n + 1, n + 2], [465, 466, 495, 496]], np.int32)
+    bulk = SimpleNamespace(size=n * n, places=(cells,), passes=(None,))
+    T = sp.csr_array(sp.eye_array(n * n).tocsr()[:, order])
+    made = part.part_of(bulk, (np.array([0, 2]),), T, panels)  # type: ignore[arg-type]
+    nodes = np.unique(cells[[0, 2]])
+    assert np.array_equal(made.unknowns, nodes)
+    load, x = np.zeros(n * n), np.zeros(n * n)
+    load[nodes] = np.arange(1.0, 9.0)
+    x[made.places] = made.T.T @ load[nodes]
+    forward_runs(panels, made.runs, x, factor.room)
+    backward_runs(panels, made.runs, x, factor.room)
+    whole = np.linalg.solve(A.toarray(), load)
+    assert np.allclose(made.T @ x[made.places], whole[nodes], rtol=1e-12)
+    assert 0 < np.diff(made.runs).sum() < 0.3 * (len(panels.first) - 1)
 
 
 def test_acceleration_solves_a_linear_problem_in_as_many_turns_as_it_has_unknowns() -> None:

@@ -1,0 +1,1 @@
+"""Few plastic points: steps whose matrices are dense."""

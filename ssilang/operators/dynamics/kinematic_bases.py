@@ -1,0 +1,128 @@
+"""ZBAS: a rigid base under waves that pass and differ, behind the procedure @PASSAGE."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.waves.incoherence import Ground, RigidBase, Shape
+
+_SHAPES: dict[str, Shape] = {"DISQUE": "disc", "RECTANGLE": "rectangle", "BANDE": "strip"}
+_SIZES = {
+    "DISQUE": ("RAYON", "RAYON"),
+    "RECTANGLE": ("DEMI_LONGUEUR", "DEMI_LARGEUR"),
+    "BANDE": ("DEMI_LARGEUR",),
+}
+_MEASURED = 0.5
+"""Largest incoherence that dense arrays have shown."""
+_SLOWEST = 0.86
+"""Speed of Rayleigh's waves over that of shear waves, for a Poisson's ratio of zero."""
+
+
+@operator(
+    "ZBAS",
+    arg("table", "TABLE", en="table of @PASSAGE", fr="table de @PASSAGE"),
+    family="dynamics",
+    help=Help(
+        en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it "
+        "takes.",
+        fr="Ce qu'une base rigide fait d'ondes qui passent et diffèrent, pour @PASSAGE, dont il "
+        "prend la table.",
+        syntax="TAB2 = ZBAS TAB1 ;",
+        examples=(
+            "T = TABL ; T . 'FORME' = 'BANDE' ; T . 'DEMI_LARGEUR' = 10. ; T . 'YOUNG' = 2.E8 ;"
+            " T . 'POISSON' = 0.3 ; T . 'MASSE_VOLUMIQUE' = 2000. ; T . 'INCOHERENCE' = 0.2 ;"
+            " T . 'FREQUENCES' = PROG 1. 5. ; R = ZBAS T ;"
+            " LIST (EXTR (R . 'TRANSLATION') 'ORDO') ;",
+        ),
+    ),
+)
+def zbas(call: Call, table: Table) -> Table:
+    """Read the table, compute, hand back curves over the frequency and the base's record."""
+    from ssilang.kernel.waves.incoherence import factors
+
+    entries = Entries(call, table, "@PASSAGE")
+    base, ground = _base(entries), _ground(entries)
+    frequencies, record = entries.get("FREQUENCES"), entries.get("ACCELERATION")
+    if frequencies is None and record is None:
+        raise entries.error("operators.dynamics.base-without-question")
+    result = Table()
+    if frequencies is not None:
+        over = np.asarray(frequencies.values, float)
+        if np.any(over < 0.0):
+            raise entries.error("operators.dynamics.negative-frequency", frequency=over.min())
+        found = factors(base, ground, over)
+        curves = {"TRANSLATION": found.translation, "ROTATION": found.rotation}
+        if base.shape != "strip":
+            curves["TORSION"] = found.torsion
+        for name, values in curves.items():
+            result.set(name, _curve("FREQ", over, name[:4], values))
+    if record is not None:
+        _filter(entries, base, ground, cast(Curve, record).parts[0], result)
+    return result
+
+
+def _base(entries: Entries) -> RigidBase:
+    from ssilang.kernel.waves.incoherence import RigidBase
+
+    shape = entries.needed("FORME")
+    sizes = []
+    for name in _SIZES[shape]:
+        size = entries.get(name)
+        if size is None or size <= 0.0:
+            raise entries.error("operators.dynamics.size-of-base", shape=shape, name=name)
+        sizes.append(float(size))
+    return RigidBase(_SHAPES[shape], *sizes)
+
+
+def _ground(entries: Entries) -> Ground:
+    from ssilang.kernel.waves.incoherence import Ground
+
+    young, poisson, density = (
+        float(entries.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
+    )
+    if young <= 0 or density <= 0 or not -1 < poisson < 0.5:
+        raise entries.error("operators.dynamics.ground-not-elastic")
+    shear = float(np.sqrt(young / (2 * (1 + poisson)) / density))
+    gamma, apparent = float(entries.get("INCOHERENCE")), entries.get("VITESSE_APPARENTE")
+    if gamma < 0.0 or (apparent is not None and apparent <= 0.0):
+        raise entries.error("operators.dynamics.incoherence-sign", gamma=gamma, speed=apparent or 0)
+    if gamma > _MEASURED:
+        entries.warn("operators.dynamics.incoherence-large", gamma=gamma, most=_MEASURED)
+    if apparent is not None and apparent < _SLOWEST * shear:
+        entries.warn("operators.dynamics.passage-slow", speed=float(apparent), shear=shear)
+    if gamma == 0.0 and apparent is None:
+        entries.warn("operators.dynamics.motion-everywhere-the-same")
+    return Ground(shear, gamma, None if apparent is None else float(apparent))
+
+
+def _filter(
+    entries: Entries, base: RigidBase, ground: Ground, record: CurvePart, result: Table
+) -> None:
+    """The record of the base, and of its turning: rocking, or torsion of motion across the way."""
+    from ssilang.kernel.waves.incoherence import averaged, factors, frequencies_of
+
+    steps = np.diff(record.abscissas)
+    if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
+        raise entries.error("operators.dynamics.equal-steps-wanted")
+    times, step = record.abscissas, float(steps.mean())
+    share = 1.0 if entries.get("COMPOSANTE") == "VERT" else base.torsion_share
+    found = factors(base, ground, frequencies_of(record.ordinates, step))
+    moved = averaged(record.ordinates, found.translation)
+    result.set("ACCELERATION", _curve("TEMP", times, "ACCE", moved))
+    # a quarter of a period behind, as the slope of a wave that passes
+    turned = averaged(record.ordinates, np.asarray(-1j * share * found.rotation))
+    result.set("ACCELERATION_ANGULAIRE", _curve("TEMP", times, "ACCE", turned))
+
+
+def _curve(along: str, x: FloatArray, name: str, y: FloatArray) -> Curve:
+    return Curve((CurvePart(x, y, along, name),), "")

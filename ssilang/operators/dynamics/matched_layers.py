@@ -1,0 +1,48 @@
+"""ZPML: matrices of a perfectly matched layer, behind the procedure @PML."""
+
+from __future__ import annotations
+
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.language.values import Table
+from ssilang.operators.tables.entries import Entries
+
+FEWEST = 4
+"""Cells through the layer below which it reflects about as much as dampers."""
+
+
+@operator(
+    "ZPML",
+    arg("table", "TABLE", en="table of @PML", fr="table de @PML"),
+    family="dynamics",
+    help=Help(
+        en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
+        fr="Matrices d'une couche parfaitement adaptée, pour @PML, dont il prend la table.",
+        syntax="TAB2 = ZPML TAB1 ;",
+        examples=(
+            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 2 (DROI 6 (0. 0.) (6. 0.)) (0. -2.) ;"
+            " I = S ELEM 'APPUYE' 'STRICTEMENT' ((COOR 1 S) POIN 'INFERIEUR' 2.01) ;"
+            " T = TABL ; T . 'INTERIEUR' = I ; T . 'MODELE' = MODE (S DIFF I) MECANIQUE ELASTIQUE ;"
+            " T . 'CARACTERISTIQUES' = MATE (T . 'MODELE') 'YOUN' 2.E8 'NU' 0.3 'RHO' 2000. ;"
+            " P = ZPML T ; LIST (EXTR (P . 'AMOR') 'COMP') ;",
+        ),
+    ),
+)
+def zpml(call: Call, table: Table) -> Table:
+    """Read the table, hand back three matrices."""
+    from ssilang.kernel.waves.matched_layer import matched_layer
+
+    entries = Entries(call, table, "@PML")
+    wanted = entries.get("REFLEXION")
+    if wanted is not None and not 0 < wanted < 1:
+        raise entries.error("operators.dynamics.reflection-of-layer", reflection=wanted)
+    made = matched_layer(
+        entries.needed("MODELE"), entries.needed("CARACTERISTIQUES"),
+        entries.needed("INTERIEUR"), wanted,
+    )  # fmt: skip
+    if made.cells < FEWEST - 1e-6:
+        entries.warn("operators.dynamics.thin-layer", cells=made.cells, fewest=FEWEST)
+    result = Table()
+    for name, matrix in (("RIGI", made.stiffness), ("MASS", made.mass), ("AMOR", made.damping)):
+        result.set(name, matrix)
+    return result

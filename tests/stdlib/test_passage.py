@@ -1,0 +1,70 @@
+"""@PASSAGE: the base's record and factors from a script, and what is told."""
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+from ssilang.language.say.diagnostics import sentence
+
+BASE = (
+    "T = TABL ; T . 'FORME' = 'DISQUE' ; T . 'RAYON' = 20. ; T . 'YOUNG' = 2.E8 ; "
+    "T . 'POISSON' = 0.25 ; T . 'MASSE_VOLUMIQUE' = 2000. ; "
+)
+RECORD = "LT = PROG 0. PAS 0.005 10. ; G = EVOL 'MANU' LT (SIN (720. * LT)) ; "
+
+
+def told(result):
+    return [sentence(w, "en")[0] for w in result.session.warnings]
+
+
+def test_a_record_turns_the_base_by_the_slope_of_the_wave():
+    """2 Hz at 4000 m/s: the raft is small, theta'' = -(dv''/dt)/c for VERT, half of it for HORI."""
+    script = BASE + RECORD + (
+        "T . 'VITESSE_APPARENTE' = 4000. ; T . 'ACCELERATION' = G ; R = @PASSAGE T ; "
+        "A = EXTR (R . 'ACCELERATION_ANGULAIRE') 'ORDO' ; T . 'COMPOSANTE' = 'HORI' ; "
+        "S = @PASSAGE T ; B = EXTR (S . 'ACCELERATION_ANGULAIRE') 'ORDO' ;"
+    )  # fmt: skip
+    result = run_text(script)
+    assert result.exit_code == 0, result.message
+    a, b = (result.session.root.find(n).values for n in "AB")
+    t = 0.005 * np.arange(len(a))
+    w, middle = 4 * np.pi, slice(800, 1200)
+    slope = -(w / 4000.0) * np.cos(w * t)
+    np.testing.assert_allclose(a[middle], slope[middle], atol=2e-3 * w / 4000.0)
+    np.testing.assert_allclose(b, a / 2, atol=1e-15)
+    assert not told(result)
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("T . 'FREQUENCES' = PROG 1. ;", "the motion is the same everywhere"),
+        ("T . 'FREQUENCES' = PROG 1. ; T . 'INCOHERENCE' = 0.7 ;", "beyond what arrays have shown"),
+        ("T . 'FREQUENCES' = PROG 1. ; T . 'VITESSE_APPARENTE' = 150. ;", "slower than Rayleigh's"),
+    ],
+)
+def test_what_is_doubtful_is_told(more, words):
+    result = run_text(BASE + more + "R = @PASSAGE T ;")
+    assert result.exit_code == 0, result.message
+    assert [words in text for text in told(result)] == [True]
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("T . 'INCOHERENCE' = 0.2 ;", "FREQUENCES for factors is missing, or ACCELERATION"),
+        ("T . 'FORME' = 'BANDE' ; T . 'FREQUENCES' = PROG 1. ;", "BANDE needs DEMI_LARGEUR"),
+        ("T . 'FREQUENCES' = PROG 1. -2. ; T . 'INCOHERENCE' = 0.2 ;", "-2 Hz is negative"),
+        ("T . 'FREQUENCES' = PROG 1. ; T . 'VITESSE_APPARENTE' = 0. ;", "a speed is not zero"),
+        ("T . 'POISSON' = 0.5 ; T . 'FREQUENCES' = PROG 1. ;", "POISSON between -1 and 0.5"),
+        (
+            "T . 'ACCELERATION' = EVOL 'MANU' (PROG 0. 1. 3.) (PROG 0. 1. 0.) ; "
+            "T . 'INCOHERENCE' = 0.2 ;",
+            "equal steps",
+        ),
+    ],
+)
+def test_refusals(more, words):
+    result = run_text(BASE + more + "R = @PASSAGE T ;")
+    assert result.exit_code == 1
+    assert words in " ".join(result.message.split())
