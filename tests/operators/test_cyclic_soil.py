@@ -106,3 +106,83 @@ def test_strains_in_percent_are_suspected(given):
     for script, wanted in ((given, ["operators.models.strains-in-percent"]), (GIVEN, [])):
         result = run_text(SQUARE + material(script))
         assert [w.code for w in result.session.warnings] == wanted
+
+
+def test_a_missing_curve_is_told_with_what_may_stand_in_its_place(refused):
+    said = refused(
+        SQUARE + material("") + "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
+        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' LOW ; T . 'CHARGEMENT' = CHAR 'MECA' "
+        "(FORC (1. 0.) (POIN TOP 1)) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
+    )
+    assert "parameter GGAM (or GAMR in its place) is missing" in said
+
+
+@pytest.mark.parametrize(
+    ("law", "given", "told"),
+    [
+        ("CAM_CLAY", "'E0' 1. 'M' 1. 'P0' 1. 'KAPA' 0.3 'LAMD' 0.2 'G1' 8.", "KAPA < LAMD"),
+        ("J2", "'SIG0' 2. 'SIGI' 1. 'KISO' 0. 'VELO' 1.", "J2"),
+    ],
+)
+def test_parameters_that_do_not_fit_each_other_are_refused_where_they_are_given(
+    refused, law, given, told
+):
+    assert told in refused(
+        SQUARE + MODEL.replace("IWAN", law) + f"MA = MATE M 'YOUN' 9. 'NU' 0. {given} ; "
+    )
+
+
+def test_parameters_in_two_fields_wait_for_each_other(found):
+    """KAPA < LAMD cannot be known of one alone."""
+    script = MODEL.replace("IWAN", "CAM_CLAY") + (
+        "MA = (MATE M 'YOUN' 9. 'NU' 0. 'KAPA' 0.3) ET (MATE M 'LAMD' 0.4 'M' 1.) ; "
+        "N = MAXI (EXCO 'KAPA' MA) ; "
+    )
+    assert found(SQUARE + script, "N") == pytest.approx(0.3)
+
+
+TRIAXIAL = (
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
+    "T . 'BLOCAGES_MECANIQUES' = HELD ET MOVED ; "
+    "T . 'CHARGEMENT' = (CHAR 'DIMP' (DEPI MOVED 1.) (EVOL 'MANU' (PROG 0. 1. 2. 3. 4.) "
+    "(PROG 0. -2.E-3 1.E-3 -5.E-4 -4.E-3))) ET (CHAR 'MECA' SIDE (EVOL 'MANU' (PROG 0. 1. 4.) "
+    "(PROG 0. 1. 1.))) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.5 4. ; PASAPAS T ; "
+)
+ROUND = (
+    "OPTI DIME 2 ELEM QUA4 MODE AXIS ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+    "LOW = S POIN 'DROI' (0. 0.) (1. 0.) 1.E-6 ; TOP = S POIN 'DROI' (0. 1.) (1. 1.) 1.E-6 ; "
+    "HELD = (BLOQ 'UZ' LOW) ET (BLOQ 'UR' (S POIN 'DROI' (0. 0.) (0. 1.) 1.E-6)) ; "
+    "MOVED = BLOQ 'UZ' TOP ; "
+)
+QUARTER = (
+    "HELD = (BLOQ 'UY' LOW) ET (BLOQ 'UX' (S POIN 'PLAN' (0. 0. 0.) (0. 1. 0.) (0. 0. 1.) 1.E-6)) "
+    "ET (BLOQ 'UZ' (S POIN 'PLAN' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) 1.E-6)) ; MOVED = BLOQ 'UY' TOP ; "
+)
+
+
+def test_a_round_sample_pressed_and_stretched_has_the_stresses_of_a_cube(found):
+    """Triaxial cycles under a pressure on the side, about the axis and in space: to rounding."""
+    along = " ".join(
+        f"X{i} = MAXI (EXCO '{{0}}' (T . 'CONTRAINTES' . {i})) ; "
+        f"Y{i} = MAXI (EXCO '{{1}}' (T . 'CONTRAINTES' . {i})) ; " for i in range(1, 9)
+    )  # fmt: skip
+    names = [f"{n}{i}" for i in range(1, 9) for n in "XY"]
+    side = "SIDE = PRES 'MASS' M 4.E4 (S POIN 'DROI' (1. 0.) (1. 1.) 1.E-6) ; "
+    # of a mesh of faces: those at x = 1 and at z = 1
+    sides = "SIDE = PRES 'MASS' M 4.E4 (({}) ET ({})) ; ".format(
+        *(
+            f"(ENVE S) ELEM 'APPU' 'STRI' (S POIN 'PLAN' {p} 1.E-6)"
+            for p in ("(1. 0. 0.) (1. 1. 0.) (1. 0. 1.)", "(0. 0. 1.) (1. 0. 1.) (0. 1. 1.)")
+        )
+    )
+    side = side.replace("(S POIN", "((CONT S) ELEM 'APPU' 'STRI' (S POIN").replace(
+        "1.E-6) ;", "1.E-6)) ;"
+    )
+    round_ = found(ROUND + material() + side + TRIAXIAL + along.format("SMZZ", "SMRR"), *names)
+    cube = found(
+        CUBE + QUARTER + material() + sides + TRIAXIAL + along.format("SMYY", "SMXX"), *names
+    )
+    assert np.ptp(round_[::2]) > 1e5
+    assert round_[3::2] == pytest.approx([-4e4] * 7, rel=1e-7)
+    assert round_ == pytest.approx(cube, rel=1e-9, abs=1e-3)

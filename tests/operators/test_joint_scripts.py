@@ -463,3 +463,15 @@ def test_a_sheared_dilatant_joint_lifts_what_stands_on_it(found):
 def test_strains_are_kept_of_small_displacements_only(refused):
     said = refused(SHEARED + "T . 'GRANDS_DEPLACEMENTS' = VRAI ; PASAPAS T ;")
     assert "linear strains" in said
+
+
+@pytest.mark.parametrize("length", ["", "'LONG' 9."])
+def test_a_footing_in_the_plane_turns_over_its_width_however_far_it_goes_on_behind(found, length):
+    """KN LARG^2 / 12, KN being that of the whole footing (Winkler's bed, integrated)."""
+    script = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; Q = 0. 1.E-3 ; L = MANU 'SEG2' P Q ; "
+        "M = MODE L MECANIQUE ELASTIQUE MACRO_SEMELLE JOI1 ; "
+        f"A = MATE M 'KN' 12. 'KS' 1. 'LARG' 4. {length} 'V1X' 0. 'V1Y' 1. ; "
+        "X = MAXI (EXCO 'MZ' ((RIGI M A) * (MANU 'CHPO' Q 1 'RZ' 1.))) ; "
+    )
+    assert found(script, "X") == pytest.approx(16.0)

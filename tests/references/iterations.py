@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.interface.factors import new_factors
+from ssilang.kernel.interface.factors.kept import new_factors
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
     InterfaceState,
@@ -20,7 +20,8 @@ KINDS = {"inverse": {}, "LU": {"few": 0}, "changed LU": {"few": 0, "large": 1}}
 def room(joints, q, kind):
     """Arrays for an iteration with one kind of factors."""
     shape = (len(joints.weights), joints.B.shape[1])
-    return Workspace(new_trial(shape, q), new_factors(shape, q, **KINDS[kind]))
+    factors = new_factors(shape, q, **KINDS[kind])
+    return Workspace(new_trial(shape, q), factors, np.full(shape, np.nan))
 
 
 def at_rest(joints, q, state):

@@ -176,12 +176,17 @@ class ZoneField:
         return np.stack(columns, axis=1)
 
 
+INSTEAD = {"ECRO": "TRAC", "GGAM": "GAMR"}
+"""Parameters that may be made from another one, and that one."""
+
+
 def missing_parameter(zone: Zone, name: str, given: tuple[str, ...]) -> MaterialError:
     """The error for a parameter that a zone needs and does not have."""
     law = " ".join(zone.behaviour)
     return MaterialError(
         "kernel.elements.parameter-missing-element",
         name=name,
+        instead=INSTEAD.get(name, ""),
         element=zone.element,
         law=law,
         given=given,

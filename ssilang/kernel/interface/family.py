@@ -131,7 +131,7 @@ class JointFamily(ElementFamily):
             full[..., i, i] = _first_given(joints, parameters, names)
         law = law_of(zone.behaviour)
         if law.rocking is not None:
-            rocking = law.rocking(joint_parameters(joints, parameters))
+            rocking = law.turning(joint_parameters(joints, parameters), zone.mode.dimension)
             for i, values in enumerate(rocking[: len(springs)]):
                 place = len(order) + i + (len(springs) == 3)
                 full[..., place, place] = values[:, None]

@@ -172,7 +172,9 @@ def interface_of(
         if law.rocking is not None:
             _refuse_unfit_macro(zone, law, table)
             given_tables[-1] = table.copy()
-            table[:, Parameter.KS1], table[:, Parameter.KS2] = law.rocking(table)
+            table[:, Parameter.KS1], table[:, Parameter.KS2] = law.turning(
+                table, zone.mode.dimension
+            )
         joints.append(cells)
         tables.append(table)
         codes.append(np.full(cells.weights.size, law.code, dtype=np.int64))

@@ -7,14 +7,18 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.changed import Changes
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import largest
-from ssilang.kernel.interface.factors import Factors, new_factors, solve_tangent
-from ssilang.kernel.interface.inverse import Inverse
+from ssilang.kernel.interface.factors.changed import Changes
+from ssilang.kernel.interface.factors.inverse import Inverse
+from ssilang.kernel.interface.factors.kept import Factors, new_factors, solve_tangent
+from ssilang.kernel.interface.factors.krylov import Krylov
+from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
     OPEN_SHEAR,
@@ -22,7 +26,7 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
     Variable,
 )
-from ssilang.kernel.interface.lu import LU
+from ssilang.kernel.interface.projected import find_start, is_stiff, set_shares
 from ssilang.kernel.interface.response import (
     InterfaceState,
     Joints,
@@ -37,6 +41,7 @@ HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
 HALVINGS = 12  # of a step in the line search
 ACCEPTED = 1e-9  # residual at which an iteration that only rounding errors move is accepted
+FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
 MOVED = 1e-14  # least step of Newton, relative to the jumps
 
 
@@ -45,11 +50,12 @@ class Workspace(NamedTuple):
 
     trial: Trial
     factors: Factors
+    shares: FloatArray  # (n_points, d), see `projected`; NaN: not looked at yet
 
 
 def workspace(shape: tuple[int, ...], q: int) -> Workspace:
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
-    return Workspace(new_trial(shape, q), new_factors(shape, q))
+    return Workspace(new_trial(shape, q), new_factors(shape, q), np.full(shape, np.nan))
 
 
 @compiled
@@ -66,7 +72,9 @@ def workspace_at(works: Workspace, j: int) -> Workspace:
             LU(x.lu.A[j], x.lu.exchanges[j]),
             Inverse(x.inverse.Y[j], x.inverse.room[j], x.inverse.updates[j]),
             Changes(x.changes.Z[j], x.changes.row[j], x.changes.held[j]),
+            Krylov(x.krylov.V[j], x.krylov.asked[j], x.krylov.spent[j]),
         ),
+        works.shares[j],
     )  # fmt: skip
 
 
@@ -135,7 +143,11 @@ def solve_interface(
     residual : float
         Of the last turn, relative to the jumps.
     """
-    trial, y, dy = work.trial, work.trial.y, work.trial.dy
+    trial, y, dy, shares = work.trial, work.trial.y, work.trial.dy, work.shares
+    if len(shares) and np.isnan(shares[0, 0]):
+        set_shares(joints, condensed, shares)
+    if is_stiff(shares):
+        find_start(joints, condensed, now, trial, work.factors, shares)
     size = _evaluate(joints, condensed, now, trial)
     scale = max(largest(trial.y0), largest(now.delta), 1e-300)
     turns = -MOST_TURNS
@@ -149,7 +161,8 @@ def solve_interface(
         # Newton's direction
         for i in range(len(y)):
             dy[i] = -trial.r[i]
-        if not solve_tangent(joints, condensed, work.factors, trial.D, dy):
+        enough = max(FORCING, 0.1 * TOLERANCE * scale / size)
+        if not solve_tangent(joints, condensed, work.factors, trial.D, dy, enough):
             turns = 0
             break
         # step along it, halved after the first turns until the residual falls

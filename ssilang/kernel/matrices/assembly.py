@@ -266,8 +266,6 @@ def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:
 
 NEGATIVE = 1e-12
 """Share of the largest mass up to which a negative one is rounding."""
-HISTORIES = ("HXX", "HYY", "HXY")
-"""Histories of stress in a matched layer (`kernel/waves`): their inertia is negative."""
 
 
 def negative_mass(

@@ -73,8 +73,7 @@ def bend(
             found = law(groups[0].parameters, s, strain, q)
             return found.stress, found.variables, found.tangent[:, 0, 0]
 
-        step = _balanced(answer, section, float(force), tolerance, i)
-        stress, variables, _ = answer(step)
+        step, stress, variables = _balanced(answer, section, float(force), tolerance, i)
         eps, bent = eps + step, wanted
         along = section.areas * stress[:, 0]
         moments[i], strains[i] = (along @ z, -along @ y), eps
@@ -88,25 +87,31 @@ def _balanced(
     force: float,
     tolerance: float,
     row: int,
-) -> float:
-    """Step of the strain of the line that gives the normal force, by Newton inside a bracket."""
+) -> tuple[float, FloatArray, FloatArray]:
+    """Step of the strain of the line that gives the normal force, by Newton inside a bracket.
+
+    Returns
+    -------
+    step, stress, variables
+        Stresses and variables are those of the step.
+    """
     areas = section.areas
     elastic = float(areas @ section.moduli[:, 0])
     if elastic <= 0:
         raise KernelError("kernel.plasticity.fibres-no-area-no")
     low, high, step = -np.inf, np.inf, 0.0
     for _ in range(TURNS):
-        stress, _, slope = answer(step)
+        stress, variables, slope = answer(step)
         rest = float(areas @ stress[:, 0]) - force
         size = float(areas @ np.abs(stress[:, 0])) + abs(force)
         if abs(rest) <= max(tolerance, 1e-14) * size:
-            return step
+            return step, stress, variables
         low, high = (low, step) if rest > 0 else (step, high)
         tangent = float(areas @ slope)
         newton = step - rest / (tangent if tangent > 1e-9 * elastic else elastic)
         step = newton if low < newton < high else 0.5 * (low + high)
         if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
-            return step
+            return (step, *answer(step)[:2])
     raise ConvergenceError(
         "kernel.plasticity.section-not-find-normal",
         force=force,

@@ -24,7 +24,12 @@ from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
-from ssilang.kernel.materials.plastic.laws import PlasticLaw, check_parameters, plastic_law
+from ssilang.kernel.materials.plastic.laws import (
+    PlasticLaw,
+    check_parameters,
+    different_curves,
+    plastic_law,
+)
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 _PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
@@ -241,15 +246,8 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
     return found
 
 
-def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list, IntArray]:  # type: ignore[type-arg]
+def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list[Curve], IntArray]:
     """The different curves of a parameter, and which each point has."""
     if name not in given:
         raise missing_parameter(given.zone, name, given.names)
-    values = np.broadcast_to(given.raw(name)[0], shape).ravel()
-    different = list({id(v): v for v in values}.values())
-    wrong = next((v for v in different if not isinstance(v, Curve)), None)
-    if wrong is not None:
-        raise MaterialError("kernel.plasticity.parameter-curve", name=name)
-    place = {id(v): i for i, v in enumerate(different)}
-    which: IntArray = np.array([place[id(v)] for v in values], dtype=np.int64)
-    return different, which
+    return different_curves(name, np.broadcast_to(given.raw(name)[0], shape).ravel())

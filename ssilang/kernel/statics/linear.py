@@ -46,6 +46,7 @@ from ssilang.kernel.statics.linear_motion import (
     singular,
     tied,
 )
+from ssilang.kernel.waves.histories import refuse_layer_at_rest
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
 FEW = 8  # unilateral conditions, a solve for each: more of them want a factor
@@ -245,8 +246,9 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
     Raises
     ------
     KernelError
-        If the matrix is empty or holds values that are not finite.
+        If the matrix is empty, holds values that are not finite, or a matched layer alone.
     """
+    refuse_layer_at_rest(matrix)
     key = f"linear:{options}"
     numbering = numbering_of(matrix)
     kept = matrix.cache.get(key)

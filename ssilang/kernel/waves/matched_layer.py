@@ -3,8 +3,9 @@
 Coordinates beyond the box are stretched, `s_j = alpha_j + beta_j / (i omega)` along each axis, so
 that waves fade on their way and none is reflected at the box before the mesh is made (Berenger
 1994, Chew and Weedon 1994). In time, with the history of stress `S = int sigma dt` beside the
-displacement (Kucukcoban and Kallivokas 2013, eqs. 15 to 22: symmetric, of second order, nothing
-split),
+displacement (Kucukcoban and Kallivokas, A symmetric hybrid formulation for transient wave
+simulations in PML-truncated heterogeneous media, Wave Motion 50, 2013: of second order in time,
+nothing split),
 
     rho (a u'' + b u' + c u) = div (S' L_e + S L_p)
     D : (a S'' + b S' + c S) = sym (grad u' L_e + grad u L_p)
@@ -34,11 +35,11 @@ from ssilang.kernel.elements.solids.solid_moduli import solid_moduli, symmetry_o
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.assembly import HISTORIES
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.waves.histories import HISTORIES
 from ssilang.kernel.waves.resolution import longest_sides, pressure_speed
 
 ORDER = 2

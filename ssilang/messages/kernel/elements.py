@@ -340,8 +340,10 @@ MESSAGES: dict[str, Message] = {
         "le champ n'a pas de composante {name} : il a {components:?{components}|rien}",
     ),
     "parameter-missing-element": Message(
-        "parameter {name} is missing for element {element} ({law})",
-        "le paramètre {name} manque pour l'élément {element} ({law})",
+        "parameter {name}{instead:? (or {instead} in its place)|} is missing for element {element} "
+        "({law})",
+        "le paramètre {name}{instead:? (ou {instead} à sa place)|} manque pour l'élément {element} "
+        "({law})",
         "{given:?given: {given}|the field of properties holds nothing on these cells}",
         "{given:?sont donnés : {given}|le champ de propriétés ne contient rien sur ces éléments}",
     ),

@@ -84,6 +84,20 @@ MESSAGES: dict[str, Message] = {
         "a matched layer is linear and isotropic, not {behaviour}",
         "une couche adaptée est linéaire et isotrope, pas {behaviour}",
     ),
+    "part-of-matched-layer": Message(
+        "a matched layer is there without its {missing:words}",
+        "une couche adaptée est là sans {missing:words}",
+        "its RIGI, MASS and AMOR go together into a calculation in time",
+        "ses RIGI, MASS et AMOR vont ensemble dans un calcul en temps",
+    ),
+    "matched-layer-at-rest": Message(
+        "a matched layer has no static stiffness: it knows waves alone",
+        "une couche adaptée n'a pas de rigidité statique : elle ne connaît que des ondes",
+        "solve with the RIGI of its elements, then start DYNAMIC with the constant load "
+        "RIGI * DEPL",
+        "résoudre avec la RIGI de ses éléments, puis démarrer DYNAMIC avec le chargement constant "
+        "RIGI * DEPL",
+    ),
     "nothing-beyond-box": Message(
         "the layer does not reach beyond the box that the ground inside fills",
         "la couche ne dépasse pas la boîte que remplit le sol à l'intérieur",

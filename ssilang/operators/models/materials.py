@@ -8,15 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.laws.parameter_table import check_given
+from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, known_names
+from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
@@ -172,7 +174,7 @@ def check_joints(model: Model, given: list[Values]) -> None:
     """Let the laws of joints look at parameters where they are given."""
     for zone, values in zip(model.zones, given, strict=True):
         if is_joint(zone):
-            check_given(zone, {name: value for name, (value, _) in values.items()})
+            check_joint(zone, {name: value for name, (value, _) in values.items()})
 
 
 @operator(
@@ -228,6 +230,8 @@ def _parameters(
     for zone, values in zip(model.zones, given, strict=True):
         _refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, values, said)
+        if check is not None:
+            _check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
@@ -249,6 +253,19 @@ def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]
                 text=found.range.text(name),
                 described=words.described(found, call.session.language),
             )
+
+
+def _check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+    """Let a plastic law look at its parameters; refusals stand at one that they name."""
+    law = None if is_joint(zone) else plastic_law(zone.behaviour)
+    if law is None or zone.formulation != "MECANIQUE":
+        return
+    try:
+        check_given(law, {name: value for name, (value, _) in values.items()})
+    except MaterialError as problem:
+        names = (problem.data.get("name"), *problem.data.get("names", ()))
+        at = next((said[n] for n in names if n in said), None)
+        raise call.error(problem.code, at, **problem.data) from problem
 
 
 def _warn_of_nothing(call: Call, values: Values, said: dict[str, Any]) -> None:

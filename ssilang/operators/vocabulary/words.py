@@ -17,6 +17,7 @@ from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.elements.families import FAMILIES, family_of
+from ssilang.kernel.elements.zone_fields import INSTEAD
 from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameters import DEFAULTS
@@ -40,8 +41,6 @@ from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
 
-INSTEAD = {"ECRO": "TRAC", "GGAM": "GAMR"}
-"""Parameters, and what MATE takes in their place."""
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
 _LINES = 12  # of meanings in a hint

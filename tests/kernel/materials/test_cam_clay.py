@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters
@@ -166,3 +167,30 @@ def test_clay_without_an_ellipse_is_refused(change, code):
     with pytest.raises(MaterialError) as caught:
         check_parameters(CLAY, points(**change))
     assert caught.value.code == f"kernel.materials.{code}"
+
+
+def test_oedometric_compression_follows_the_equations_of_the_law():
+    """One-dimensional compression of a virgin clay, against its equations integrated by scipy.
+
+    On the ellipse F = q^2 / M^2 + p (p - pc) = 0 the flow is (2 p - pc) of volume for 2 q / M^2 of
+    deviator; a rate of strain 1 along the axis and 0 across has a volume of 1 and a deviator of
+    2/3. The multiplier follows from dF = 0.
+    """
+    soft, hard = (1 + E0) / KAPPA, (1 + E0) / (LAMBDA - KAPPA)
+
+    def rates(_, y):
+        p, q, pc = y
+        volume, deviator = 2 * p - pc, 2 * q / M**2
+        bulk, decay = soft * p, hard * pc
+        elastic = volume * bulk + deviator * 3 * G * (2 / 3)
+        phi = elastic / (volume * bulk * volume + deviator * 3 * G * deviator + p * decay * volume)
+        return (
+            bulk * (1 - phi * volume), 3 * G * (2 / 3 - phi * deviator), decay * phi * volume,
+        )  # fmt: skip
+
+    end, n = 0.15, 1000
+    exact = solve_ivp(rates, (0, end), (P0, 0.0, P0), rtol=1e-10, atol=1e-6).y[:, -1]
+    found = strained([np.array([-end / n, 0, 0, 0, 0, 0])] * n, stress=isotropic(P0))[-1]
+    p, q = pressure(found), mises(found.stress)[0][0]
+    assert (p, q) == pytest.approx(tuple(exact[:2]), rel=1e-3)
+    assert q == pytest.approx(found.stress[0, 1] - found.stress[0, 0])

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
-from ssilang.kernel.matrices.assembly import HISTORIES, assemble, numbering_of
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
+from ssilang.kernel.waves.histories import HISTORIES
 from ssilang.kernel.waves.matched_layer import matched_layer
 
 _PATH = Path(__file__).resolve().parents[3] / "benchmarks" / "reflection.py"
@@ -189,6 +190,24 @@ def test_refusals(change, told):
     script = box() + LAYER
     assert change[0] in script
     result = run_text(script.replace(*change, 1))
+    assert result.exit_code == 1
+    assert told in result.message, result.message
+
+
+STEP = "E . 'TEMPS_CALCULES' = PROG 0. 0.1 ; R = DYNAMIC E ; "
+
+
+@pytest.mark.parametrize(
+    ("script", "told"),
+    [
+        ("E . 'AMOR' = 0. * MI ; " + STEP, "without its AMOR"),
+        ("E . 'MASS' = MI ; " + STEP, "without its MASS"),
+        ("E . 'RIGI' = KI ; E . 'AMOR' = 0. * MI ; " + STEP, "without its RIGI AMOR"),
+        ("U = RESO (E . 'RIGI') (FORC (0. 1.) (POIN I 1)) ; ", "no static stiffness"),
+    ],
+)
+def test_part_of_a_layer_is_refused(script, told):
+    result = run_text(box() + LAYER + script)
     assert result.exit_code == 1
     assert told in result.message, result.message
 

@@ -109,6 +109,14 @@ class KeptFiles(IndexDataCacheFile):
         self._save_data(name, data)
         self._save_index(self._load_index() | {key: name})
 
+    def _load_index(self) -> dict[Any, str]:
+        """What is kept by types; nothing if they name a class whose module is elsewhere by now."""
+        try:
+            found: dict[Any, str] = super()._load_index()
+        except (ImportError, AttributeError):
+            return {}
+        return found
+
 
 class KeptCode(FunctionCache):
     """Where the code of one function is kept."""

@@ -40,7 +40,8 @@ class Law:
         Internal variables that results show, with their columns of the state, whose sum they are.
     rocking : callable or None
         For a whole footing at a joint of two points, whose jumps are rotations and opening: its
-        stiffness in full contact about t1 and t2 (the same in 2D), each (n,), from the parameters.
+        stiffness in full contact about t1 and t2, each (n,), from the parameters; `turning` has
+        what counts in the plane.
     in_space : tuple of str or None
         Parameters that it needs in three dimensions beside; None if it is plane.
     two_points : bool
@@ -62,6 +63,15 @@ class Law:
     def macro(self) -> bool:
         """True for a whole footing."""
         return self.rocking is not None
+
+    def turning(self, p: FloatArray, dimension: int) -> tuple[FloatArray, FloatArray]:
+        """Stiffness (n,) of a whole footing about t1 and t2; in the plane about t2 alone, twice.
+
+        The plane has the side LARG, along t1; LONG is how far the footing goes on behind it.
+        """
+        assert self.rocking is not None
+        about_1, about_2 = self.rocking(p)
+        return (about_2 if dimension == 2 else about_1), about_2
 
 
 def _rocking_rectangle(p: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -226,5 +226,6 @@ def check(p: PointParameters) -> None:
         Naming what must hold.
     """
     if (p["COHE"] != 0).any():
-        raise MaterialError("kernel.materials.clay-cohesion", value=np.abs(p["COHE"]).max())
+        worst = np.abs(p["COHE"]).max()
+        raise MaterialError("kernel.materials.clay-cohesion", value=worst, names=("COHE",))
     require("CAM_CLAY", p, {"E0 >= 0": p["E0"] >= 0, "KAPA < LAMD": p["KAPA"] < p["LAMD"]})

@@ -31,5 +31,8 @@ def require(law: str, p: PointParameters, rules: Mapping[str, NDArray[np.bool_]]
             continue
         at = int(np.flatnonzero(~holds)[0])
         words = "".join(c if c.isalnum() else " " for c in rule).split()
-        given = tuple(f"{n} = {p[n][at]:g}" for n in dict.fromkeys(words) if n in p.values)
-        raise MaterialError("kernel.materials.law-condition", law=law, rule=rule, given=given)
+        names = tuple(n for n in dict.fromkeys(words) if n in p.values)
+        given = tuple(f"{n} = {p[n][at]:g}" for n in names)
+        raise MaterialError(
+            "kernel.materials.law-condition", law=law, rule=rule, given=given, names=names
+        )

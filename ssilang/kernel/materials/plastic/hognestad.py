@@ -75,9 +75,11 @@ def check(p: PointParameters) -> None:
         Naming what must hold.
     """
     if (p["FAMX"] >= 0).any():
-        raise MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max())
+        raise MaterialError(
+            "kernel.materials.soft-crack-closing", value=p["FAMX"].max(), names=("FAMX",)
+        )
     if ((p["ZETA"] > 0) & (p["ALF1"] * p["OME1"] > 0)).any():
-        raise MaterialError("kernel.materials.slope-and-confinement")
+        raise MaterialError("kernel.materials.slope-and-confinement", names=("ZETA",))
     hoops = p["ALF1"] * p["OME1"]
     _, peak, _ = confined(p)
     free = (p["ZETA"] > 0) | (peak < LIMIT + SPREAD * hoops)

@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
-from ssilang.kernel.base.arrays import FloatArray
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.plastic import (
     cam_clay,
     creep,
@@ -244,3 +249,48 @@ def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
             )
     if law.check is not None:
         law.check(parameters)
+
+
+def check_given(law: PlasticLaw, values: Mapping[str, NDArray[Any]]) -> None:
+    """Let a law look at its parameters as soon as they are given.
+
+    Nothing is checked while a required parameter is still missing, or depends on a field.
+
+    Parameters
+    ----------
+    values : mapping of str to array (n, p)
+        Parameters on the cells, p = 1 where they are constant in a cell.
+
+    Raises
+    ------
+    MaterialError
+        If the law refuses the values.
+    """
+    numbers = {"YOUN", "NU", *law.required, *law.defaults} - set(law.curves)
+    given = {n: np.asarray(values[n]) for n in (*numbers, *law.curves) if n in values}
+    wanted = {"YOUN", "NU", *law.required}
+    if not wanted <= set(given) or any(given[n].dtype == object for n in numbers & set(given)):
+        return
+    if len({v.shape[1] for v in given.values()} - {1}) > 1:
+        return
+    shape = np.broadcast_shapes(*(v.shape for v in given.values()))
+    flat = {n: np.broadcast_to(v, shape).ravel() for n, v in given.items()}
+    for name, default in law.defaults.items():
+        flat.setdefault(name, np.full(shape[0] * shape[1], default))
+    curves = {n: different_curves(n, flat.pop(n)) for n in law.curves}
+    check_parameters(law, PointParameters(flat, curves))
+
+
+def different_curves(name: str, values: NDArray[Any]) -> tuple[list[Curve], IntArray]:
+    """The different curves (m,) of a parameter, and which each point has.
+
+    Raises
+    ------
+    MaterialError
+        If one is no curve.
+    """
+    different = list({id(v): v for v in values}.values())
+    if not all(isinstance(v, Curve) for v in different):
+        raise MaterialError("kernel.plasticity.parameter-curve", name=name)
+    place = {id(v): i for i, v in enumerate(different)}
+    return different, np.array([place[id(v)] for v in values], dtype=np.int64)

@@ -84,4 +84,4 @@ def check_concrete(parameters: PointParameters) -> None:
         If FC = 0.
     """
     if (parameters["FC"] == 0).any():
-        raise MaterialError("kernel.materials.fc-concrete-needs-strength")
+        raise MaterialError("kernel.materials.fc-concrete-needs-strength", names=("FC",))

@@ -102,7 +102,7 @@ def check_saturating(parameters: PointParameters) -> None:
     """
     sinking = (parameters["KISO"] < 0) | (parameters["VELO"] < 0)
     if sinking.any() or (parameters["SIGI"] < parameters["SIG0"]).any():
-        raise MaterialError("kernel.materials.saturation-sinks")
+        raise MaterialError("kernel.materials.saturation-sinks", names=("SIGI", "KISO", "VELO"))
 
 
 def _isotropic(

@@ -30,7 +30,6 @@ from ssilang.kernel.interface.interface import (
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import (
-    HISTORIES,
     Numbering,
     assemble,
     constraint_matrix,
@@ -43,6 +42,7 @@ from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading, loading_of
+from ssilang.kernel.waves.histories import HISTORIES, refuse_parts_of_layer
 
 SMALL = 160
 """Motions that supports leave, up to which dense matrices and the compiled loop are used."""
@@ -133,9 +133,10 @@ def make_problem(inputs: Inputs) -> Problem:
     ------
     KernelError
         If times do not increase, joints with a law stand in the stiffness alone, values are not
-        finite, or a mass is negative.
+        finite, a mass is negative, or matrices of a matched layer are missing.
     """
     times = _checked_times(inputs.times)
+    refuse_parts_of_layer(inputs.stiffness, inputs.mass, inputs.damping)
     given_zones = () if inputs.model is None else joint_zones(inputs.model)
     zones = tuple(z for z in given_zones if not law_of(z.behaviour).linear)
     matrices = _matrices(inputs, given_zones, zones)

@@ -1,6 +1,7 @@
 """Kept code is loaded without what only compiling needs, and goes together with new code."""
 
 import os
+import pickle
 import subprocess
 import sys
 
@@ -93,3 +94,16 @@ def test_processes_that_fill_a_function_s_files_at_a_time_keep_their_code_apart(
         (None, "floats"), (None, "integers"),  # not found: compiled again
     }  # fmt: skip
     assert set(found) - {None}
+
+
+def test_code_kept_under_a_class_that_is_gone_counts_as_none(tmp_path, monkeypatch):
+    """A release may move a record to another module: what was kept with it must not end a run."""
+    files = KeptFiles(str(tmp_path), "program.spread", "stamp")
+    key = type("Record", (), {"__module__": "program"})
+    monkeypatch.setitem(sys.modules, "program", type(sys)("program"))
+    sys.modules["program"].Record = key
+    monkeypatch.setattr(files, "_dump", pickle.dumps)
+    files.save(key, b"code")
+    assert list(files._load_index()) == [key]
+    monkeypatch.delitem(sys.modules, "program")
+    assert files._load_index() == {}

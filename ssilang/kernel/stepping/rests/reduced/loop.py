@@ -21,7 +21,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors import is_factorised, solve_known
+from ssilang.kernel.interface.factors.kept import is_factorised, solve_known
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
     InterfaceState,

@@ -18,7 +18,7 @@ from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import is_equal
-from ssilang.kernel.interface.lu import LU
+from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import (
     factorise_dense,

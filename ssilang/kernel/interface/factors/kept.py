@@ -2,7 +2,8 @@
 
 Between changes of contact the tangents of successive turns and steps are the same numbers. Few
 jumps keep an inverse that points change one by one (`Inverse`); more jumps keep LU factors (`LU`);
-many jumps correct the solutions of these factors, not the factors (`Changes`).
+many jumps correct the solutions of these factors, not the factors: directly for few points that
+changed (`Changes`), else by iterations (`Krylov`).
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.changed import (
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import copy_rows, is_equal
+from ssilang.kernel.interface.factors.changed import (
     DONE,
     MOST_CHANGED,
     TOO_MANY,
@@ -22,14 +25,13 @@ from ssilang.kernel.interface.changed import (
     forget_changes,
     solve_changed,
 )
-from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, is_equal
-from ssilang.kernel.interface.inverse import (
+from ssilang.kernel.interface.factors.inverse import (
     Inverse,
     apply_inverse,
     update_inverse,
 )
-from ssilang.kernel.interface.lu import LU, factorise
+from ssilang.kernel.interface.factors.krylov import Krylov, new_krylov, pays, solve_iterated
+from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import (
     solve_factors,
@@ -42,13 +44,14 @@ LARGE = 300  # jumps from which factors are changed rather than made again
 class Factors(NamedTuple):
     """The tangents (n_points, d, d) that are factorised (NaN: none yet), and by which record.
 
-    `lu` is empty beside an inverse, `changes` where factors are made again, `inverse` elsewhere.
+    `lu` and `krylov` are empty beside an inverse, `inverse` elsewhere, `changes` of few jumps.
     """
 
     tangents: FloatArray
     lu: LU
     inverse: Inverse
     changes: Changes
+    krylov: Krylov
 
 
 def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LARGE) -> Factors:
@@ -64,6 +67,7 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LAR
             np.full(changing, -1, np.int64),
             np.zeros(1, np.int64),
         ),
+        new_krylov(shape, whole),
     )
 
 
@@ -85,10 +89,14 @@ def solve_known(joints: Joints, condensed: Condensed, factors: Factors, x: Float
 @apart
 @compiled
 def solve_tangent(
-    joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, x: FloatArray
-) -> bool:
-    """Solve in place with the matrix of the tangents D; False if it is singular."""
-    known = factors.tangents
+    joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, x: FloatArray,
+    enough: float,
+) -> bool:  # fmt: skip
+    """Solve in place with the matrix of the tangents D; False if it is singular.
+
+    `enough` is the relative residual up to which a solution is iterated.
+    """
+    known, lu = factors.tangents, factors.lu
     if len(factors.inverse.Y):
         if not update_inverse(joints, condensed, D, known, factors.inverse):
             return False
@@ -97,17 +105,24 @@ def solve_tangent(
     same = True
     for p in range(len(D)):
         same = same and is_equal(D[p], known[p])
-    if not same and len(factors.changes.row) and is_factorised(factors):
-        found = solve_changed(joints, condensed, D, known, factors.lu, factors.changes, x)
-        if found != TOO_MANY:
-            return found == DONE
+    if not same and is_factorised(factors):
+        if len(factors.changes.row):
+            found = solve_changed(joints, condensed, D, known, lu, factors.changes, x)
+            if found != TOO_MANY:
+                return found == DONE
+        S, c = condensed.S, condensed.c
+        if pays(factors.krylov, D) and solve_iterated(
+            joints, S, c, D, known, lu, factors.krylov, x, enough
+        ):
+            return True
     if not same:
-        good = factorise(joints, condensed, D, factors.lu)
+        good = factorise(joints, condensed, D, lu)
         forget_changes(factors.changes)
+        factors.krylov.spent[0] = 0
         for p in range(len(D)):
             copy_rows(D[p], known[p])
         if not good:
             known[0, 0, 0] = np.nan
             return False
-    solve_factors(factors.lu.A, factors.lu.exchanges, x)
+    solve_factors(lu.A, lu.exchanges, x)
     return True

@@ -20,7 +20,7 @@ from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import clear, copy_rows, is_equal
-from ssilang.kernel.interface.lu import LU, factorise
+from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import solve_factors_together
 
@@ -68,9 +68,12 @@ def _columns_of(pairs: IntArray, B: FloatArray, Y: FloatArray, columns: FloatArr
 
 
 @compiled_fast
-def _solve_small(A: FloatArray, X: FloatArray) -> bool:
-    """A X = X in place, by elimination with row exchanges; False if a pivot nearly vanishes."""
-    n, top = len(A), 1.0
+def solve_small(A: FloatArray, X: FloatArray) -> bool:
+    """A X = X in place, by elimination with row exchanges; False if a pivot nearly vanishes.
+
+    A is (n, n), X (n, m); both are overwritten.
+    """
+    n, m, top = len(A), X.shape[1], 1.0
     for i in range(n):
         for j in range(n):
             top = max(top, abs(A[i, j]))
@@ -83,15 +86,17 @@ def _solve_small(A: FloatArray, X: FloatArray) -> bool:
             return False
         for j in range(n):
             A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
+        for j in range(m):
             X[k, j], X[pivot, j] = X[pivot, j], X[k, j]
         for i in range(n):
             if i != k:
                 factor = A[i, k] / A[k, k]
                 for j in range(n):
                     A[i, j] -= factor * A[k, j]
+                for j in range(m):
                     X[i, j] -= factor * X[k, j]
     for i in range(n):
-        for j in range(n):
+        for j in range(m):
             X[i, j] /= A[i, i]
     return True
 
@@ -121,7 +126,7 @@ def update_point(
                     for at in range(d):
                         product += rows[k, pairs[pair] * d + at] * B[j, pair * d + at]
                 T[i, j] += E[i, k] * product
-    if not _solve_small(T, E):
+    if not solve_small(T, E):
         return False
     for i in range(d):
         for j in range(d):

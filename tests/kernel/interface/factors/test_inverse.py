@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.inverse import Inverse, apply_inverse, update_point
+from ssilang.kernel.interface.factors.inverse import Inverse, apply_inverse, update_point
 from ssilang.kernel.interface.response import Joints, interface_stiffness
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
