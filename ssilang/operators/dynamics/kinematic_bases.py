@@ -121,7 +121,7 @@ def _filter(
     moved = averaged(record.ordinates, side * found.translation)
     result.set("ACCELERATION", _curve("TEMP", times, "ACCE", moved))
     # a quarter of a period behind, as the slope of a wave that passes
-    turned = averaged(record.ordinates, -1j * share * slope * found.rotation)
+    turned = averaged(record.ordinates, np.asarray(-1j * share * slope * found.rotation))
     result.set("ACCELERATION_ANGULAIRE", _curve("TEMP", times, "ACCE", turned))
 
 
