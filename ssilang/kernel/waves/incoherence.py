@@ -116,6 +116,19 @@ def factors(base: RigidBase, ground: Ground, frequencies: FloatArray) -> Factors
     return Factors(translation, rotation, base.torsion_share * rotation)
 
 
+def signs(
+    base: RigidBase, ground: Ground, frequencies: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Whether translation and slope go with the wave (1) or against it (-1), at frequencies (n,).
+
+    Those of their cross spectra with the motion at the centre, which is all that the coherency
+    says of phases: without chance the wave's own; where chance prevails none goes against it.
+    """
+    found = [_with_centre(base, *ground.numbers(float(f))) for f in frequencies]
+    translation, slope = np.array(found, float).reshape(len(frequencies), 2).T
+    return np.where(translation < 0.0, -1.0, 1.0), np.where(slope < 0.0, -1.0, 1.0)
+
+
 def frequencies_of(acceleration: FloatArray, step: float) -> FloatArray:
     """Frequencies (Hz) of a record (n,) and of as many zeros behind it, which keep ends apart."""
     return np.asarray(np.fft.rfftfreq(2 * len(acceleration), step), float)
@@ -148,6 +161,15 @@ def _rectangle(base: RigidBase, decay: float, number: float) -> tuple[float, flo
     first, turned = _line(base.along, decay, number)
     second = _line(base.across, decay, 0.0)[0] if base.shape == "rectangle" else 1.0
     return first * second, turned * second
+
+
+def _with_centre(base: RigidBase, decay: float, number: float) -> tuple[float, float]:
+    """Means of the coherency with the centre, and of its slope, but for positive factors."""
+    x, weights = _nodes(base.along, decay, abs(number))
+    weights = weights * np.exp(-((decay * x) ** 2))
+    if base.shape == "disc":
+        return float(weights @ (x * j0(number * x))), float(weights @ (x**2 * j1(number * x)))
+    return float(weights @ np.cos(number * x)), float(weights @ (x * np.sin(number * x)))
 
 
 def _line(half: float, decay: float, number: float) -> tuple[float, float]:

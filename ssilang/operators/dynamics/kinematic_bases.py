@@ -109,18 +109,19 @@ def _filter(
     entries: Entries, base: RigidBase, ground: Ground, record: CurvePart, result: Table
 ) -> None:
     """The record of the base, and of its turning: rocking, or torsion of motion across the way."""
-    from ssilang.kernel.waves.incoherence import averaged, factors, frequencies_of
+    from ssilang.kernel.waves.incoherence import averaged, factors, frequencies_of, signs
 
     steps = np.diff(record.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.error("operators.dynamics.equal-steps-wanted")
     times, step = record.abscissas, float(steps.mean())
     share = 1.0 if entries.get("COMPOSANTE") == "VERT" else base.torsion_share
-    found = factors(base, ground, frequencies_of(record.ordinates, step))
-    moved = averaged(record.ordinates, found.translation)
+    frequencies = frequencies_of(record.ordinates, step)
+    found, (side, slope) = factors(base, ground, frequencies), signs(base, ground, frequencies)
+    moved = averaged(record.ordinates, side * found.translation)
     result.set("ACCELERATION", _curve("TEMP", times, "ACCE", moved))
     # a quarter of a period behind, as the slope of a wave that passes
-    turned = averaged(record.ordinates, np.asarray(-1j * share * found.rotation))
+    turned = averaged(record.ordinates, np.asarray(-1j * share * slope * found.rotation))
     result.set("ACCELERATION_ANGULAIRE", _curve("TEMP", times, "ACCE", turned))
 
 

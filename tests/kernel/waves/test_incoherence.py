@@ -10,7 +10,14 @@ from scipy.integrate import dblquad
 from scipy.special import erf, j1, jv
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.waves.incoherence import Ground, RigidBase, averaged, factors, frequencies_of
+from ssilang.kernel.waves.incoherence import (
+    Ground,
+    RigidBase,
+    averaged,
+    factors,
+    frequencies_of,
+    signs,
+)
 
 STRIP, DISC = RigidBase("strip", 12.0), RigidBase("disc", 10.0)
 RECTANGLE = RigidBase("rectangle", 12.0, 7.0)
@@ -103,6 +110,46 @@ def test_what_differs_more_moves_the_base_less(base, f, gamma, more, apparent):
     assert 0.0 <= much.translation[0] <= 1.0 + 1e-12
     if apparent is None:
         assert much.translation[0] <= slight.translation[0] + 1e-12
+
+
+@pytest.mark.parametrize("base", [STRIP, RECTANGLE])
+def test_a_record_becomes_the_mean_of_the_wave_below(base):
+    """A pulse of 8 Hz, far beyond where a wave of 300 m/s turns the base against its centre."""
+    ground, step = Ground(200.0, 0.0, 300.0), 0.004
+    t = step * np.arange(500) - 1.0
+
+    def pulse(t):
+        y = (np.pi * 8.0 * t) ** 2
+        return (1 - 2 * y) * np.exp(-y)
+
+    record = pulse(t)
+    f = frequencies_of(record, step)
+    found, (with_wave, slope) = factors(base, ground, f), signs(base, ground, f)
+    x, weights = np.polynomial.legendre.leggauss(60)
+    below = pulse(t[:, None] - 12.0 / 300.0 * x)
+    mean = averaged(record, with_wave * found.translation)
+    np.testing.assert_allclose(mean, below @ weights / 2, rtol=0, atol=1e-8)
+    turned = averaged(record, -1j * slope * found.rotation)
+    np.testing.assert_allclose(turned, below @ (1.5 * weights * x) / 12.0, rtol=0, atol=1e-8)
+
+
+def test_signs_of_a_disc_are_the_wave_s_until_chance_prevails():
+    z = 10.0 * 2 * np.pi * F / 200.0
+    translation, slope = signs(DISC, Ground(200.0, 0.0, 200.0), F)
+    np.testing.assert_array_equal(translation, np.sign(j1(z)))
+    np.testing.assert_array_equal(slope, np.sign(jv(2, z)))
+    assert set(translation) == {-1.0, 1.0}
+    for of in signs(DISC, Ground(200.0, 3.0, 200.0), F):
+        assert np.all(of == 1.0)
+
+
+def test_a_disc_lies_above_the_solution_with_tractions():
+    """Mita and Luco (1987), covariances at gamma 0.5, a0 1, 2, 3 (Code_Aster V2.03.118)."""
+    rigorous = np.array([[0.732, 0.402, 0.251], [0.730, 0.416, 0.270]])
+    f = np.array([1.0, 2.0, 3.0]) * 200.0 / (2 * np.pi * 10.0)
+    over = factors(DISC, Ground(200.0, 0.5), f).translation / np.sqrt(rigorous) - 1
+    assert np.all(over > 0.0)
+    assert np.all(over < 0.09)
 
 
 def test_a_record_keeps_what_is_slow_and_loses_what_is_fast():
