@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.elements.zone_fields import INSTEAD, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
@@ -167,7 +167,7 @@ def mate(call: Call, **said: Any) -> CellField:
 def material_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that MATE reads for a zone: with those that stand for others."""
     names = known_names(zone)
-    return (*names, *(other for name, other in words.INSTEAD.items() if name in names))
+    return (*names, *(other for name, other in INSTEAD.items() if name in names))
 
 
 def check_joints(model: Model, given: list[Values]) -> None:
@@ -218,7 +218,7 @@ def _parameters(
     for directions in axes:
         _set_axes(call, directions, turn, model, given, known)
     for zone, values in zip(model.zones, given, strict=True):
-        others = {n: values[n] for n in words.INSTEAD.values() if n in values}
+        others = {n: values[n] for n in INSTEAD.values() if n in values}
         _refuse_outside(call, zone, others, said)
         tension_to_hardening(values)
         reference_to_curve(call, values, said)
