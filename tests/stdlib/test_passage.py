@@ -51,6 +51,23 @@ def test_a_strip_moves_by_the_mean_of_the_wave_below():
     np.testing.assert_allclose(found, (integral[0] - integral[1]) / 0.08, rtol=0, atol=1e-8)
 
 
+@pytest.mark.parametrize(("zeros", "early"), [(0.0, True), (0.1, False)])
+def test_a_wave_at_the_edge_before_the_record_begins_is_told(zeros, early):
+    """20 m at 400 m/s: the edge moves 0.05 s before the centre."""
+    record = f"(LT MASQ 'COMPRIS' {zeros} {zeros + 0.2})"
+    pulse = f"LT = PROG 0. PAS 0.002 1. ; G = EVOL 'MANU' LT {record} ; "
+    result = run_text(
+        BASE.replace("'DISQUE'", "'BANDE'").replace("RAYON", "DEMI_LARGEUR")
+        + pulse + "T . 'VITESSE_APPARENTE' = 400. ; T . 'ACCELERATION' = G ; R = @PASSAGE T ;"
+    )  # fmt: skip
+    assert result.exit_code == 0, result.message
+    texts = [text for text in told(result) if "before its record begins" in text]
+    assert len(texts) == early
+    if early:
+        seconds = float(texts[0].split("moves ")[1].split(" s ")[0])
+        assert 0.04 < seconds < 0.06
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [

@@ -33,6 +33,8 @@ Shape = Literal["strip", "rectangle", "disc"]
 
 POINTS = 20
 """Gauss points on each part of a distance."""
+BEGUN = 0.01
+"""Share of the peak above which a motion has begun."""
 PHASE, DECAY = 4.0, 3.0
 """Radians of the phase, and lengths of the decay, on each part: rounding is all that is left."""
 
@@ -136,9 +138,24 @@ def frequencies_of(acceleration: FloatArray, step: float) -> FloatArray:
 
 def averaged(acceleration: FloatArray, factor: ComplexArray | FloatArray) -> FloatArray:
     """A record (n,) by a factor at each of `frequencies_of` it."""
-    n = len(acceleration)
-    spectrum = np.fft.rfft(acceleration, 2 * n)
-    return np.asarray(np.fft.irfft(spectrum * factor, 2 * n)[:n], float)
+    return _whole(acceleration, factor)[: len(acceleration)]
+
+
+def steps_before(acceleration: FloatArray, factor: ComplexArray | FloatArray) -> int:
+    """Steps before a record's beginning in which the base moves by `BEGUN` of its peak and more.
+
+    A wave that passes is at the base's edge before it is at the centre, where the record is. What
+    comes before the first instant stands at the end of the zeros behind the record.
+    """
+    moved = np.abs(_whole(acceleration, factor))
+    before = moved[-(len(acceleration) // 2) :]
+    begun = np.flatnonzero(before > BEGUN * moved.max())
+    return len(before) - int(begun[0]) if len(begun) else 0
+
+
+def _whole(acceleration: FloatArray, factor: ComplexArray | FloatArray) -> FloatArray:
+    spectrum = np.fft.rfft(acceleration, 2 * len(acceleration))
+    return np.asarray(np.fft.irfft(spectrum * factor, 2 * len(acceleration)), float)
 
 
 @cache

@@ -156,6 +156,15 @@ MESSAGES: dict[str, Message] = {
         "0,1 à 0,3 convient à la plupart des réseaux denses",
         severity="warning",
     ),
+    "base-moves-before-record": Message(
+        "the base moves {seconds:.3g} s before its record begins, since the wave is at its edge "
+        "first: this is cut off",
+        "la base bouge {seconds:.3g} s avant le début de son signal, l'onde étant d'abord à son "
+        "bord : c'est coupé",
+        "put that duration of zeros before the record",
+        "mettre cette durée de zéros avant le signal",
+        severity="warning",
+    ),
     "passage-slow": Message(
         "waves pass at {speed:.4g} m/s, slower than Rayleigh's on this ground (shear waves: "
         "{shear:.4g} m/s)",

@@ -109,7 +109,13 @@ def _filter(
     entries: Entries, base: RigidBase, ground: Ground, record: CurvePart, result: Table
 ) -> None:
     """The record of the base, and of its turning: rocking, or torsion of motion across the way."""
-    from ssilang.kernel.waves.incoherence import averaged, factors, frequencies_of, signs
+    from ssilang.kernel.waves.incoherence import (
+        averaged,
+        factors,
+        frequencies_of,
+        signs,
+        steps_before,
+    )
 
     steps = np.diff(record.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
@@ -119,6 +125,9 @@ def _filter(
     frequencies = frequencies_of(record.ordinates, step)
     found, (side, slope) = factors(base, ground, frequencies), signs(base, ground, frequencies)
     moved = averaged(record.ordinates, side * found.translation)
+    early = steps_before(record.ordinates, side * found.translation)
+    if early:
+        entries.warn("operators.dynamics.base-moves-before-record", seconds=early * step)
     result.set("ACCELERATION", _curve("TEMP", times, "ACCE", moved))
     # a quarter of a period behind, as the slope of a wave that passes
     turned = averaged(record.ordinates, np.asarray(-1j * share * slope * found.rotation))
