@@ -88,7 +88,8 @@ class Beside:
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
         room = module.removeprefix(KERNEL).partition(".")[0]
-        if self.found is None and room not in self._rooms:
+        helped = self._process is not None or "beside" in ALLOWED
+        if helped and self.found is None and room not in self._rooms:
             self._rooms.add(room)
             for name, task in tasks_ahead(room):
                 self.tell(name, task)
@@ -194,6 +195,8 @@ def tasks_ahead(room: str) -> list[Task]:
     from numba import types
 
     known = tomllib.loads(AHEAD.read_text(encoding="ascii"))
+    if room not in known:
+        return []
     records: dict[str, Any] = {}
 
     def types_of(text: str) -> Iterator[Any]:

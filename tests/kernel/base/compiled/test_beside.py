@@ -196,6 +196,9 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
 
 def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     told, run = [], Beside()
+    run.enter("ssilang.kernel.solvers.dense")
+    assert not told  # nobody helps
+    run._process = Living(9)
     monkeypatch.setattr(run, "tell", lambda name, task: told.append(name))
     run.enter("ssilang.kernel.solvers.cholesky.dissection")
     assert told == [name for name, _ in tasks_ahead("solvers")]
