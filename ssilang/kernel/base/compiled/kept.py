@@ -22,7 +22,11 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 
+from ssilang.late_imports import load_blas
+
 FORMAT = "ssilang 1"
+_ALGEBRA = (b"numba_x", b"numba_ez_")
+"""How numba's names of calls of BLAS and LAPACK begin."""
 
 
 class _Loaded(JITCodeLibrary):
@@ -88,6 +92,8 @@ def _library(codegen: Any, code: Any, defined: list[str]) -> Any:
         return codegen.unserialize_library(code)
     made = _Loaded(codegen, name)
     machine, made.bitcode = data
+    if any(symbol in machine for symbol in _ALGEBRA):
+        load_blas()
     made.enable_object_caching()
     made._set_compiled_object(machine)
     made._finalize_final_module()
