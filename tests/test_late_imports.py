@@ -1,11 +1,12 @@
 """Modules that are seldom used load when something in them is asked for, and are whole then."""
 
+import gc
 import subprocess
 import sys
 
 import pytest
 
-from ssilang.late_imports import SELDOM
+from ssilang.late_imports import SELDOM, lasting
 
 
 def told(code):
@@ -35,6 +36,11 @@ def test_sparse_matrices_and_compiled_code_load_none_of_them():
         ("import ssilang; from numpy.testing import assert_equal; assert_equal(1, 1)", []),
         ("import ssilang, numpy.f2py; print(callable(numpy.f2py.run_main))", ["True"]),
         ("import ssilang, numpy.f2py.auxfuncs as f; print(f.isscalar.__name__)", ["isscalar"]),
+        ("import ssilang, html; print(html.escape('<'))", ["&lt;"]),
+        ("import ssilang; from xml.etree.ElementTree import fromstring as f; print(f('<a/>').tag)",
+         ["a"]),
+        ("import ssilang; from importlib.metadata import version; print(bool(version('numpy')))",
+         ["True"]),
     ],
 )  # fmt: skip
 def test_they_are_whole_when_they_are_used(code, said):
@@ -48,3 +54,37 @@ def test_one_that_is_not_installed_is_not_found():
         "try:\n    import no_such_module\nexcept ModuleNotFoundError:\n    print('none')"
     )
     assert told(code) == ["none"]
+
+
+class Held:
+    """Something that can hold itself."""
+
+
+def test_what_lasts_is_old_at_once_and_garbage_of_it_is_still_found():
+    was = gc.isenabled()
+    gc.enable()
+    try:
+        with lasting():
+            assert not gc.isenabled()
+            kept, garbage = Held(), Held()
+            garbage.itself = garbage
+            del garbage
+        assert gc.isenabled()
+        old = gc.get_objects(generation=2)
+        assert any(x is kept for x in old)
+        assert any(type(x) is Held and x is not kept for x in old)
+        del old
+        gc.collect()
+        assert [x for x in gc.get_objects() if type(x) is Held] == [kept]
+    finally:
+        (gc.enable if was else gc.disable)()
+
+
+def test_what_someone_keeps_from_the_search_stays_kept():
+    code = (
+        "import gc\nfrom ssilang.late_imports import lasting\n"
+        "gc.freeze(); before = gc.get_freeze_count()\n"
+        "with lasting():\n    pass\n"
+        "print(gc.get_freeze_count() == before)"
+    )
+    assert told(code) == ["True"]

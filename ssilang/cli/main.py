@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ssilang.cli.usage import COMMANDS, parser
+from ssilang.late_imports import lasting
 
 if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
@@ -144,11 +145,12 @@ def _silence() -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from ssilang.cli.run import run_source
-    from ssilang.language.say.diagnostics import render
-    from ssilang.language.say.errors import SsiError
-    from ssilang.language.text.source import Source
-    from ssilang.language.text.source_files import read_source
+    with lasting():
+        from ssilang.cli.run import run_source
+        from ssilang.language.say.diagnostics import render
+        from ssilang.language.say.errors import SsiError
+        from ssilang.language.text.source import Source
+        from ssilang.language.text.source_files import read_source
 
     try:
         if options.file == "-":

@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
+from ssilang.late_imports import lasting
+
 K = TypeVar("K")
 V = TypeVar("V")
 
@@ -71,8 +73,9 @@ class Filled(MutableMapping[K, V]):
         return order.index(module) if module in order else len(order)
 
     def _fill(self, key: K) -> None:
-        for module in self._waiting[key]:
-            import_module(module)
+        with lasting():
+            for module in self._waiting[key]:
+                import_module(module)
         self._waiting.pop(key, None)  # a module may itself have looked for it
 
     def _fill_all(self) -> None:

@@ -17,6 +17,7 @@ from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
+from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.checkpoints import (
     KeptCalculation,
@@ -73,11 +74,13 @@ MOST_STEPS = 1e9
 )
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
-    from ssilang.kernel.base.compiled.beside import tell_ahead
-    from ssilang.kernel.base.compiled.cache import is_compiled
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_track import NodeTrack
-    from ssilang.kernel.stepping.problem.problem import make_problem
+    with lasting():
+        import ssilang.kernel.stepping.run  # noqa: F401 - used further down
+        from ssilang.kernel.base.compiled.beside import tell_ahead
+        from ssilang.kernel.base.compiled.cache import is_compiled
+        from ssilang.kernel.stepping.extremes import Extremes
+        from ssilang.kernel.stepping.node_track import NodeTrack
+        from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)

@@ -112,6 +112,9 @@ class Linked(CPUDispatcher):
         self._compiler._customize_flags = _Options
         self._parts: dict[Types, Any] = {}
 
+    def _compilation_chain_init_hook(self) -> None:
+        """Packages that teach numba types of theirs are not looked for: none comes in here."""
+
     def compile(self, sig: Any) -> Any:
         """Code that Python can call, or by its address; none of what the run makes itself."""
         args = getattr(sig, "args", sig)

@@ -145,8 +145,6 @@ def _invert(
     ordering: Ordering | None,
 ) -> Inverse:
     """Inverse of a matrix that is scaled to a diagonal near one by `scale`."""
-    import scipy.linalg as la
-
     n = scaled.shape[0]
     nothing = np.empty(0, dtype=np.int64)
     if n == 0:
@@ -161,6 +159,8 @@ def _invert(
         motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
+    import scipy.linalg as la  # 0.04 s, for matrices that leave motions free
+
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
     kept = np.setdiff1d(np.arange(n), pinned)
     part = None if ordering is None else ordering.of(kept.astype(np.int64))
