@@ -1,9 +1,9 @@
-"""Small loops for compiled code: assignments of whole arrays take numba seconds to compile."""
+"""Small loops for compiled code: what numba makes of whole arrays takes it seconds to compile."""
 
 from __future__ import annotations
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 
 
 @compiled
@@ -37,6 +37,15 @@ def is_equal(A: FloatArray, B: FloatArray) -> bool:
             if A[i, j] != B[i, j]:
                 return False
     return True
+
+
+@compiled_fast
+def dot(a: FloatArray, b: FloatArray) -> float:
+    """Scalar product of two vectors."""
+    total = 0.0
+    for i in range(len(a)):
+        total += a[i] * b[i]
+    return total
 
 
 @compiled

@@ -18,7 +18,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
-from ssilang.kernel.interface.copies import copy_rows, copy_state, is_equal
+from ssilang.kernel.interface.copies import copy_rows, copy_state, dot, is_equal
 from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import solve_factors
@@ -96,23 +96,15 @@ def _times(S: FloatArray, g: FloatArray, out: FloatArray) -> None:
 
 
 @compiled_fast
-def _dot(x: FloatArray, y: FloatArray) -> float:
-    total = 0.0
-    for i in range(len(x)):
-        total += x[i] * y[i]
-    return total
-
-
-@compiled_fast
 def _orthogonalise(V: FloatArray, k: int, h: FloatArray) -> None:
     """Row k + 1 of V, made normal to those before and of length one; h (k + 2,) are its parts."""
     w = V[k + 1]
     for i in range(k + 1):
         v = V[i]
-        h[i] = _dot(v, w)
+        h[i] = dot(v, w)
         for j in range(len(w)):
             w[j] -= h[i] * v[j]
-    h[k + 1] = math.sqrt(_dot(w, w))
+    h[k + 1] = math.sqrt(dot(w, w))
     if h[k + 1] > 0.0:
         for j in range(len(w)):
             w[j] /= h[k + 1]
@@ -173,7 +165,7 @@ def solve_iterated(
     b, g = np.empty(n), np.empty(n)
     copy_state(x, b)
     solve_factors(lu.A, lu.exchanges, x)
-    e[0] = math.sqrt(_dot(x, x))
+    e[0] = math.sqrt(dot(x, x))
     if e[0] == 0.0:
         return True
     limit = enough * e[0]

@@ -32,7 +32,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.interface.copies import copy_state, dot
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import InterfaceState, Joints, accept, interface_energies
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
@@ -161,14 +161,6 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
     total = 0.0
     for k in range(A.indptr[i], A.indptr[i + 1]):
         total += A.data[k] * x[A.indices[k]]
-    return total
-
-
-@compiled_fast
-def _product(a: FloatArray, b: FloatArray) -> float:
-    total = 0.0
-    for i in range(len(a)):
-        total += a[i] * b[i]
     return total
 
 
@@ -305,7 +297,7 @@ def settle_interface(
         for i in range(q):
             released[i] = flow.f[i] - trial.f[i]
         for i in range(end - begin):
-            du[begin + i] -= _product(plan.Yr[i], trial.h)
+            du[begin + i] -= dot(plan.Yr[i], trial.h)
             sweep.change[begin + i] = _row(plan.JrT, i, released)
         accept(trial, now)
     return turns, residual
