@@ -70,6 +70,8 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Français", (
         ("Présentation", "docs/fr/README.md"), ("Le langage", "docs/fr/language.md"),
         ("Le décollement", "docs/fr/uplift.md"), ("Questions", "docs/fr/faq.md"),
+        ("Quand l'interaction compte", "docs/fr/matter.md"),
+        ("Ondes et bords", "docs/fr/waves.md"),
     )),
     ("Inside", (
         ("The house", "docs/architecture.md"), ("Contributing", "CONTRIBUTING.md"),
