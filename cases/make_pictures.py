@@ -60,6 +60,7 @@ PICTURES = {
     "seismic/isolated_block": {1: "isolated_roof", 2: "isolated_loops"},
     "seismic/record_to_verdict": {1: "verdict_spectrum", 2: "verdict_record"},
     "seismic/oblique_waves": {1: "oblique_waves"},
+    "seismic/matched_layer": {1: "matched_lift", 2: "matched_energy"},
     "seismic/soil_column": {1: "column_surface", 2: "column_loops"},
     "seismic/reactor": {
         1: "reactor_open",

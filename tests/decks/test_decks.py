@@ -63,6 +63,11 @@ SPOILT = [
     ("seismic/isolated_block.ssi", "'FROT' MU0", "'FROT' (1.01 * MU0)"),
     ("seismic/record_to_verdict.ssi", "LFO0 = 1.2 *", "LFO0 = 1.21 *"),
     ("seismic/oblique_waves.ssi", "TCO . 'YOUNG' = YOUS", "TCO . 'YOUNG' = (1.05 * YOUS)"),
+    (
+        "seismic/matched_layer.ssi",
+        "TCOU = SECOUSSE",
+        "TPM . 'REFLEXION' = 0.5 ; TCOU = SECOUSSE",
+    ),
     ("seismic/soil_column.ssi", "'GAMR' GR0", "'GAMR' (1.02 * GR0)"),
     ("starters/oscillator.ssi", "'INRY' INE0 'INRZ' INE0", "'INRY' INE0 'INRZ' (1.02 * INE0)"),
     ("starters/frame.ssi", "(-1. * G0)", "(-1.001 * G0)"),
@@ -84,6 +89,7 @@ SHORTER = {
         "COMPARE = VRAI ; IMAGES = VRAI ; DUREE = 5.",
         "COMPARE = FAUX ; IMAGES = FAUX ; DUREE = 0.5",
     ),
+    "seismic/matched_layer.ssi": ("DUREE = 2.4 ; DCOM = 1.6", "DUREE = 1.6 ; DCOM = 1.2"),
     "seismic/record_to_verdict.ssi": ("1.25E-3 (MAXI LT0)", "1.25E-3 0.5"),
     "seismic/tower_quake.ssi": ("DUREE = 3. ;", "DUREE = 1.5 ;"),
 }

@@ -83,6 +83,8 @@ MESSAGES: dict[str, Message] = {
     "matched-layer-isotropic": Message(
         "a matched layer is linear and isotropic, not {behaviour}",
         "une couche adaptée est linéaire et isotrope, pas {behaviour}",
+        "ground that yields stays inside the box; the layer takes its elastic model",
+        "le sol qui se plastifie reste dans la boîte ; la couche prend son modèle élastique",
     ),
     "part-of-matched-layer": Message(
         "a matched layer is there without its {missing:words}",

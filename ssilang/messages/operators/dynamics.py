@@ -35,6 +35,8 @@ MESSAGES: dict[str, Message] = {
     "reflection-of-layer": Message(
         "REFLEXION is between 0 and 1, not {reflection:g}",
         "REFLEXION est entre 0 et 1, pas {reflection:g}",
+        "0.01 is one percent; without it the number of elements gives the value",
+        "0.01 vaut un pour cent ; sans cette entrée, le nombre d'éléments donne la valeur",
     ),
     "thin-layer": Message(
         "the layer is {cells:.2g} elements thick: with fewer than {fewest} it reflects as much as "
