@@ -196,6 +196,7 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
 
 def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     told, run = [], Beside()
+    monkeypatch.setattr(beside, "ALLOWED", set())
     run.enter("ssilang.kernel.solvers.dense")
     assert not told  # nobody helps
     run._process = Living(9)
