@@ -6,13 +6,12 @@ Same steps as the compiled loops, which tests hold against this one.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
@@ -33,6 +32,9 @@ from ssilang.kernel.stepping.state import (
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
+
+if TYPE_CHECKING:
+    from ssilang.kernel.contact.impact import ImpactRule
 
 NOTHING = np.zeros(0)
 
