@@ -87,15 +87,6 @@ def _times_change(
 
 
 @compiled_fast
-def _times(S: FloatArray, g: FloatArray, out: FloatArray) -> None:
-    for i in range(len(out)):
-        total, row = 0.0, S[i]
-        for j in range(len(g)):
-            total += row[j] * g[j]
-        out[i] = total
-
-
-@compiled_fast
 def _orthogonalise(V: FloatArray, k: int, h: FloatArray) -> None:
     """Row k + 1 of V, made normal to those before and of length one; h (k + 2,) are its parts."""
     w = V[k + 1]
@@ -174,7 +165,8 @@ def solve_iterated(
     for k in range(most):
         w = V[k + 1]
         _times_change(joints, c, D, known, V[k], g)
-        _times(S, g, w)
+        for i in range(n):
+            w[i] = dot(S[i], g)
         solve_factors(lu.A, lu.exchanges, w)
         for i in range(n):
             w[i] += V[k, i]
