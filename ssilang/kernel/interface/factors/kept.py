@@ -105,9 +105,8 @@ def solve_tangent(
             found = solve_changed(joints, condensed, D, known, lu, factors.changes, x)
             if found != TOO_MANY:
                 return found == DONE
-        S, c = condensed.S, condensed.c
         if pays(factors.krylov, D) and solve_iterated(
-            joints, S, c, D, known, lu, factors.krylov, x, enough
+            joints, condensed, D, known, lu, factors.krylov, x, enough
         ):
             return True
     if not same:

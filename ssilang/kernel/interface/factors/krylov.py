@@ -18,6 +18,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state, dot, is_equal
 from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.response import Joints
@@ -135,7 +136,7 @@ def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatAr
 @seldom
 @compiled
 def solve_iterated(
-    joints: Joints, S: FloatArray, c: float, D: FloatArray, known: FloatArray, lu: LU,
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, lu: LU,
     krylov: Krylov, x: FloatArray, enough: float,
 ) -> bool:  # fmt: skip
     """Solve in place with the tangents D by factors of the tangents `known`.
@@ -150,7 +151,7 @@ def solve_iterated(
     bool
         False if that takes too many turns: x is what it was.
     """
-    n, V = len(x), krylov.V
+    n, S, V = len(x), condensed.S, krylov.V
     most = len(V) - 1
     H, turned, e = np.zeros((most, most + 1)), np.zeros((most, 2)), np.zeros(most + 1)
     b, g = np.empty(n), np.empty(n)
@@ -164,7 +165,7 @@ def solve_iterated(
         V[0, i] = x[i] / e[0]
     for k in range(most):
         w = V[k + 1]
-        _times_change(joints, c, D, known, V[k], g)
+        _times_change(joints, condensed.c, D, known, V[k], g)
         for i in range(n):
             w[i] = dot(S[i], g)
         solve_factors(lu.A, lu.exchanges, w)
