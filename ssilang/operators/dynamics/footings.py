@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import (
     Interface,
@@ -27,8 +27,6 @@ from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Table
-
-_TURNING = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
 
 
 @operator(
@@ -146,7 +144,7 @@ def _numbering(model: Model) -> Numbering:
     zones = joint_zones(model)
     table = zones[0].cells.nodes
     dimension = zones[0].mode.dimension
-    names = displacement_names(zones[0]) + _TURNING.get(dimension, ())
+    names = displacement_names(zones[0]) + ROTATIONS[dimension]
     nodes = np.unique(np.concatenate([z.cells.raw.ravel() for z in zones]))
     nodes = np.unique(table.resolve(nodes))
     codes = np.tile(np.arange(len(names)), len(nodes))

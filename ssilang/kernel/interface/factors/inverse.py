@@ -21,7 +21,7 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
 from ssilang.kernel.interface.factors.lu import LU, factorise
-from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 from ssilang.kernel.solvers.dense import solve_factors_together
 
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow
@@ -168,27 +168,11 @@ def apply_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
     """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
-    pairs, B, R, Y, g = joints.pairs, joints.B, condensed.R, inverse.Y, inverse.room
-    n, d, _ = B.shape
-    # g = (c K - R) x, point by point
+    R, Y, g = condensed.R, inverse.Y, inverse.room
     for i in range(len(x)):
         g[i] = 0.0
         for j in range(len(R)):
             g[i] -= R[i, j] * x[j]
-    for p in range(n):
-        for i in range(d):
-            force = 0.0
-            for k in range(d):
-                if D[p, i, k] != 0.0:
-                    jump = 0.0
-                    for pair in range(pairs.shape[1]):
-                        for j in range(d):
-                            jump += B[p, k, pair * d + j] * x[pairs[p, pair] * d + j]
-                    force += D[p, i, k] * jump
-            if force != 0.0:
-                force *= condensed.c * joints.weights[p]
-                for pair in range(pairs.shape[1]):
-                    for j in range(d):
-                        g[pairs[p, pair] * d + j] += force * B[p, i, pair * d + j]
+    add_stiffness_forces(joints, condensed.c, D, x, g)
     for i in range(len(x)):
         x[i] -= dot(Y[i], g)
