@@ -139,7 +139,7 @@ class IteratedSolver:
         """Newton from where the last steps lead, else all but what supports impose at rest."""
         start = self.constraints.particular(dd) if dd.any() else np.zeros_like(r)
         trial = new_trial(motion.w.shape, len(motion.f))
-        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        now = motion.joints
         du, outcome = self._newton(now, trial, r, start)
         release_shear(motion.state, trial.state)
         if outcome.turns > 0:
