@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -140,6 +140,12 @@ def mate(call: Call, **said: Any) -> CellField:
     return _parameters(call, material_names, check_joints, **said)
 
 
+def parameter_name(written: str, known: Collection[str]) -> str:
+    """The parameter that a script means: in full where that is a known one, else four letters."""
+    told = written.upper().rstrip()
+    return told if told in known else told[:4]
+
+
 def material_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that MATE reads for a zone: with those that stand for others."""
     names = known_names(zone)
@@ -195,7 +201,7 @@ def _parameters(
         _set_axes(call, directions, turn, model, given, known)
     for zone, values in zip(model.zones, given, strict=True):
         others = {n: values[n] for n in INSTEAD.values() if n in values}
-        _refuse_outside(call, zone, others, said)
+        refuse_outside(call, zone, others, said)
         tension_to_hardening(values)
         reference_to_curve(call, values, said)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
@@ -204,15 +210,15 @@ def _parameters(
     if check is not None:
         check(model, given)
     for zone, values in zip(model.zones, given, strict=True):
-        _refuse_outside(call, zone, values, said)
+        refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, values, said)
         if check is not None:
-            _check_plastic(call, zone, values, said)
+            check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
 
-def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+def refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
     """Refuse numbers outside of the range that the vocabulary gives for a parameter."""
     for name in said:
         array = values[name][0] if name in values else np.empty(0)
@@ -231,7 +237,7 @@ def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]
             )
 
 
-def _check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+def check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
     """Let a plastic law look at its parameters; refusals stand at one that they name."""
     law = None if is_joint(zone) else plastic_law(zone.behaviour)
     if law is None or zone.formulation != "MECANIQUE":
@@ -261,8 +267,7 @@ def _set_value(
     call: Call, written: str, value: Any, model: Model, given: list[Values], known: Known
 ) -> str:
     """Put the value of a parameter into the zones that have it; its name."""
-    told = written.upper().rstrip()
-    name = told if any(told in known(z) for z in model.zones) else told[:4]
+    name = parameter_name(written, tuple(n for z in model.zones for n in known(z)))
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
     if not taking:
         raise _unknown(call, written, model, known)
