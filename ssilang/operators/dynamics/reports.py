@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.run import History
 
 _NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its end
+LASTING = 8  # steps in a row: what an impact leaves for good
+CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
 
@@ -68,6 +70,21 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+    warn_impacts(entries, problem, history)
+
+
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
+    """Warn where corrected impacts on relations alone have changed the energy for good.
+
+    At an impact it is off for a step, see `kernel.contact.impact`.
+    """
+    off = problem.contact_options.correction == "FAUX" or problem.interface is not None
+    if problem.contact is None or off or len(history.times) <= LASTING:
+        return
+    windows = np.lib.stride_tricks.sliding_window_view(np.abs(history.imbalance), LASTING)
+    share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
+    if share is not None and share > CHANGED:
+        entries.warn("operators.dynamics.impacts-change-energy", share=100.0 * share)
 
 
 def _joules(session: Session) -> float:
