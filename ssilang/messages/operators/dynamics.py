@@ -485,6 +485,17 @@ MESSAGES: dict[str, Message] = {
         "court seul n'y fait rien",
         severity="warning",
     ),
+    "impacts-uncorrected": Message(
+        "impacts on 'MINI' or 'MAXI' relations brought {share:.2g} % of energy: this scheme does "
+        "not correct velocities",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont apporté {share:.2g} % d'énergie : ce "
+        "schéma ne corrige pas les vitesses",
+        "the average acceleration does: leave ALPHA_F, RHO_INF, BETA and GAMMA; or "
+        "'CONSERVATIF' = VRAI",
+        "l'accélération moyenne le fait : retirez ALPHA_F, RHO_INF, BETA et GAMMA ; ou "
+        "'CONSERVATIF' = VRAI",
+        severity="warning",
+    ),
     "conserving-or-persistent": Message(
         "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
         "'CONTACT_PERSISTANT' prend de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",

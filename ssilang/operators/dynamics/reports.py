@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
+from ssilang.operators.dynamics.scheme_entries import NORMS
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
@@ -74,17 +75,23 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
 
 
 def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
-    """Warn where corrected impacts on relations alone have changed the energy for good.
+    """Warn where impacts on relations alone have changed the energy for good.
 
-    At an impact it is off for a step, see `kernel.contact.impact`.
+    At an impact it is off for a step, see `kernel.contact.impact`. Schemes that damp take energy on
+    purpose; who asks for no correction, or for a penalty, knows.
     """
-    off = problem.contact_options.correction == "FAUX" or problem.interface is not None
-    if problem.contact is None or off or len(history.times) <= LASTING:
+    if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
         return
-    windows = np.lib.stride_tricks.sliding_window_view(np.abs(history.imbalance), LASTING)
+    given, penalty = entries.get("VITEUNIL"), problem.contact_options.method == "PENALITE"
+    if penalty or NORMS.get(given) == "FAUX" or not history.energies[:, 0].any():
+        return
+    damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
+    change = history.imbalance if damps else np.abs(history.imbalance)
+    windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
     share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
     if share is not None and share > CHANGED:
-        entries.warn("operators.dynamics.impacts-change-energy", share=100.0 * share)
+        code = "impacts-uncorrected" if damps else "impacts-change-energy"
+        entries.warn(f"operators.dynamics.{code}", share=100.0 * share)
 
 
 def _joules(session: Session) -> float:
