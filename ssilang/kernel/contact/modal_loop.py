@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.contact.active_set import ActiveSet, find_active
 from ssilang.kernel.contact.struck import press, strike
@@ -134,10 +135,10 @@ def _change_velocity(
 
 
 @compiled_fused
-def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> tuple[bool, float]:
+def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
     """Velocities of rows that close, and of those that stay closed; the new set of closed rows.
 
-    Whether a body was struck while it was held, and the work of moving stops on it.
+    The work of moving stops on bodies that were struck while they were held; NaN: none was.
     """
     m, closed = len(x.contact), stops.closed
     closing, lasting, any_closes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), False
@@ -146,9 +147,9 @@ def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> tuple[
         closing[i] = now and not closed[i]
         lasting[i] = now and closed[i]
         any_closes = any_closes or closing[i]
-    struck, work = False, 0.0
+    work = np.nan
     if any_closes and stops.struck.by.shape[1]:
-        struck, work = _strike(stops, Q, x, rate, closing)
+        work = _strike(stops, Q, x, rate, closing)
     for i in range(m):
         closed[i] = x.contact[i] > 0.0
         lasting[i] = lasting[i] and closed[i]
@@ -156,13 +157,12 @@ def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> tuple[
         _change_velocity(stops.G, stops.closing, closing, rate, x.v)
     if stops.lasting.by.shape[1]:
         _change_velocity(stops.G, stops.lasting, lasting, rate, x.v)
-    return struck, work
+    return work
 
 
+@seldom
 @compiled_fused
-def _strike(
-    stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: np.ndarray
-) -> tuple[bool, float]:
+def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: np.ndarray) -> float:
     """Bodies that are struck while they are held; their rows no longer count as `closing`."""
     m, r, by, W = len(x.contact), len(x.v), stops.struck.by, stops.struck.on
     v, c, impulse, change = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
@@ -176,7 +176,7 @@ def _strike(
             c[i] -= stops.newmark.v_du * Q[i, j] * x.contact[j]
         held[i] = stops.closed[i] and not closing[i] and c[i] <= 0.0
     if strike(W, c, v, closing, held, body, struck, impulse) == 0:
-        return False, 0.0
+        return np.nan
     for j in range(r):
         move = 0.0
         for i in range(m):
@@ -195,7 +195,7 @@ def _strike(
         x.contact[i] += change[i]
         for j in range(r):
             x.a[j] += by[j, i] * change[i]
-    return True, work
+    return work
 
 
 @compiled_fast
@@ -272,7 +272,7 @@ def run_contact(
         account(x, sweep)
         _rows_of(stops.G, sweep.du, gap)
         copy_state(x.v, v1)
-        struck, work = _impacts(stops, rows.Q, x, rate)
+        work = _impacts(stops, rows.Q, x, rate)
         if corrected:
             size += _correct_energies(stops, x, v1, sweep.du)
         if not np.isfinite(size):
@@ -282,7 +282,7 @@ def run_contact(
             if stops.stiffness > 0.0:  # what is closed has the gap -p / stiffness
                 x.energies[ELASTIC] += 0.5 * x.contact[i] ** 2 / stops.stiffness
         total = _total(x.energies)
-        if struck:  # what the step's balance lacks went with the impact
+        if not np.isnan(work):  # what the step's balance lacks went with the impact
             x.energies[EXTERNAL] += work
             lost = max(balance - total + work, 0.0)
             x.energies[LOST] += lost
