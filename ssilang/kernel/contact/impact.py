@@ -135,9 +135,14 @@ class ImpactRule:
 
 
 def solves_bodies(problem: Problem) -> bool:
-    """Whether impacts on bodies that are held are solved: multipliers, corrected, of two rows."""
+    """Whether impacts on bodies that are held are solved: multipliers, corrected, of two rows.
+
+    Not where rows rub: sticking places would take part in the impact.
+    """
     contact, options = problem.contact, problem.contact_options
     if contact is None or len(contact) < 2 or options.correction == "FAUX":
+        return False
+    if contact.friction is not None:
         return False
     return options.method != "PENALITE" and contact.associated and problem.constraints.associated
 
