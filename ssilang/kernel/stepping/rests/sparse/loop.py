@@ -147,14 +147,17 @@ class SparseLoop:
             outcome = solver.solve(self.motion, rest, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
-            worst = max(worst, outcome.turns)
+            worst, work = max(worst, outcome.turns), None
             self._advance(n, outcome.du)
             if impact is not None and contact is not None:
                 rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
-                impact.correct(self.motion, rate)
+                work = impact.correct(self.motion, rate)
+            before = balance(self.motion.energies)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
             self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            if work is not None:
+                lose(self.motion, work, before)
             r.energies[k] = self.motion.energies
             keep_whole(self.motion, r, k)
         return len(r.row), worst, 0.0
@@ -169,7 +172,7 @@ class SparseLoop:
         self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
         self._Cv = p.C @ m.v if self._damped else NOTHING
         self._joints_lost = 0.0
-        if p.contact is not None and p.contact.friction is not None:
+        if p.contact is not None:
             self._joints_lost = self._of_joints()[1]
 
     def _of_joints(self) -> tuple[float, float]:
@@ -225,9 +228,25 @@ class SparseLoop:
             )
         if p.interface is not None:
             m.energies[STORED], m.energies[LOST] = self._of_joints()
-        if p.contact is not None and p.contact.friction is not None:
+        if p.contact is not None:
             rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
             m.energies[LOST] = self._joints_lost + before + rubbed
+
+
+def balance(energies: FloatArray) -> float:
+    """What a motion keeps."""
+    return float(energies[:EXTERNAL].sum() - energies[EXTERNAL])
+
+
+def lose(m: Motion, work: float, before: float) -> float:
+    """What the balance of a step with an impact lacks of that `before` it, as lost; how much.
+
+    `work` is that of moving stops on what was struck.
+    """
+    m.energies[EXTERNAL] += work
+    lost = max(before - balance(m.energies), 0.0)
+    m.energies[LOST] += lost
+    return lost
 
 
 def keep_whole(m: Motion, to: Recorder, k: int) -> None:
