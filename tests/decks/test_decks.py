@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from ssilang.io.plots import figure
+from ssilang.operators.drawing import scenes
+
 from .comparisons import COMPARISONS
 from .running import CASES, DECKS, run_changed, run_deck
 
@@ -112,6 +115,14 @@ def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck: Pat
         compare(result)
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures cost some decks half of their time; the deck as it is draws them."""
+    monkeypatch.setattr(figure, "figure_bytes", lambda *_: b"")
+    monkeypatch.setattr(scenes, "_draw_files", lambda *_: None)
+
+
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("deck", "old", "new"), SPOILT, ids=lambda x: x if "/" in x else "")
 def test_spoilt_deck_fails_on_its_own_checks(deck: str, old: str, new: str, tmp_path: Path):
     result = run_changed(

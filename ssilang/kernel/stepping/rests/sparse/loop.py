@@ -6,16 +6,15 @@ Same steps as the compiled loops, which tests hold against this one.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
-from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
+from ssilang.kernel.interface.response import accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import Newmark, advanced, from_past
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -33,6 +32,9 @@ from ssilang.kernel.stepping.state import (
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
+
+if TYPE_CHECKING:
+    from ssilang.kernel.contact.impact import ImpactRule
 
 NOTHING = np.zeros(0)
 
@@ -81,7 +83,7 @@ class CondensedSolver:
         trial = self._newton.trial
         trial.y0[:] = self.interface.J @ du
         trial.y[:] = trial.y0
-        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        now = motion.joints
         turns, residual = solve_interface(self.interface.points, self._condensed, now, self._newton)
         if turns > 0:
             du = du - self.effective.Y @ trial.h
