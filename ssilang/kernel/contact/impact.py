@@ -18,7 +18,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
-from ssilang.kernel.contact.struck import press, strike
+from ssilang.kernel.contact.struck import STILL, press, strike
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -62,7 +62,7 @@ class ImpactRule:
         """
         now = self.contact.closed(motion.contact)
         closing, lasting, work = now & ~self.closed, now & self.closed, None
-        if closing.any() and solves_bodies(self._problem):
+        if now.any() and solves_bodies(self._problem):
             work = self._strike(motion, closing, rate)
         self.closed[:] = self.contact.closed(motion.contact)
         lasting &= self.closed
@@ -83,9 +83,12 @@ class ImpactRule:
         v = G @ motion.v - rate
         c = v - 2.0 / self._effective.dt * (flexibility @ p)
         held = self.closed & ~closing & (c <= 0.0)
+        stays = held & (p > 0.0) & (rate == 0.0) & (np.abs(v) > STILL * np.abs(c))
         body, struck = np.zeros(m, bool), np.zeros(m, bool)
         impulse, change = np.zeros(m), np.zeros(m)
-        if strike(W, c, v, closing, held, body, struck, impulse) == 0:
+        if not (closing | stays).any():
+            return None
+        if strike(W, c, v, closing | stays, held, body, struck, impulse) == 0:
             return None
         move, T, V = X @ impulse, self._problem.constraints.T, self._problem.constraints.V
         motion.v[:] += move

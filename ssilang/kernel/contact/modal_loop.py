@@ -20,7 +20,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.contact.active_set import ActiveSet, find_active
-from ssilang.kernel.contact.struck import press, strike
+from ssilang.kernel.contact.struck import COUPLED, STILL, press, strike
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.modal.diagonal import (
@@ -141,14 +141,19 @@ def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
     The work of moving stops on bodies that were struck while they were held; NaN: none was.
     """
     m, closed = len(x.contact), stops.closed
-    closing, lasting, any_closes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), False
+    closing, lasting, strikes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), False
     for i in range(m):
         now = x.contact[i] > 0.0
         closing[i] = now and not closed[i]
         lasting[i] = now and closed[i]
-        any_closes = any_closes or closing[i]
     work = np.nan
-    if any_closes and stops.struck.by.shape[1]:
+    if stops.struck.by.shape[1]:
+        for i in range(m):
+            if closing[i]:
+                strikes = strikes or _joins(stops, closing, i)
+            elif lasting[i]:
+                strikes = strikes or _stays(stops, Q, x, rate, i)
+    if strikes:
         work = _strike(stops, Q, x, rate, closing)
     for i in range(m):
         closed[i] = x.contact[i] > 0.0
@@ -160,6 +165,30 @@ def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
     return work
 
 
+@compiled_fused
+def _joins(stops: Stops, closing: np.ndarray, i: int) -> bool:
+    """Whether a row that closes moves one that was closed."""
+    W = stops.struck.on
+    for j in range(len(closing)):
+        if stops.closed[j] and not closing[j] and W[i, j] ** 2 > COUPLED**2 * W[i, i] * W[j, j]:
+            return True
+    return False
+
+
+@compiled_fast
+def _stays(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, i: int) -> bool:
+    """Whether a row was turned round and pushes all the same: it moves, and does not rebound."""
+    if rate[i] != 0.0:
+        return False
+    row, v, push = stops.G[i], 0.0, 0.0
+    for j in range(len(x.v)):
+        v += row[j] * x.v[j]
+    for j in range(len(x.contact)):
+        push += Q[i, j] * x.contact[j]
+    c = v - stops.newmark.v_du * push
+    return c <= 0.0 and abs(v) > STILL * abs(c)
+
+
 @seldom
 @compiled_fused
 def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: np.ndarray) -> float:
@@ -167,6 +196,7 @@ def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: n
     m, r, by, W = len(x.contact), len(x.v), stops.struck.by, stops.struck.on
     v, c, impulse, change = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
     held, body, struck = np.zeros(m, np.bool_), np.zeros(m, np.bool_), np.zeros(m, np.bool_)
+    strikes = closing.copy()
     for i in range(m):
         v[i] = c[i] = -rate[i]
         for j in range(r):
@@ -175,7 +205,9 @@ def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: n
         for j in range(m):
             c[i] -= stops.newmark.v_du * Q[i, j] * x.contact[j]
         held[i] = stops.closed[i] and not closing[i] and c[i] <= 0.0
-    if strike(W, c, v, closing, held, body, struck, impulse) == 0:
+        if held[i] and x.contact[i] > 0.0:
+            strikes[i] = _stays(stops, Q, x, rate, i)
+    if strike(W, c, v, strikes, held, body, struck, impulse) == 0:
         return np.nan
     for j in range(r):
         move = 0.0

@@ -9,6 +9,7 @@ restitution:
     c + W P >= 0 ,   P >= 0 ,   P (c + W P) = 0
 
 A row that holds is let go where the others' impulses lift it, and pressed where they push it on.
+So is a row that was turned round and pushes in the next step all the same: it did not rebound.
 What is struck then moves by the equilibrium with the reactions of the rows that stay.
 """
 
@@ -25,6 +26,7 @@ COUPLED = 1e-6  # of the flexibilities of two rows: an impulse on one moves the 
 APART = 1e-8  # added to the diagonal of W, whose rows may depend on one another; taken back after
 TURNS = 4  # that take it back: each leaves APART of what is left
 ROUNDING = 1e-12  # of the largest velocity
+STILL = 1e-9  # of the velocity that a row would have without the last reactions: none
 
 
 @seldom
@@ -42,7 +44,8 @@ def strike(
     c, v : arrays (m,)
         Velocities at the step's end without its last reactions, and with them.
     closing, held : arrays (m,) of bool
-        Rows that push since this step, and since before.
+        Rows that push since this step, and since before; both: rows that were turned round and
+        push all the same.
     body, struck : arrays (m,) of bool, overwritten
         Rows of such bodies that touch; those of them that have an impulse.
     impulse : array (m,), overwritten

@@ -479,10 +479,9 @@ MESSAGES: dict[str, Message] = {
         "after them depends on the step",
         "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
         "mouvement qui les suit dépend du pas",
-        "joints with 'JOINT_SDM' in place of the relations, or 'CONSERVATIF' = VRAI; a shorter "
-        "step alone does not help",
-        "des joints 'JOINT_SDM' à la place des relations, ou 'CONSERVATIF' = VRAI ; un pas plus "
-        "court seul n'y fait rien",
+        "shorter steps, 'CONSERVATIF' = VRAI, or joints 'JOINT_SDM' in place of the relations",
+        "des pas plus courts, 'CONSERVATIF' = VRAI, ou des joints 'JOINT_SDM' à la place des "
+        "relations",
         severity="warning",
     ),
     "impacts-uncorrected": Message(

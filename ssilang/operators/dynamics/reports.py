@@ -107,8 +107,10 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
     windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
     share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
     if share is not None and share > CHANGED:
-        code = "impacts-uncorrected" if damps else "impacts-change-energy"
-        entries.warn(f"operators.dynamics.{code}", share=100.0 * share)
+        code = "operators.dynamics.impacts-change-energy"
+        if damps:
+            code = "operators.dynamics.impacts-uncorrected"
+        entries.warn(code, share=100.0 * share)
 
 
 def _causes(problem: Problem, added: bool) -> list[str]:
