@@ -110,97 +110,80 @@ def factor_bytes(A: sp.csr_array, tree: Tree) -> float:
 
 
 def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
-    n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
-    above = np.full(len(tree.first) - 1, -1, np.int64)
-    ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
+    ptr, rows, above = _rows_below(tree, indptr, indices)
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
     waiting, front = _room(tree.first, ptr, above)
     return _Plan(Columns(indptr, indices, lower.data), above, ptr, rows, at, waiting, front)
 
 
-@compiled
-def _longer(rows: IntArray, size: int) -> IntArray:
-    more = np.empty(2 * size, np.int64)
-    for i in range(size):
-        more[i] = rows[i]
-    return more
-
-
-@apart
-@compiled
-def _sort(rows: IntArray, start: int, end: int) -> None:
-    """Sort a part in place (Shell's method; NumPy's takes numba seconds to compile)."""
-    gap = 1
-    while gap < (end - start) // 3:
-        gap = 3 * gap + 1
-    while gap > 0:
-        for i in range(start + gap, end):
-            row, j = rows[i], i
-            while j >= start + gap and rows[j - gap] > row:
-                rows[j] = rows[j - gap]
-                j -= gap
-            rows[j] = row
-        gap //= 3
-
-
-@compiled
 def _rows_below(
-    n: int, indptr: IntArray, indices: IntArray, first: IntArray, above: IntArray
-) -> tuple[IntArray, IntArray]:
-    """`ptr` and `rows` of the panels; `above` becomes the supernode of each one's first row."""
-    count = len(first) - 1
-    owner, seen = np.empty(n, np.int64), np.full(n, -1, np.int64)
-    for s in range(count):
-        for i in range(first[s], first[s + 1]):
-            owner[i] = s
-    ptr, rows = np.zeros(count + 1, np.int64), np.empty(max(len(indices), 16), np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    size = 0
-    for s in range(count):
-        # rows of the matrix's own columns, then those of the supernodes just below
-        end, start = first[s + 1], size
-        for k in range(indptr[first[s]], indptr[end]):
-            i = indices[k]
-            if i >= end and seen[i] != s:
-                seen[i] = s
-                if size == len(rows):
-                    rows = _longer(rows, size)
-                rows[size] = i
-                size += 1
-        c = child[s]
-        while c >= 0:
-            for k in range(ptr[c], ptr[c + 1]):
-                i = rows[k]
-                if i >= end and seen[i] != s:
-                    seen[i] = s
-                    if size == len(rows):
-                        rows = _longer(rows, size)
-                    rows[size] = i
-                    size += 1
-            c = sibling[c]
-        _sort(rows, start, size)
-        ptr[s + 1] = size
-        if size > start:
-            above[s] = owner[rows[start]]
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
-    return ptr, rows[:size]
+    tree: Tree, indptr: IntArray, indices: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """`ptr` and `rows` of the panels, and the supernode of each one's first row, -1 without rows.
+
+    Rows of a supernode are those of its columns and of the supernodes just below it; it stands in
+    one of the levels of the tree, those below it in deeper ones.
+    """
+    first, n, count = tree.first, len(indptr) - 1, len(tree.first) - 1
+    owner, depth = np.repeat(np.arange(count), np.diff(first)), _depths(tree.parent)
+    columns = sp.csr_array((np.ones(n, np.float32), np.arange(n), first), shape=(count, n))
+    pattern = sp.csr_array((np.ones(len(indices), np.float32), indices, indptr), shape=(n, n))
+    own = sp.csr_array(columns @ pattern)
+    node, row = np.repeat(np.arange(count), np.diff(own.indptr)), own.indices.astype(np.int64)
+    waiting = [np.zeros(0, np.int64)] * (depth.max(initial=-1) + 1)
+    above, found = np.full(count, -1), [np.zeros(0, np.int64)]
+    for level in reversed(range(len(waiting) + 1)):
+        # those above are given what stands below them too: a number tells a supernode and a row
+        below = row >= first[node + 1]
+        given, to = node[below] * n + row[below], depth[node[below]]
+        for one in np.flatnonzero(np.bincount(to)):
+            waiting[one] = np.append(waiting[one], given[to == one])
+        if level == 0:
+            break
+        ordered = np.sort(waiting[level - 1])  # np.unique takes ten times as long
+        found.append(ordered[np.diff(ordered, prepend=-1) > 0])
+        node, row = np.divmod(found[-1], n)
+        is_first = np.diff(node, prepend=-1) > 0
+        above[node[is_first]] = owner[row[is_first]]
+        node = above[node]
+    node, rows = np.divmod(np.sort(np.concatenate(found)), n)
+    return np.searchsorted(node, np.arange(count + 1)), rows, above
 
 
-@compiled
+def _depths(parent: IntArray) -> IntArray:
+    """Number of supernodes above each."""
+    depth, at = np.zeros(len(parent), np.int64), parent
+    while (at >= 0).any():
+        depth += at >= 0
+        at = np.where(at >= 0, parent[at], -1)
+    return depth
+
+
 def _places(first: IntArray, ptr: IntArray) -> IntArray:
     """`at` of the panels."""
-    at = np.zeros(len(first), np.int64)
-    for s in range(len(first) - 1):
-        k = first[s + 1] - first[s]
-        m = k + ptr[s + 1] - ptr[s]
-        at[s + 1] = at[s]
-        for j in range(0, k, WIDTH):
-            w = min(WIDTH, k - j)
-            at[s + 1] += w * (m - j)
-    return at
+    k, below = np.diff(first), np.diff(ptr)
+    whole, rest = np.divmod(k, WIDTH)
+    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
+    sizes += rest * (rest + below)
+    return np.append(0, np.cumsum(sizes))
+
+
+def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
+    """Numbers that wait on the stack of updates at most, and of the largest front."""
+    below = np.diff(ptr)
+    stack, waiting, most = list[int](), 0, 0
+    size, taker = (below**2).tolist(), above.tolist()
+    for s in range(len(size)):
+        # what lies on top is free when it was taken
+        while stack and taker[stack[-1]] <= s:
+            waiting -= size[stack.pop()]
+        if size[s]:
+            stack.append(s)
+            waiting += size[s]
+            most = max(most, waiting)
+    return most, int(((np.diff(first) + below) ** 2).max(initial=0))
 
 
 @compiled
@@ -209,32 +192,6 @@ def _free(alive: int, live: IntArray, used: np.ndarray) -> int:
     while alive > 0 and used[live[alive - 1]]:
         alive -= 1
     return alive
-
-
-@compiled
-def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
-    """Numbers that wait on the stack of updates at most, and of the largest front."""
-    count = len(first) - 1
-    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
-    spot = np.zeros(count + 1, np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    alive, most, front = 0, 0, 0
-    for s in range(count):
-        below = ptr[s + 1] - ptr[s]
-        front = max(front, (first[s + 1] - first[s] + below) ** 2)
-        c = child[s]
-        while c >= 0:
-            used[c] = True
-            c = sibling[c]
-        alive = _free(alive, live, used)
-        if below > 0:
-            live[alive] = s
-            spot[alive + 1] = spot[alive] + below * below
-            alive += 1
-            most = max(most, spot[alive])
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
-    return most, front
 
 
 @compiled
