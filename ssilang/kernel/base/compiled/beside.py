@@ -29,10 +29,12 @@ import time
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
 from ssilang.kernel.base.compiled import ALLOWED, PLAIN
+from ssilang.kernel.base.compiled.kinds import words_of_types
 
 PACKAGES = Path(__file__).parents[4]
 """Where the package lies."""
@@ -43,7 +45,7 @@ KERNEL = "ssilang.kernel."
 
 
 Task = tuple[str, bytes]
-"""Title of a function with its types, and its pickled module, name and types."""
+"""Title of a function with its kinds of arguments, and what `task_of` makes of it."""
 
 
 def free_cores() -> int:
@@ -165,10 +167,11 @@ class Beside:
             if not waiting:
                 time.sleep(POLL)
                 continue
-            module, name, args = pickle.loads(waiting.pop()[1])
+            module, name, words, types = pickle.loads(waiting.pop()[1])
             self.found = []
             with suppress(Exception):  # the run will tell
-                getattr(importlib.import_module(module), name).compile(args)
+                function = getattr(importlib.import_module(module), name)
+                function.prepare(words, partial(pickle.loads, types))
             waiting += [task for task in reversed(self.found) if task[0] not in dict(waiting)]
 
     def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
@@ -214,11 +217,18 @@ def tasks_ahead(room: str) -> list[Task]:
     found = []
     for path, text in known.get(room, {}).items():
         module, _, name = path.rpartition(".")
-        task = KERNEL + module, name, (*types_of(text),)
-        found.append((title(*task), pickle.dumps(task)))
+        args = (*types_of(text),)
+        words = words_of_types(args)
+        told = KERNEL + module, name, words
+        found.append((title(*told), task_of(*told, args)))
     return found
 
 
-def title(module: str, name: str, args: tuple[Any, ...]) -> str:
-    """A function for types of arguments."""
-    return f"{module}.{name}{args}"
+def title(module: str, name: str, words: str) -> str:
+    """A function for kinds of arguments."""
+    return f"{module}.{name}({words})"
+
+
+def task_of(module: str, name: str, words: str, types: tuple[Any, ...]) -> bytes:
+    """A function with kinds of arguments, and numba's types of them, which few need to read."""
+    return pickle.dumps((module, name, words, pickle.dumps(types)))
