@@ -120,7 +120,7 @@ class _Points(NamedTuple):
     part: IntArray
     links: Links
 
-    def count(self, chosen: BoolArray) -> IntArray:
+    def numbers(self, chosen: BoolArray) -> IntArray:
         """How many chosen points are in each part."""
         return np.bincount(self.part[chosen], minlength=len(self.first))
 
@@ -166,7 +166,7 @@ def _dissect(
         kind, cut = _best_cuts(known, parts.size, axes)
         # and those that no cut would part
         leaves, kept = leaves.and_these(parts.only(~cut)), cut[part]
-        below, above, between = (known.count(kept & (kind == k)) for k in range(3))
+        below, above, between = (known.numbers(kept & (kind == k)) for k in range(3))
         order[place[kept]] = here[_sorted(known, kind)][kept]
         start, parent = np.append(start, leaves.start), np.append(parent, leaves.above)
         # a supernode of the points between, then both sides
@@ -198,8 +198,8 @@ def _best_cuts(
         cut = _middles(points, axis, size) - 1e-9 * widest
         upper = axis.x[points.of] >= cut[points.part]
         touching = _touching(points, upper, len(axis.x))
-        below = points.count(~upper)
-        above_touching, below_touching = (points.count(touching & u) for u in (upper, ~upper))
+        below = points.numbers(~upper)
+        above_touching, below_touching = (points.numbers(touching & u) for u in (upper, ~upper))
         score = np.minimum(above_touching, below_touching)
         score[np.minimum(below, size - below) < 0.3 * size] *= 2
         # the smaller of both borders of the cut separates its sides
@@ -221,7 +221,8 @@ def _middles(points: _Points, axis: _Coordinate, size: IntArray) -> FloatArray:
     """Coordinate of each part that half of its points have before it."""
     many = len(axis.values)
     ordered = np.sort(points.part * many + axis.ranks[points.of])
-    return axis.values[ordered[points.first + size // 2] % many]
+    middles: FloatArray = axis.values[ordered[points.first + size // 2] % many]
+    return middles
 
 
 def _touching(points: _Points, upper: BoolArray, n: int) -> BoolArray:

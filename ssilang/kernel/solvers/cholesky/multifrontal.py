@@ -57,6 +57,24 @@ class Panels(NamedTuple):
     values: FloatArray
 
 
+class Updates(NamedTuple):
+    """What supernodes leave to those of their first rows below, -1 for none.
+
+    Attributes
+    ----------
+    child : array (n_supernodes,)
+        The last one whose update each takes.
+    sibling : array (n_supernodes,)
+        The one that is taken after each.
+    spot : array (n_supernodes,)
+        Where the update of each waits on the stack.
+    """
+
+    child: IntArray
+    sibling: IntArray
+    spot: IntArray
+
+
 class Columns(NamedTuple):
     """The lower triangle of a matrix, column after column."""
 
@@ -81,8 +99,8 @@ def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panel
     if plan.n_bytes > most or not held:
         raise TooLargeError(plan.n_bytes, held)
     panels = Panels(tree.first, plan.ptr, plan.rows, plan.at, np.zeros(plan.at[-1]))
-    room = np.zeros(plan.waiting), np.zeros(plan.front)
-    bad = _factorise(plan.columns, panels, plan.above, *room)
+    room = np.zeros(plan.waiting), np.zeros(plan.front), np.zeros((2, A.shape[0]), np.int64)
+    bad = _factorise(plan.columns, panels, plan.updates, *room)
     if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
         raise NotPositiveError(f"pivot {bad} is not positive")
     return panels
@@ -92,7 +110,7 @@ class _Plan(NamedTuple):
     """Where the numbers of a factor stand, and what it takes to make it."""
 
     columns: Columns
-    above: IntArray
+    updates: Updates
     ptr: IntArray
     rows: IntArray
     at: IntArray
@@ -114,8 +132,8 @@ def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
     ptr, rows, above = _rows_below(tree, indptr, indices)
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
-    waiting, front = _room(tree.first, ptr, above)
-    return _Plan(Columns(indptr, indices, lower.data), above, ptr, rows, at, waiting, front)
+    updates, waiting, front = _updates(tree.first, ptr, above)
+    return _Plan(Columns(indptr, indices, lower.data), updates, ptr, rows, at, waiting, front)
 
 
 def _rows_below(
@@ -170,10 +188,10 @@ def _places(first: IntArray, ptr: IntArray) -> IntArray:
     return np.append(0, np.cumsum(sizes))
 
 
-def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
-    """Numbers that wait on the stack of updates at most, and of the largest front."""
+def _updates(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[Updates, int, int]:
+    """Where updates wait, the numbers that do so at most, and those of the largest front."""
     below = np.diff(ptr)
-    stack, waiting, most = list[int](), 0, 0
+    stack, waiting, most, spot = list[int](), 0, 0, np.zeros(len(below), np.int64)
     size, taker = (below**2).tolist(), above.tolist()
     for s in range(len(size)):
         # what lies on top is free when it was taken
@@ -181,17 +199,17 @@ def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
             waiting -= size[stack.pop()]
         if size[s]:
             stack.append(s)
+            spot[s] = waiting
             waiting += size[s]
             most = max(most, waiting)
-    return most, int(((np.diff(first) + below) ** 2).max(initial=0))
-
-
-@compiled
-def _free(alive: int, live: IntArray, used: np.ndarray) -> int:
-    """Number of updates left on the stack when the used ones on its top are gone."""
-    while alive > 0 and used[live[alive - 1]]:
-        alive -= 1
-    return alive
+    order = np.argsort(above, kind="stable")
+    order = order[above[order] >= 0]
+    is_last = np.diff(above[order], append=-1) != 0
+    child, sibling = np.full(len(above), -1), np.full(len(above), -1)
+    child[above[order[is_last]]] = order[is_last]
+    sibling[order[1:][~is_last[:-1]]] = order[:-1][~is_last[:-1]]
+    front = int(((np.diff(first) + below) ** 2).max(initial=0))
+    return Updates(child, sibling, spot), most, front
 
 
 @compiled
@@ -204,10 +222,11 @@ def _gather(A: Columns, c0: int, c1: int, where: IntArray, F: FloatArray) -> Non
 
 
 @compiled
-def _extend_add(U: FloatArray, rows: IntArray, where: IntArray, F: FloatArray) -> None:
-    """Add the update of a child."""
+def _extend_add(
+    U: FloatArray, rows: IntArray, where: IntArray, local: IntArray, F: FloatArray
+) -> None:
+    """Add the update of a child; `local` is overwritten."""
     n = len(rows)
-    local = np.empty(n, np.int64)
     for i in range(n):
         local[i] = where[rows[i]]
     for j in range(n):
@@ -325,21 +344,16 @@ def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
 
 @compiled
 def _factorise(
-    A: Columns, panels: Panels, above: IntArray, stack: FloatArray, work: FloatArray
-) -> int:
+    A: Columns, panels: Panels, updates: Updates, stack: FloatArray, work: FloatArray,
+    places: IntArray,
+) -> int:  # fmt: skip
     """Fill the panels; the column of a bad pivot or -1.
 
-    `above` is the supernode of each one's first row below it; `stack` holds updates of supernodes
-    until those above take them, `work` one front.
+    `stack` holds updates of supernodes until those above take them, `work` one front, `places`
+    (2, n) a row's place in it.
     """
-    first, ptr, rows = panels.first, panels.ptr, panels.rows
-    count = len(first) - 1
-    where = np.zeros(first[-1], np.int64)
-    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
-    spot, mine = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    alive = 0
-    for s in range(count):
+    first, ptr, rows, where = panels.first, panels.ptr, panels.rows, places[0]
+    for s in range(len(first) - 1):
         # a front of the supernode's columns and the rows below them; `where` is a row's place in it
         c0, k, below = first[s], first[s + 1] - first[s], ptr[s + 1] - ptr[s]
         m = k + below
@@ -351,29 +365,22 @@ def _factorise(
             where[c0 + j] = j
         for i in range(below):
             where[rows[ptr[s] + i]] = k + i
-        # filled by the matrix and by the updates of the supernodes below, which are then free
+        # filled by the matrix and by the updates of the supernodes below
         _gather(A, c0, c0 + k, where, F)
-        c = child[s]
+        c = updates.child[s]
         while c >= 0:
-            size = ptr[c + 1] - ptr[c]
-            U = stack[mine[c] : mine[c] + size * size].reshape((size, size))
-            _extend_add(U, rows[ptr[c] : ptr[c + 1]], where, F)
-            used[c] = True
-            c = sibling[c]
-        alive = _free(alive, live, used)
+            size, spot = ptr[c + 1] - ptr[c], updates.spot[c]
+            U = stack[spot : spot + size * size].reshape((size, size))
+            _extend_add(U, rows[ptr[c] : ptr[c + 1]], where, places[1], F)
+            c = updates.sibling[c]
         bad = _columns(F, k, panels.at[s], panels.values)
         if bad >= 0:
             return int(c0 + bad)
         # what is left of the front waits on the stack
         if below > 0:
-            mine[s] = spot[alive]
-            U = stack[mine[s] : mine[s] + below * below].reshape((below, below))
+            spot = updates.spot[s]
+            U = stack[spot : spot + below * below].reshape((below, below))
             for j in range(below):
                 for i in range(j, below):
                     U[j, i] = F[k + j, k + i]
-            live[alive] = s
-            spot[alive + 1] = mine[s] + below * below
-            alive += 1
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
     return -1
