@@ -16,25 +16,25 @@ however that ends.
 from __future__ import annotations
 
 import atexit
-import hashlib
 import importlib
 import os
 import pickle
 import shutil
-import subprocess
 import sys
-import tempfile
 import threading
 import time
-import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 from ssilang.kernel.base.compiled import ALLOWED, PLAIN
+from ssilang.kernel.base.compiled.cache import digest
 from ssilang.kernel.base.compiled.kinds import words_of_types
+
+if TYPE_CHECKING:
+    import subprocess
 
 PACKAGES = Path(__file__).parents[4]
 """Where the package lies."""
@@ -109,7 +109,7 @@ class Beside:
         if self._claims is None or name in self._own:
             yield True
             return
-        place = self._claims / hashlib.sha256(name.encode()).hexdigest()
+        place = self._claims / digest(name)
         done = place.with_suffix(".done")
         try:
             place.touch(exist_ok=False)
@@ -137,6 +137,9 @@ class Beside:
         ALLOWED.discard("beside")
         if PLAIN or os.name != "posix" or free_cores() < 2:
             return
+        import subprocess  # few runs have anything to compile
+        import tempfile
+
         paths = os.pathsep.join([str(PACKAGES), os.environ.get("PYTHONPATH", "")])
         program = f"import sys; from {__name__} import BESIDE; BESIDE.serve(sys.argv[1])"
         try:
@@ -209,6 +212,8 @@ def tell_more(*rooms: str) -> None:
 
 def tasks_ahead(room: str) -> list[Task]:
     """Functions of a room of `ahead.toml`, in the order of need; none of a room it has not."""
+    import tomllib
+
     from numba import types
 
     known = tomllib.loads(AHEAD.read_text(encoding="ascii"))

@@ -11,13 +11,13 @@ Kept code is run unseen, so a folder is used only if nobody else could have put 
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import shutil
 import tempfile
 import time
 from functools import cache
+from importlib.util import source_hash
 from pathlib import Path
 
 from ssilang.kernel.base.compiled import PLAIN
@@ -65,8 +65,12 @@ def state_of(module: str, package: Path = PACKAGE) -> str:
         if name not in known:
             known[name], imported = _read(name, package)
             waiting += imported
-    digest = hashlib.sha256("".join(known[name] for name in sorted(known)).encode())
-    return digest.hexdigest()[:16]
+    return digest("".join(known[name] for name in sorted(known)))
+
+
+def digest(text: str) -> str:
+    """16 letters that tell a text from others, as Python tells sources; hashlib loads OpenSSL."""
+    return source_hash(text.encode()).hex()
 
 
 @cache
@@ -83,7 +87,7 @@ def _read(module: str, package: Path) -> tuple[str, tuple[str, ...]]:
         for m, rest in IMPORTED.findall(text)
     ]
     found = [n for m, inside in names for n in (m, *(inside if _is_package(m, package) else ()))]
-    return hashlib.sha256(f"{module}\n{text}".encode()).hexdigest(), tuple(found)
+    return digest(f"{module}\n{text}"), tuple(found)
 
 
 def _is_package(module: str, package: Path) -> bool:

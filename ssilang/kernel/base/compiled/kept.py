@@ -6,7 +6,6 @@ also tells who made it: numba's, LLVM's and Python's version, the processor.
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 import os
 import pickle
@@ -17,7 +16,7 @@ from pathlib import Path
 
 import llvmlite
 
-from ssilang.kernel.base.compiled.cache import SUFFIX, folder_of, state_of
+from ssilang.kernel.base.compiled.cache import SUFFIX, digest, folder_of, state_of
 from ssilang.kernel.base.compiled.machine import Code, processor
 
 
@@ -51,8 +50,7 @@ def _place(module: str, function: str, words: str) -> Path | None:
     if folder is None:
         return None
     told = "\n".join([module, function, words, _state(module), _maker()])
-    digest = hashlib.sha256(told.encode()).hexdigest()[:24]
-    return folder / f"{function.rpartition('.')[2]}-{digest}{SUFFIX}"
+    return folder / f"{function.rpartition('.')[2]}-{digest(told)}{SUFFIX}"
 
 
 @cache
@@ -61,10 +59,10 @@ def _state(module: str) -> str:
     if module.startswith("ssilang."):
         return state_of(module)
     try:
-        text = Path(getattr(sys.modules.get(module), "__file__", "")).read_bytes()
+        text = Path(getattr(sys.modules.get(module), "__file__", "")).read_text(encoding="utf-8")
     except OSError:
         return ""
-    return hashlib.sha256(text).hexdigest()
+    return digest(text)
 
 
 @cache

@@ -26,6 +26,9 @@ import llvmlite.binding as llvm
 SYMBOL = "ssilang_resolve"
 """By which code asks for the address of another function (`apart`)."""
 STOPPED = 1  # its answer if someone interrupts: no address
+BLAS = {"numba_xxdot": "scipy.linalg.cython_blas"}
+BLAS |= dict.fromkeys(("numba_xxgemm", "numba_xxgemv"), BLAS["numba_xxdot"])
+"""Functions of numba's that call the BLAS which scipy brings, and where it is."""
 LIBRARIES = ("numba._helperlib", "numba._dynfunc", "numba.core.runtime._nrt_python")
 
 
@@ -91,6 +94,8 @@ class Machine:
     def load(self, code: Code, module: str, name: str) -> Ready:
         """The function `name` of a module, ready to be called."""
         for symbol in code.needs:
+            if symbol in BLAS:
+                library(BLAS[symbol])  # else all of scipy.linalg is imported at the first call
             address = self._known.pop(symbol, None)
             if address is not None:
                 llvm.add_symbol(symbol, address)
@@ -156,7 +161,7 @@ def _abilities() -> str:
 
 
 def library(name: str) -> ModuleType:
-    """A module in C of numba, without the packages that it lies in."""
+    """A module in C of numba or scipy, without the packages that it lies in."""
     if name in sys.modules:
         return sys.modules[name]
     package, *inside, last = name.split(".")
