@@ -5,6 +5,10 @@ from __future__ import annotations
 import pytest
 from references.small_motions import OSCILLATOR
 
+from ssilang.cli.main import _compile_ahead
+from ssilang.kernel.base.compiled import beside, cache
+from ssilang.language.text.source import Source
+
 
 def test_a_file_alone_is_run(ssilang, script):
     done = ssilang(script("MESS 'sum ' (1 + 2) ;\n"))
@@ -248,3 +252,19 @@ def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert any(p.endswith(".png") for p in summary["pictures"])
     assert summary["figures"] == []
+
+
+@pytest.mark.parametrize(
+    ("script", "kept", "begun"),
+    [
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'joint' ;", False, ["interface"]),
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'JOINT' ;", True, []),
+        ("MESS 1 ;", False, []),
+    ],
+)
+def test_joints_are_compiled_while_the_script_is_read(monkeypatch, script, kept, begun):
+    entered = []
+    monkeypatch.setattr(beside.BESIDE, "enter", entered.append)
+    monkeypatch.setattr(cache, "is_compiled", lambda package: kept)
+    _compile_ahead(Source("deck", script))
+    assert entered == begun

@@ -101,7 +101,10 @@ def apart(function: Function) -> Function:
 
 
 def seldom(function: Function) -> Function:
-    """As `apart`, for one of several that few runs enter: a second process does not compile it."""
+    """As `apart`, for one of several that few runs enter: a second process is not told of it here.
+
+    `beside.tell_more` does where a model shows that it is entered.
+    """
     return _made(function, False)
 
 

@@ -87,12 +87,19 @@ class Beside:
             except OSError:  # it has ended: the run goes on alone
                 self.end()
 
+    @property
+    def helped(self) -> bool:
+        """Whether another process compiles for this one."""
+        return self._process is not None
+
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
         room = module.removeprefix(KERNEL).partition(".")[0]
         helped = self._process is not None or "beside" in ALLOWED
         if helped and self.found is None and room not in self._rooms:
             self._rooms.add(room)
+            if self._process is None:  # it gets ready meanwhile
+                self._start()
             for name, task in tasks_ahead(room):
                 self.tell(name, task)
 
@@ -192,8 +199,15 @@ BESIDE = Beside()
 
 
 def tell_ahead(room: str) -> None:
-    """Tell of functions that the run will call from Python: a room of `ahead.toml`."""
+    """Tell of functions that the run will call: a room of `ahead.toml`."""
     BESIDE.enter(room)
+
+
+def tell_more(*rooms: str) -> None:
+    """Tell of functions that one of several models needs, where there is another process."""
+    if BESIDE.helped:
+        for room in rooms:
+            BESIDE.enter(room)
 
 
 def tasks_ahead(room: str) -> list[Task]:

@@ -64,8 +64,18 @@ class _Options(compiler.Flags):
 class _Whole(JITCodeLibrary):
     """Code that is optimised once, when all that it calls is linked."""
 
+    counts = True  # references to arrays
+
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
+
+    def _optimize_final_module(self) -> None:
+        """Without numba's passes before all others where there are no counts for them to remove."""
+        if self.counts:
+            super()._optimize_final_module()
+        else:
+            passes, builder = self._codegen._module_pass_manager()
+            passes.run(self._final_module, builder)
 
 
 class _Part(_Whole):
@@ -87,6 +97,7 @@ class _Compiler(compiler.Compiler):
             BESIDE.enter(self.state.func_id.modname)
             codegen = self.state.targetctx.codegen()
             self.state.library = _Whole(codegen, self.state.func_id.func_qualname)
+            self.state.library.counts = self.state.flags.nrt
             self.state.library.enable_object_caching()
         return super()._compile_core()
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
@@ -124,7 +124,7 @@ def update_point(
     return True
 
 
-@apart
+@seldom
 @compiled
 def update_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse

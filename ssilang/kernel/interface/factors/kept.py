@@ -14,6 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, is_equal
@@ -53,6 +54,7 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LAR
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
     own = q if q <= few else 0  # of an inverse
     whole, changing = q - own, q if own == 0 and q >= large else 0
+    tell_more(*(["inverse"] if own else ["iterated"]), *(["changed"] if changing else []))
     return Factors(
         np.full((*shape, shape[1]), np.nan),
         LU(np.zeros((whole, whole)), np.zeros(whole, np.int64)),

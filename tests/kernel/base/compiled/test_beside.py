@@ -17,10 +17,11 @@ from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.factors.kept import new_factors
 from ssilang.kernel.stepping.run import integrate
 from tests.references.soil_block import soil_block
 
-ROOMS = ("interface", "solvers", "sparse")
+ROOMS = ("interface", "inverse", "iterated", "changed", "solvers", "sparse")
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
 
@@ -204,6 +205,20 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     run.enter("ssilang.kernel.solvers.dense")
     run.enter("ssilang.kernel.mesh.queries.select")  # of which nothing is known
     assert len(told) == len(tasks_ahead("solvers"))
+
+
+@pytest.mark.parametrize(
+    ("jumps", "rooms"),
+    [(100, ["inverse"]), (200, ["iterated"]), (400, ["iterated", "changed"])],
+)
+def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatch, jumps, rooms):
+    entered = []
+    monkeypatch.setattr(beside.BESIDE, "enter", entered.append)
+    new_factors((jumps // 2, 2), jumps)
+    assert not entered
+    monkeypatch.setattr(beside.BESIDE, "_process", Living(9))
+    new_factors((jumps // 2, 2), jumps)
+    assert entered == rooms
 
 
 def test_the_other_process_leaves_what_the_run_has_begun(tmp_path, monkeypatch):
