@@ -136,12 +136,14 @@ MESSAGES: dict[str, Message] = {
         "la fréquence {frequency:.4g} Hz est négative",
     ),
     "ground-not-elastic": Message(
-        "the ground has YOUNG and MASSE_VOLUMIQUE above 0, POISSON between -1 and 0.5",
-        "le sol a YOUNG et MASSE_VOLUMIQUE positifs, POISSON entre -1 et 0.5",
+        "the ground has YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g}: "
+        "the first two are above 0, POISSON between -1 and 0.5",
+        "le sol a YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g} : les "
+        "deux premiers sont positifs, POISSON entre -1 et 0.5",
     ),
     "size-of-base": Message(
-        "the base {shape} needs {name}, in metres, above zero",
-        "la base {shape} demande {name}, en mètres, positif",
+        "the base {shape} needs {name}, in metres, above zero{given:?, not {given}}",
+        "la base {shape} demande {name}, en mètres, positif{given:?, pas {given}}",
     ),
     "incoherence-sign": Message(
         "INCOHERENCE {gamma:.4g} and VITESSE_APPARENTE {speed:.4g} are not negative; a speed is "
@@ -166,6 +168,15 @@ MESSAGES: dict[str, Message] = {
         "put that duration of zeros before the record",
         "mettre cette durée de zéros avant le signal",
         severity="warning",
+    ),
+    "passage-impossible": Message(
+        "no wave passes at {speed:.4g} m/s on ground whose shear waves do {shear:.4g} m/s",
+        "aucune onde ne passe à {speed:.4g} m/s sur un sol dont les ondes de cisaillement vont à "
+        "{shear:.4g} m/s",
+        "VITESSE_APPARENTE is in m/s: Vs over the sine of the incidence, 1000 and more for most "
+        "quakes",
+        "VITESSE_APPARENTE est en m/s : Vs sur le sinus de l'incidence, 1000 et plus pour la "
+        "plupart des séismes",
     ),
     "passage-slow": Message(
         "waves pass at {speed:.4g} m/s, slower than Rayleigh's on this ground (shear waves: "
@@ -439,11 +450,13 @@ MESSAGES: dict[str, Message] = {
     ),
     "body-without-mass": Message(
         "the body at node {node} has no mass and only joints hold it: it follows its loads "
-        "at once, and is lost where all its joints open",
+        "at once, and is lost where all its joints open"
+        "{others:?; so {others:does|do} {others} {others:other|others}}",
         "le corps au noeud {node} n'a pas de masse et n'est tenu que par des joints : il "
-        "suit aussitôt son chargement, et se perd quand tous ses joints s'ouvrent",
-        "give its MASS",
-        "donnez sa masse (MASS)",
+        "suit aussitôt son chargement, et se perd quand tous ses joints s'ouvrent"
+        "{others:? ; de même {others} {others:autre|autres}}",
+        "give its MASS{others:?, or hold such bodies: BLOQ, RELA}",
+        "donnez sa masse (MASS){others:?, ou tenez de tels corps : BLOQ, RELA}",
         severity="warning",
     ),
     "motion-elsewhere": Message(

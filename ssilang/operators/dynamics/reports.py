@@ -188,9 +188,10 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
     if joints is not None:
         bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
     massless = [body for body in bodies if body.mass == 0.0]
-    for body in massless:
-        node = problem.numbering.table.told(body.node)
-        entries.warn("operators.dynamics.body-without-mass", node=node)
+    if massless:
+        node = problem.numbering.table.told(massless[0].node)
+        others = len(massless) - 1
+        entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
 

@@ -27,10 +27,11 @@ from ssilang.operators.models.materials import (
     material_names,
     parameter_name,
     refuse_outside,
+    unknown_parameter,
 )
 from ssilang.operators.models.mode import OF_JOINTS, Wish, read_word
 from ssilang.operators.models.units import warn_of_units
-from ssilang.operators.vocabulary.words import sample
+from ssilang.operators.vocabulary.words import known_parameters, sample
 
 _OTHERS = frozenset({"IMPEDANCE", "MODAL", "STATIQUE", "SECTION"})
 """Laws whose parameters are no numbers alone, or hang on what stands elsewhere."""
@@ -72,7 +73,7 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
     ----------
     pairs : iterable of (str, object)
         Names and values, stand-ins where only the run knows the value. Names that the zone does
-        not have may be those of the element that is not known here.
+        not have may be those of the element that is not known here, if any has them.
 
     Raises
     ------
@@ -87,6 +88,8 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
     said: dict[str, Any] = {}
     for written, value in pairs:
         name = parameter_name(written, known)
+        if not {name, written.upper().rstrip()} & {*known, *known_parameters()}:
+            raise unknown_parameter(call, written, Model((zone,)), material_names)
         if name not in known or (type(value) not in (int, float) and name in _curves(law)):
             continue
         number = type(value) in (int, float)

@@ -263,7 +263,7 @@ def _set_value(
     name = parameter_name(written, tuple(n for z in model.zones for n in known(z)))
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
     if not taking:
-        raise _unknown(call, written, model, known)
+        raise unknown_parameter(call, written, model, known)
     found = 0
     for i in taking:
         made = _values(call, model.zones[i], name, value)
@@ -275,7 +275,8 @@ def _set_value(
     return name
 
 
-def _unknown(call: Call, written: str, model: Model, known: Known) -> Exception:
+def unknown_parameter(call: Call, written: str, model: Model, known: Known) -> Exception:
+    """The refusal of a name that no zone of a model has, with the near ones."""
     name = written.upper().rstrip()
     if name == "ADHE" and any(z.formulation == "CONTACT" for z in model.zones):
         return call.error("operators.models.adherence-without-equation", written)

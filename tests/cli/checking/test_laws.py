@@ -35,6 +35,7 @@ REFUSED = {
     "angle in degrees": (BODY, "'PLASTIQUE' 'RH_COULOMB'", ELASTIC + "'COHE' 1.E4 'PHI' 30."),
     "softening joint": (JOINT, "'JOINT_SDM'", "'KN' 1.E6 'KS' 1.E6 'FU' 1.E5 'GF' 10."),
     "negative joint": (JOINT, "'JOINT_SDM'", "'KN' -1.E6 'KS' 1.E6"),
+    "misspelt parameter": (POINT, "'JOINT_SDM'", "'KM' 1.E6 'KS' 1.E6"),
     "bearing that stiffens": (POINT, "'APPUI_PLOMB'",
                               "'KN' 1.E9 'KS' 1.E6 'QD' 1.E5 'KPOS' 2.E6"),
 }  # fmt: skip
