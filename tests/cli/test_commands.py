@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from references.small_motions import OSCILLATOR
 
 
 def test_a_file_alone_is_run(ssilang, script):
@@ -21,18 +22,7 @@ def test_debug_shows_the_traceback_too(ssilang, script):
     assert "Traceback" in ssilang("run", script("y = 1 / 0 ;\n"), "--debug").err
 
 
-MASS_ON_A_SPRING = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
-P = 0. 0. ; Q = -1. 0. ; L = DROI 1 Q P ;
-MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
-MA = MATE MO 'YOUN' 4. 'NU' 0. 'SECT' 1. 'RHO' 0. ;
-T1 = TABL ;
-T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' 'UY' Q) ET (BLOQ 'UY' P) ;
-T1 . 'MASS' = MASS 'DEPL' 1. P ;
-T1 . 'VITE' = MANU 'CHPO' P 1 'UX' 1. ;
-T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 1. ;
-T2 = DYNAMIC T1 ;
-"""
+MASS_ON_A_SPRING = OSCILLATOR + "T2 = DYNAMIC T1 ;\n"
 
 
 def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script):

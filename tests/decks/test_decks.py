@@ -55,6 +55,7 @@ SPOILT = [
     ("published/mass_on_stop.ssi", "MASS 'DEPL' M1 PB", "MASS 'DEPL' (1.02 * M1) PB"),
     ("published/shaken_slider.ssi", "'FROT' MU0", "'FROT' (1.002 * MU0)"),
     ("published/newmark_by_hand.ssi", "MASS 'DEPL' M0 PB", "MASS 'DEPL' (1.005 * M0) PB"),
+    ("published/rocking_block.ssi", "'ROTA' (M0 *", "'ROTA' (1.02 * M0 *"),
     ("published/rocking_wall.ssi", "'ROTA' J0 PG", "'ROTA' (1.2 * J0) PG"),
     ("published/nafems_contact.ssi", "'YOUN' 70000.", "'YOUN' 71000."),
     ("published/wave_in_column.ssi", "'YOUNG' = YOU0", "'YOUNG' = 1.2 * YOU0"),
@@ -86,6 +87,7 @@ SHORTER = {
     "club_cast3m_2014/club_b_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
     "club_cast3m_2014/club_c_sdm.ssi": ("DUREE = 1. ;", "DUREE = 0.15 ;"),
     "published/nafems_contact.ssi": ("0.5 1.) ;", "1.) ;"),
+    "published/rocking_block.ssi": ("REPE BA 2", "REPE BA 1"),
     "published/rocking_wall.ssi": ("'PAS' 2.5E-5 3.6", "'PAS' 1.E-4 3.6"),
     "published/shaken_slider.ssi": ("'PAS' 2.5E-5 12.", "'PAS' 1.E-4 12."),
     "seismic/reactor.ssi": (

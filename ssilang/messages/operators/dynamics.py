@@ -474,6 +474,28 @@ MESSAGES: dict[str, Message] = {
         "VITEUNIL = FAUX",
         severity="warning",
     ),
+    "impacts-change-energy": Message(
+        "impacts on 'MINI' or 'MAXI' relations changed the energy by {share:.2g} %: the motion "
+        "after them depends on the step",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
+        "mouvement qui les suit dépend du pas",
+        "joints with 'JOINT_SDM' in place of the relations, or 'CONSERVATIF' = VRAI; a shorter "
+        "step alone does not help",
+        "des joints 'JOINT_SDM' à la place des relations, ou 'CONSERVATIF' = VRAI ; un pas plus "
+        "court seul n'y fait rien",
+        severity="warning",
+    ),
+    "impacts-uncorrected": Message(
+        "impacts on 'MINI' or 'MAXI' relations brought {share:.2g} % of energy: this scheme does "
+        "not correct velocities",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont apporté {share:.2g} % d'énergie : ce "
+        "schéma ne corrige pas les vitesses",
+        "the average acceleration does: leave ALPHA_F, RHO_INF, BETA and GAMMA; or "
+        "'CONSERVATIF' = VRAI",
+        "l'accélération moyenne le fait : retirez ALPHA_F, RHO_INF, BETA et GAMMA ; ou "
+        "'CONSERVATIF' = VRAI",
+        severity="warning",
+    ),
     "conserving-or-persistent": Message(
         "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
         "'CONTACT_PERSISTANT' prend de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",
@@ -508,6 +530,46 @@ MESSAGES: dict[str, Message] = {
         "{conserving:?l'énergie est gardée ; dt <= T_c/30 = {wanted_dt:.3g} s suit aussi le contact"
         "|dt <= T_c/30 = {wanted_dt:.3g} s garde l'énergie ; ou CONSERVATIF, un joint plus souple}",
         severity="warning",
+    ),
+    "energies-out-of-balance": Message(
+        "{procedure}{number:?, calculation {number} of this run}: energies are out of balance by "
+        "{energy} % of the largest one{amount:? ({amount})}",
+        "{procedure}{number:?, calcul {number} de ce jeu} : les énergies ont un écart de {energy} "
+        "% de la plus grande{amount:? ({amount})}",
+        "likely: {causes:;}\nwhen it happens: TAB1 . 'ENERGIES' . 'ECART', beside 'TEMPS'",
+        "sans doute : {causes:;}\nquand cela arrive : TAB1 . 'ENERGIES' . 'ECART', à côté de "
+        "'TEMPS'",
+        severity="warning",
+    ),
+    "imbalance-joint": Message(
+        "a step too long for the joint (T_c/30 keeps energy, or CONSERVATIF, or a softer joint)",
+        "un pas trop long pour le joint (T_c/30 garde l'énergie, ou CONSERVATIF, ou un joint plus "
+        "souple)",
+    ),
+    "imbalance-stops": Message(
+        "a step too long for what strikes (a shorter one, or CONSERVATIF)",
+        "un pas trop long pour les chocs (un pas plus court, ou CONSERVATIF)",
+    ),
+    "imbalance-velocities": Message(
+        "velocities corrected at impacts, which takes energy (VITEUNIL, CONTACT_PERSISTANT)",
+        "des vitesses corrigées aux chocs, ce qui prend de l'énergie (VITEUNIL, "
+        "CONTACT_PERSISTANT)",
+    ),
+    "imbalance-scheme": Message(
+        "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA), which is in no account",
+        "l'amortissement propre au schéma (ALPHA_F, RHO_INF, GAMMA), qui n'est compté nulle part",
+    ),
+    "imbalance-added": Message(
+        "what CHARMECA adds to matrices and loads, whose energy is in no account",
+        "ce que CHARMECA ajoute aux matrices et aux charges, dont l'énergie n'est comptée nulle "
+        "part",
+    ),
+    "imbalance-step": Message(
+        "a step too long for the motion", "un pas trop long pour le mouvement"
+    ),
+    "imbalance-load-steps": Message(
+        "the work of loads is taken along straight lines from one load step to the next",
+        "le travail des charges est pris en ligne droite d'un pas de charge au suivant",
     ),
     "compiling": Message(
         "compiling the time loop, once on this machine (5 to 40 s)",

@@ -25,20 +25,15 @@ from ssilang.kernel.interface.factors.changed import (
     forget_changes,
     solve_changed,
 )
-from ssilang.kernel.interface.factors.inverse import (
-    Inverse,
-    apply_inverse,
-    update_inverse,
-)
+from ssilang.kernel.interface.factors.inverse import Inverse, apply_inverse, update_inverse
 from ssilang.kernel.interface.factors.krylov import Krylov, new_krylov, pays, solve_iterated
 from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.solvers.dense import (
-    solve_factors,
-)
+from ssilang.kernel.solvers.dense import solve_factors
 
 FEW = 160  # jumps up to which an inverse is kept
 LARGE = 300  # jumps from which factors are changed rather than made again
+FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
 
 
 class Factors(NamedTuple):
@@ -110,9 +105,8 @@ def solve_tangent(
             found = solve_changed(joints, condensed, D, known, lu, factors.changes, x)
             if found != TOO_MANY:
                 return found == DONE
-        S, c = condensed.S, condensed.c
         if pays(factors.krylov, D) and solve_iterated(
-            joints, S, c, D, known, lu, factors.krylov, x, enough
+            joints, condensed, D, known, lu, factors.krylov, x, enough
         ):
             return True
     if not same:
