@@ -113,9 +113,9 @@ def test_limits_are_options(ssilang, script):
 
 
 def test_memory_is_bounded_by_option(process, script):
-    text = "l1 = PROG 0. PAS 1.E-6 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
+    text = "l1 = PROG 4000000 * 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
     big = script(text)
-    done = process("run", big, "--max-memory", "1500")
+    done = process("run", big, "--max-memory", "1000")
     assert done.code == 1
     assert "memory" in done.err
 
