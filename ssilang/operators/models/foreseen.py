@@ -16,7 +16,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.behaviours import UNIAXIAL_LAWS, normalised
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.language.run.call import Call
