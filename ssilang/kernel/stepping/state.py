@@ -125,7 +125,7 @@ def recorder_of(
 class Room:
     """Memory for rows of taps that follow each other, taken in pieces that the system maps fast.
 
-    A piece holds all parts of its rows.
+    Parts of the same rows lie side by side: few places are new at a time.
 
     Parameters
     ----------
@@ -134,32 +134,23 @@ class Room:
     """
 
     def __init__(self, rows: int) -> None:
-        self._left, self._free = rows, 0
-        self._shapes: dict[str, tuple[int, ...]] = {}
-        self._parts: dict[str, FloatArray] = {}
+        self._left, self._free = rows, np.empty(0)
 
     def tap(self, row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
         """Room for the rows, numbered without gaps, not set; `shapes` of the parts kept."""
         rows = int(row.max(initial=-1)) + 1
-        if self._free < rows or self._shapes != shapes:
-            self._begin_piece(rows, shapes)
-        parts = {name: np.empty(NO_ROWS[name]) for name in PARTS if name not in shapes}
-        for name in shapes:
-            free = self._parts[name]
-            parts[name], self._parts[name] = free[:rows], free[rows:]
-        self._free -= rows
-        self._left -= rows
-        return Tap(row, at, **parts)
-
-    def _begin_piece(self, rows: int, shapes: dict[str, tuple[int, ...]]) -> None:
         sizes = {name: math.prod(shape) for name, shape in shapes.items()}
         each, first = sum(sizes.values()), 0
-        self._free = max(rows, min(self._left, PIECE // max(8 * each, 1)))
-        self._shapes, memory = dict(shapes), numbers(self._free * each)
+        if len(self._free) < rows * each:
+            self._free = numbers(max(rows, min(self._left, PIECE // (8 * each))) * each)
+        parts = {name: np.empty(NO_ROWS[name]) for name in PARTS if name not in shapes}
         for name, size in sizes.items():
-            last = first + self._free * size
-            self._parts[name] = memory[first:last].reshape(self._free, *shapes[name])
+            last = first + rows * size
+            parts[name] = self._free[first:last].reshape(rows, *shapes[name])
             first = last
+        self._free = self._free[first:]
+        self._left -= rows
+        return Tap(row, at, **parts)
 
 
 def numbers(n: int) -> FloatArray:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -392,9 +392,8 @@ class Taps:
     looked_at: bool = field(init=False)
 
     def __post_init__(self) -> None:
-        self.wanted = np.zeros(self.n_times, bool)
-        for track in self.tracks:
-            self.wanted |= track.wanted
+        times = [track.wanted for track in self.tracks] or [np.zeros(self.n_times, bool)]
+        self.wanted = reduce(np.logical_or, times)
         asked = [track.unknowns for track in self.tracks]
         self.unknowns = np.unique(np.concatenate([np.zeros(0, np.int64), *asked]))
         rows, width = int(np.count_nonzero(self.wanted)), len(self.unknowns)
