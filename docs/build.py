@@ -32,7 +32,7 @@ from ssilang.language.say.reference import (
     procedure_page,
 )
 from ssilang.language.vocabulary.entries import read_declaration
-from ssilang.language.vocabulary.entries_table import entries_markdown
+from ssilang.language.vocabulary.entries_table import entries_markdown, tables_markdown
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
@@ -90,9 +90,16 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
     lines += [] if declared is None else entries_markdown(declared, "en")
     for ran in examples:
         lines += _example(ran)
+    lines += _tables(page, "en")
     lines += ["## En français", "", page.help.fr.replace("\n", "\n\n"), ""]
     lines += [] if declared is None else entries_markdown(declared, "fr")
+    lines += _tables(page, "fr")
     return "\n".join(lines)
+
+
+def _tables(page: Page, language: str) -> list[str]:
+    """What the operator has declared elsewhere."""
+    return [] if page.help.tables is None else tables_markdown(page.help.tables(language))
 
 
 def _arguments(page: Page) -> list[str]:

@@ -240,6 +240,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     seconds = time.perf_counter() - session.started - session.away()
     result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
     if summary and not refused:  # what stands there is the other run's
+        _tell_imbalance(session)
         _summarise(result, source, err, options.quiet)
         if options.report:
             _report(result, err, options.quiet)
@@ -461,15 +462,48 @@ def write_report(folder: Path, language: str) -> str:
     return visible(sentence("report.written", told, language))
 
 
+def _tell_imbalance(session: Session) -> None:
+    """Warn of the motion whose energies are out of balance most, if any is beyond the limit."""
+    calculations: list[dict[str, Any]] = session.statistics.get("calculations", [])
+    found = [c for c in calculations if "energy_imbalance_from" in c and not c["static"]]
+    if not found:
+        return
+    worst = max(found, key=_imbalance)
+    told = {
+        "procedure": worst["procedure"],
+        "number": calculations.index(worst) + 1 if len(calculations) > 1 else "",
+        "causes": worst["energy_imbalance_from"],
+        **_energy(session, [worst]),
+    }
+    warning = SsiError("operators.dynamics.energies-out-of-balance", None, **told)
+    with suppress(ReaderLeft):  # it is in the summary
+        session.report(warning)
+
+
+def _imbalance(calculation: dict[str, Any]) -> float:
+    return float(calculation["energy_imbalance"] or 0.0)
+
+
 def _energy(session: Session, calculations: list[dict[str, Any]]) -> dict[str, str]:
-    """The worst imbalance, in per cent and, where OPTI 'UNIT' names units, as an energy."""
+    """The worst imbalance: per cent, where OPTI 'UNIT' names units an energy, what makes it.
+
+    Motions beyond the limit come before load steps of statics, whose work is only approximate.
+    """
     from ssilang.operators.workspace import workspace
 
     found = [c for c in calculations if c.get("energy_imbalance")]
     if not found:
-        return {"energy": "", "amount": ""}
-    worst, units = max(found, key=lambda c: c["energy_imbalance"]), workspace(session).units
-    told = {"energy": f"{100.0 * worst['energy_imbalance']:.2g}", "amount": ""}
+        return {"energy": "", "amount": "", "off": "", "steps": ""}
+    off = [c for c in found if "energy_imbalance_from" in c]
+    worst = max([c for c in off if not c["static"]] or found, key=_imbalance)
+    units = workspace(session).units
+    share = 100.0 * worst["energy_imbalance"]
+    told = {
+        "energy": f"{share:.0f}" if 10.0 <= share < 1e6 else f"{share:.2g}",
+        "amount": "",
+        "off": "off" if worst in off and not worst["static"] else "",
+        "steps": worst["energy_imbalance_from"] if worst in off and worst["static"] else "",
+    }
     if units is not None:
         amount = worst["energy_imbalance_joules"] / units.factor("J")
         told["amount"] = f"{amount:.2g} {units.written('J')}"

@@ -346,13 +346,27 @@ class When:
 
 
 @dataclass(frozen=True, slots=True)
+class HelpTable:
+    """A table of help: a title, what to say before it, heads of columns, rows; the first names."""
+
+    title: str
+    note: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Help:
-    """Help of an operator in two languages, shown by INFO, `ssilang help` and the manual."""
+    """Help of an operator in two languages, shown by INFO, `ssilang help` and the manual.
+
+    `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page.
+    """
 
     en: str
     fr: str
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
+    tables: Callable[[str], Sequence[HelpTable]] | None = None
 
     def told(self, language: str) -> str:
         """What it says in 'en' or 'fr'."""
@@ -510,6 +524,7 @@ class Operator:
             "\n".join(h.fr for h in helps if h.fr),
             "\n".join(h.syntax for h in helps if h.syntax),
             tuple(e for h in helps for e in h.examples),
+            next((h.tables for h in helps if h.tables is not None), None),
         )
 
     def form(
@@ -578,6 +593,7 @@ class Operator:
             "\n".join(t for t in (old.fr, fr) if t),
             "\n".join(t for t in (old.syntax, syntax) if t),
             (*old.examples, *examples),
+            old.tables,
         )
 
     def _add(self, made: Form, ahead: bool) -> None:

@@ -83,10 +83,11 @@ MESSAGES: dict[str, Message] = {
     ),
     "files-written": Message(
         "{count} {count:file|files} in {folder}, {warnings} {warnings:warning|warnings}"
-        "{energy:?, energy within {energy} %}{amount:? ({amount})}",
+        "{energy:?, {off:?energies out of balance by|energy within} {energy} %}"
+        "{amount:? ({amount})}{steps:?: {steps}}",
         "{count} {count:fichier|fichiers} dans {folder}, {warnings} "
-        "{warnings:avertissement|avertissements}{energy:?, énergie à {energy} % près}"
-        "{amount:? ({amount})}",
+        "{warnings:avertissement|avertissements}{energy:?, {off:?écart des énergies de {energy} %|"
+        "énergie à {energy} % près}}{amount:? ({amount})}{steps:? : {steps}}",
     ),
     "runs": Message("runs", "calculs"),
     # ---- the interactive session

@@ -16,6 +16,10 @@ MESSAGES: dict[str, Message] = {
     # ---- tables of entries
     "column-index": Message("index", "indice"),
     "column-types": Message("types", "types"),
+    "column-parameter": Message("parameter", "paramètre"),
+    "column-range": Message("range", "domaine"),
+    "parameters-besides": Message("as {law}, and", "comme {law}, et"),
+    "parameters-of": Message("as {law}", "comme {law}"),
     "column-unit": Message("unit", "unité"),
     "column-default": Message("default", "défaut"),
     "column-meaning": Message("meaning", "sens"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import signal
@@ -14,8 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ssilang.cli.run import RunOptions, run_file
+from ssilang.cli.run import RunOptions, run_file, run_source
 from ssilang.cli.summary import plain
+from ssilang.language.text.source import Source
+from ssilang.operators.dynamics.reports import ENERGY_LIMIT
 
 SCRIPT = """
 X = PROG 1. 2. ;
@@ -139,3 +142,80 @@ def test_energy_from_nowhere_is_told_beside_the_largest_and_in_joules(tmp_path: 
     largest = line["energy_imbalance_joules"] / line["energy_imbalance"]
     assert largest == pytest.approx(0.02, rel=1e-4)
     assert 0.0 < line["energy_imbalance"] < 1e-9
+
+
+# ---- energies out of balance: a unit mass falls 1 mm under 10 N onto a joint of 1e6 N/m
+
+FALL = """OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 0. 1. ; L = DROI 1 P1 P2 ;
+MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ; MA = MATE MO 'KN' 1.E6 'KS' 0. ;
+T = TABL ; T . 'RIGI' = (BLOQ 'DEPL' P1) ET (BLOQ 'UX' P2) ; T . 'MASS' = MASS 'DEPL' 1. P2 ;
+T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'DEPL' = MANU 'CHPO' P2 1 'UY' 1.E-3 ;
+T . 'CHAR' = CHAR 'MECA' (FORC (0. -10.) P2) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' {step} 0.03 ; {scheme}R = DYNAMIC T ;
+"""
+PULL = """OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 0. 1. ; L = DROI 1 P1 P2 ;
+MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ; MA = MATE MO 'KN' 900. 'KS' 0. ;
+T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
+T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' P1) ET (BLOQ 'UX' P2) ET (RIGI 'DEPL' 100. P2) ;
+T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. 10.) P2) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. -1. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ;
+"""
+
+
+def closing(tmp_path: Path, deck: str, language: str = "en") -> tuple[str, dict[str, Any]]:
+    told, options = io.StringIO(), RunOptions(tmp_path, language=language, summary=True)
+    assert run_source(Source("deck", deck), options, io.StringIO(), told).exit_code == 0
+    return told.getvalue(), json.loads((tmp_path / "summary.json").read_text())
+
+
+@pytest.mark.parametrize(
+    ("language", "expected"),
+    [
+        ("en", ("warning: DYNAMIC: energies are out of balance by ", "likely: a step too long for "
+                "the joint", "2 warnings, energies out of balance by ")),
+        ("fr", ("avertissement : DYNAMIC : les énergies ont un écart de ", "sans doute : un pas "
+                "trop long pour le joint", "2 avertissements, écart des énergies de ")),
+    ],
+)  # fmt: skip
+def test_a_motion_whose_energies_are_out_of_balance_ends_with_a_warning(
+    tmp_path: Path, language: str, expected: tuple[str, ...]
+) -> None:
+    """The step is three times the contact's half period: energy comes from nowhere."""
+    told, made = closing(tmp_path, FALL.format(step="0.01", scheme=""), language)
+    for part in expected:
+        assert part in told
+    assert told.splitlines()[-1].split(", ")[-1].startswith(expected[-1].split(", ")[-1])
+    codes = [w["code"] for w in made["warnings"]]
+    assert codes[-1] == "operators.dynamics.energies-out-of-balance"
+    (line,) = made["statistics"]["calculations"]
+    assert line["energy_imbalance"] > ENERGY_LIMIT
+    assert len(line["energy_imbalance_from"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("step", "scheme"), [("2.E-5", ""), ("0.01", "T . 'CONSERVATIF' = VRAI ; ")]
+)
+def test_energies_in_balance_end_without_one(tmp_path: Path, step: str, scheme: str) -> None:
+    told, made = closing(tmp_path, FALL.format(step=step, scheme=scheme))
+    assert ", energy within " in told.splitlines()[-1]
+    assert "out of balance" not in told
+    assert "energy_imbalance_from" not in made["statistics"]["calculations"][0]
+
+
+def test_the_scheme_s_own_damping_is_named_beside_the_step(tmp_path: Path) -> None:
+    told, _ = closing(tmp_path, FALL.format(step="0.01", scheme="T . 'RHO_INF' = 0.5 ; "))
+    assert "a step too long for the joint" in told
+    assert "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA)" in told
+
+
+def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path: Path) -> None:
+    """Pressed by 10 N onto 1000 N/m, then pulled to 0.1 m of 100 N/m in one step.
+
+    At the end 0.5 J is stored; to -10 mm the work is 0.05 J, then along the straight line
+    0: the balance is open by 0.45 of 0.5 J.
+    """
+    told, made = closing(tmp_path, PULL)
+    last = told.splitlines()[-1]
+    assert "0 warnings, energy within 90 %: the work of loads is taken along straight " in last
+    assert made["statistics"]["calculations"][0]["energy_imbalance"] == pytest.approx(0.9)
+    assert made["warnings"] == []

@@ -173,3 +173,10 @@ def test_the_tables_of_the_manual_have_a_row_for_each_entry(language):
         if entry.index not in (NUMBER, ANYTHING):
             assert entry.index in text
         assert entry.said(language).replace("|", "\\|") in text
+
+
+def test_procedures_that_a_table_comes_from_declare_tables_of_their_own():
+    coming = {(name, a.name): a.after for name in NAMES for a in DECLARED[name].arguments}
+    assert coming["HBM_POST", "TAB1"] == ("HBM", "CONTINU")
+    for place, before in coming.items():
+        assert set(before) <= set(NAMES) - {place[0]}

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
+
 import pytest
 
-from ssilang.cli.run import run_text
+from ssilang.cli.run import RunOptions, make_session, phrase_values, run_text
 from ssilang.language.near import meant, slips
 from ssilang.language.say.diagnostics import sentence
+from ssilang.language.text.source import Source
 
 OSCILLATOR = """
 OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; T1 = TABL ;
@@ -150,3 +153,29 @@ def test_an_entry_without_effect_here_that_the_script_reads_itself_is_no_warning
     result = run_text(BLOCK + more + "PASAPAS T1 ;")
     assert result.exit_code == 0, result.message
     assert not [w for w in result.session.warnings if w.code == "entries-without-effect"]
+
+
+HARMONICS = (
+    """OPTI DIME 2 ELEM SEG2 MODE PLAN ; P1 = 0. 0. ; T1 = TABL ;
+    T1 . 'RIGIDITE_CONSTANTE' = MANU 'RIGI' P1 (MOTS 'UY') (PROG 4.) ;
+    T1 . 'MASSE_CONSTANTE' = MASS 'UY' 1. P1 ; T1 . 'N_HARMONIQUE' = 1 ;
+    T1 . 'AMORTISSEMENT_CONSTANT' = MANU 'RIGI' P1 (MOTS 'UY') (PROG 0.4) ;
+    T1 . 'RESULTATS' = TABL ; T1 . 'RESULTATS' . 1 = TABL ;
+    T1 . 'RESULTATS' . 1 . 'POINT_MESURE' = P1 ; T1 . 'RESULTATS' . 1 . 'COMPOSANTES' = MOT 'UY' ;
+    HBM T1 ; F1 = MANU 'CHPO' P1 1 'F2' 1. 'NATURE' 'DISCRET' ;
+    T1 . 'CHARGEMENT' = CHAR 'MECA' F1 (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;
+    T1 . 'TEMPS_CALCULES' = PROG 1. PAS 0.5 2. ; T1 . 'MAXI_DEPLACEMENT' = 1. ;""",
+    "CONTINU T1 ;",
+    "T1 . 'N_PT_POTS' = 64 ; HBM_POST T1 ;",
+)
+
+
+def test_what_had_the_table_in_an_earlier_cell_owns_its_entries():
+    """HBM_POST reads a table that HBM and CONTINU filled, though its cell names neither."""
+    session = make_session(Source("cell", ""), RunOptions(), io.StringIO())
+    for cell in HARMONICS:
+        phrase_values(session, Source("cell", cell))
+    found = [" = ".join(sentence(w, "en")) for w in session.warnings if w.code.startswith("entry")]
+    assert len(found) == 1
+    assert "'N_PT_POTS'" in found[0]
+    assert "'N_PT_POST'" in found[0]

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
+from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
 from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.language import vocabulary
+from ssilang.language.registry import find_operator
+from ssilang.language.say.reference import operator_page, page_text
 from ssilang.language.vocabulary.examples import EXAMPLES, example
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
 from ssilang.operators.loader import load_operators
@@ -19,6 +24,7 @@ from ssilang.operators.models.contact import METHODS
 from ssilang.operators.models.mode import LAW_WORDS
 from ssilang.operators.session.options import READERS
 from ssilang.operators.vocabulary import words
+from ssilang.operators.vocabulary.law_tables import law_tables
 from ssilang.operators.vocabulary.pages import exact_pages, help_text, near_name, vocabulary_text
 
 load_operators()
@@ -254,3 +260,41 @@ def test_a_misspelt_component_of_a_force_gets_a_near_name(tmp_path):
 def test_components_of_ones_own_are_taken(tmp_path):
     text = "OPTI DIME 2 ; P = 0. 0. ; U = MANU 'CHPO' P 1 'MINE' 2. ; V = EXCO 'MINE' U 'UX' ;"
     assert run_text(text, output_directory=tmp_path).exit_code == 0
+
+
+# ---- the tables of MATE: what the laws of the kernel take, under the words of MODE
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_the_help_of_mate_has_a_table_of_each_law(language):
+    tables = {t.title.split(" : ")[0]: t for t in law_tables(language)}
+    assert {f"PLASTIQUE {name}" for name in PLASTIC_LAWS} - set(tables) == {"PLASTIQUE SECTION"}
+    assert {f"FLUAGE {name}" for name in CREEP_LAWS} <= set(tables)
+    assert {"ELASTIQUE", *(f"ELASTIQUE {n}" for n in JOINT_LAWS if n != "ELASTIQUE")} <= set(tables)
+    told = page_text(operator_page(find_operator("MATE")), language)
+    for title, table in tables.items():
+        assert f"  {title} : " in told
+        assert all(len(row) == len(table.heads) and row[0] and row[4] for row in table.rows)
+
+
+def whole(tables, title):
+    """Names of a law's parameters, with those of the law that its note names."""
+    table = tables[title]
+    names = {row[0] for row in table.rows}
+    like = re.match(r"as (.*?)(, and)?$", table.note)
+    return names | whole(tables, like.group(1)) if like else names
+
+
+def test_the_tables_of_mate_hold_what_the_kernel_asks_for():
+    tables = {t.title.split(" : ")[0]: t for t in law_tables("en")}
+    for name, law in PLASTIC_LAWS.items():
+        if name != "SECTION":
+            assert {*law.required, *law.defaults} <= whole(tables, f"PLASTIQUE {name}")
+    for name in JOINT_LAWS:
+        assert {"KN", "KS"} <= whole(tables, " ".join(dict.fromkeys(("ELASTIQUE", name))))
+    rows = {row[0]: row for row in tables["PLASTIQUE CAM_CLAY"].rows}
+    assert rows["P0"] == (
+        "P0", "Pa", "required", "P0 > 0", "Preconsolidation pressure of the start, positive",
+    )  # fmt: skip
+    assert "YOUN" not in rows  # of isotropic elasticity
+    assert [row[0] for row in tables["PLASTIQUE IWAN_PRESSION"].rows] == ["PREF"]

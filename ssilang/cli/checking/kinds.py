@@ -40,6 +40,12 @@ class AnyWord(Mot):
 ANY_WORD = AnyWord("?")
 
 
+@cache
+def known_model(words: tuple[str, ...]) -> Any:
+    """A stand-in for a model of which the words behind MODE are known."""
+    return type("MMODEL", (), {"__slots__": (), "words": words})()
+
+
 _ACTIVE = frozenset({"PROCEDUR", "TEXTE", "ANNULE"})  # what they do depends on which one it is
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ssilang.cli.checking.kinds import (
@@ -12,6 +12,7 @@ from ssilang.cli.checking.kinds import (
     Ambiguous,
     AnyWord,
     kind_word,
+    known_model,
     one_of,
     typed,
 )
@@ -148,8 +149,35 @@ class PhraseReader:
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
             self._free(results, operand, call)
-        else:
-            self._push(results, operand.span, call)
+            return
+        self._push(results, operand.span, call)
+        foresee = _FORESEEN.get(found.name)
+        if foresee is not None:
+            foresee(self, bound.values, call)
+
+    def _model(self, values: Mapping[str, Any], call: AbstractCall) -> None:
+        """The words of MODE go on to MATE: they say the law."""
+        words = tuple(str(word) for word in values["said"])
+        if "mesh" in values and kind_word(call.operands[0].value) == "MMODEL":
+            call.operands[0].value = known_model(words)
+
+    def _material(self, values: Mapping[str, Any], call: AbstractCall) -> None:
+        """Let the law of the model look at the numbers of MATE, as a run does."""
+        from ssilang.operators.models.foreseen import foreseen_zone, refuse_constants
+
+        words = getattr(values["model"], "words", None)
+        zone = None if words is None else foreseen_zone(call, words)
+        if zone is None:
+            return
+        evaluator, before = self.session.evaluator, len(self.session.warnings)
+        pairs = [(str(name), value) for name, value in values["pairs"]]
+        try:
+            evaluator.guarded(lambda: refuse_constants(call, zone, pairs), call.span, call.name)
+        except SsiError as error:
+            self.report(error)
+        for warning in self.session.warnings[before:]:
+            self.report(warning)
+        del self.session.warnings[before:]
 
     @staticmethod
     def _bound(found: Operator, call: AbstractCall) -> Bound:
@@ -344,3 +372,10 @@ class PhraseReader:
         for index in item.indices:
             if isinstance(index, tree.Paren):
                 self._paren(index, scope)
+
+
+_FORESEEN: Mapping[str, Callable[[PhraseReader, Mapping[str, Any], AbstractCall], None]] = {
+    "MODE": PhraseReader._model,
+    "MATE": PhraseReader._material,
+}
+"""Operators of whose results, or values, more is known before a run than types."""

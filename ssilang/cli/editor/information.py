@@ -93,7 +93,7 @@ class Reader:
         page = find_page(word, self.library.standard_files)
         if page is None or not (page.name == word.rstrip() or page.full_name.startswith(word)):
             return ""
-        return markdown(page_text(page, self.language))
+        return markdown(page_text(page, self.language, whole=False))
 
     def _words(self, kinds: Iterable[str], word: str) -> str:
         found = [(k, w) for k in kinds for w in vocabulary.meanings(k, word)]

@@ -24,7 +24,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
-from ssilang.language.vocabulary.entries_table import entries_text
+from ssilang.language.vocabulary.entries_table import entries_text, tables_text
 from ssilang.messages.message import spoken, teller
 
 WIDTH = 88
@@ -130,8 +130,8 @@ def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
     return operator_page(found) if found is not None else None
 
 
-def page_text(page: Page, language: str) -> str:
-    """A page as plain text, at most `WIDTH` columns."""
+def page_text(page: Page, language: str, whole: bool = True) -> str:
+    """A page as plain text, at most `WIDTH` columns; `whole`: with the tables of its help."""
     kind = teller(language)(f"help.{page.kind}")
     title = page.title if language == "en" else ""
     full = f" ({page.full_name})" if page.full_name != page.name else ""
@@ -151,6 +151,8 @@ def page_text(page: Page, language: str) -> str:
     for example in page.help.examples:
         lines += ["", teller(language)("help.example")]
         lines += ["    " + line for line in example_lines(example)]
+    if whole and page.help.tables is not None:
+        lines += tables_text(page.help.tables(language), TABLE_WIDTH)
     return "\n".join(lines)
 
 

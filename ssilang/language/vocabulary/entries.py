@@ -13,7 +13,9 @@ of its full name. A section says where an entry stands, as a script would write 
     [TAB1.problem."F1,F2"]                   two entries of which the same is said
 
 `like` takes entries over from another file, of all themes or of those named behind it; in the
-section of an argument these are its own, in that of an entry those of the table it holds.
+section of an argument these are its own, in that of an entry those of the table it holds. `after`
+in the section of an argument names procedures that its table comes from: what these have in it is
+theirs, and no entry of this one that would be misspelt.
 """
 
 from __future__ import annotations
@@ -131,10 +133,14 @@ class TableEntry:
 
 @dataclass(frozen=True)
 class Argument:
-    """A table that a procedure takes: name of its argument, or the sub-type it goes by."""
+    """A table that a procedure takes: name of its argument, or the sub-type it goes by.
+
+    `after` are procedures that have worked on it before.
+    """
 
     name: str
     subtype: str = ""
+    after: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -164,6 +170,10 @@ class Declaration:
         if type(index) is int and NUMBER in known:
             return known[NUMBER]
         return None if index == "SOUSTYPE" else known.get(ANYTHING)
+
+    def after(self, argument: str) -> tuple[str, ...]:
+        """Procedures that the table of an argument comes from."""
+        return next((a.after for a in self.arguments if a.name == argument), ())
 
     def of(self, argument: str) -> Iterator[TableEntry]:
         """Entries of one argument, those of nested tables behind the table."""
@@ -212,9 +222,13 @@ def read_declaration(name: str) -> Declaration | None:
     arguments = []
     for argument, section in data.items():
         found = _entries_of(section, (argument,))
-        arguments.append(Argument(argument, section.get("subtype", "")))
+        arguments.append(_argument(argument, section))
         entries += {e.path: e for e in found}.values()  # what is said last holds
     return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)))
+
+
+def _argument(name: str, section: dict[str, Any]) -> Argument:
+    return Argument(name, section.get("subtype", ""), tuple(section.get("after", ())))
 
 
 def _in_order(entries: list[TableEntry]) -> list[TableEntry]:
@@ -226,7 +240,7 @@ def _in_order(entries: list[TableEntry]) -> list[TableEntry]:
 def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[TableEntry]:
     yield from _like(section.get("like", ()), path, "")
     for theme, members in section.items():
-        if theme in ("like", "subtype"):
+        if theme in ("like", "subtype", "after"):
             continue
         for names, said in members.items():
             for written in names.split(","):

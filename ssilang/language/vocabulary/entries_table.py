@@ -1,11 +1,12 @@
-"""The entries of a procedure's tables as a table by theme: for help, and for the manual."""
+"""The entries of a procedure's tables by theme, and other tables of help: text, and Markdown."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
+from ssilang.language.registry import HelpTable
 from ssilang.language.vocabulary.entries import (
     ANYTHING,
     NUMBER,
@@ -58,12 +59,39 @@ def entries_markdown(declared: Declaration, language: str) -> list[str]:
         lines += [f"## {_title(declared, argument.name, language)}", ""]
         for theme, rows in blocks:
             lines += [f"### {teller(language)(f'help.theme-{theme}')}", ""]
-            lines += ["| " + " | ".join(_heads(language)) + " |", "| --- " * 5 + "|"]
-            for row in rows:
-                cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
-                lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
-            lines.append("")
+            lines += _markdown(_heads(language), rows)
     return lines
+
+
+def tables_text(tables: Sequence[HelpTable], width: int) -> list[str]:
+    """Lines of tables of the same columns, the heads before the first."""
+    rows = [row for table in tables for row in table.rows]
+    if not rows:
+        return []
+    widths = _widths([tables[0].heads, *rows], width)
+    lines = ["", *_laid_out(tables[0].heads, widths)]
+    for table in tables:
+        lines += ["", f"  {table.title}", *([f"    {table.note}"] if table.note else [])]
+        lines += [line for row in table.rows for line in _laid_out(row, widths)]
+    return lines
+
+
+def tables_markdown(tables: Sequence[HelpTable]) -> list[str]:
+    """The same as Markdown."""
+    lines: list[str] = []
+    for table in tables:
+        lines += [f"### {table.title}", "", *([f"{table.note}.", ""] if table.note else [])]
+        lines += _markdown(table.heads, table.rows) if table.rows else []
+    return lines
+
+
+def _markdown(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """A table whose first column names."""
+    lines = ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
+    for row in rows:
+        cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
+        lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
+    return [*lines, ""]
 
 
 def _heads(language: str) -> Row:

@@ -130,8 +130,10 @@ _JOINTS = (
     _p("FU", "N", "Tensile strength of a joint of two points; 0: it opens freely",
        "Résistance en traction d'un joint de deux points ; 0 : il s'ouvre librement",
        _ONE_POINT, range=NOT_NEGATIVE),
-    _p("GF", "N/m", "Energy spent to open the joint fully, for each unit of its surface",
-       "Énergie dépensée à l'ouverture complète du joint, par unité de surface",
+    _p("GF", "N/m", "Energy spent to open the joint fully, for each unit of its surface; with FU, "
+       "more than FU**2/KN",
+       "Énergie dépensée à l'ouverture complète du joint, par unité de surface ; avec FU, plus de "
+       "FU**2/KN",
        range=NOT_NEGATIVE, usual=between(0.0, 1e6)),
     _p("GF", "J", "Energy spent to open a joint of two points fully",
        "Énergie dépensée à l'ouverture complète d'un joint de deux points", _ONE_POINT,
@@ -257,8 +259,10 @@ _PLASTIC = (
        usual=between(1e3, 1e10)),
     _p("KISO", "Pa", "Slope of the linear hardening", "Pente de l'écrouissage linéaire",
        range=NOT_NEGATIVE),
-    _p("VELO", "", "How fast the exponential hardening saturates",
-       "Vitesse de saturation de l'écrouissage exponentiel", range=NOT_NEGATIVE),
+    _p("VELO", "", "How fast the exponential hardening saturates: strength SIG0 + KISO p + "
+       "(SIGI - SIG0)(1 - exp(-VELO p)), p the plastic strain",
+       "Vitesse de saturation de l'écrouissage exponentiel : limite SIG0 + KISO p + "
+       "(SIGI - SIG0)(1 - exp(-VELO p)), p la déformation plastique", range=NOT_NEGATIVE),
     _p("KL", "Pa", "Ultimate strength of the criterion", "Résistance ultime du critère"),
     _p("GAMM", "", "Weight of the trace of stresses in the flow",
        "Poids de la trace des contraintes dans l'écoulement"),
@@ -281,8 +285,10 @@ _PLASTIC = (
     _p("PREF", "Pa", "Mean pressure (compression positive) at which the curve of G/Gmax holds",
        "Pression moyenne (positive en compression) à laquelle vaut la courbe de G/Gmax",
        range=POSITIVE, usual=between(1e2, 1e8)),
-    _p("AF1", None, "Factor of the creep strain; its unit depends on AF2 and AF3",
-       "Facteur de la déformation de fluage ; son unité dépend d'AF2 et AF3",
+    _p("AF1", None, "Factor of the creep strain, AF1 q**AF2 t**AF3 under a constant stress q; its "
+       "unit depends on AF2 and AF3",
+       "Facteur de la déformation de fluage, AF1 q**AF2 t**AF3 sous contrainte q constante ; son "
+       "unité dépend d'AF2 et AF3",
        range=NOT_NEGATIVE),
     _p("AF2", "", "Exponent of the stress in creep", "Exposant de la contrainte dans le fluage",
        range=Range(1.0)),

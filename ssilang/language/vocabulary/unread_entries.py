@@ -39,13 +39,15 @@ def unread(
     Returns
     -------
     tuple or None
-        None if the entry belongs to another procedure that the script calls.
+        None if the entry belongs to another procedure that the script calls, or that comes before.
     """
     known = declared.inside(path).values()
     meant = next((e.index for e in known if word.upper() in e.means and not given(e.index)), "")
     others = [] if meant else [n for n in library.declared_names if n != declared.name]
-    # what the script calls comes first: most tables end there, and the others are not read then
-    if _owners(library, [name for name in others if name in _called(script)], word):
+    # what had the table before, and what the script calls, come first: most tables end there, and
+    # the others are not read then
+    before = {*declared.after(path[0]), *_called(script)}
+    if _owners(library, [name for name in others if name in before], word):
         return None
     owners = _owners(library, others, word)
     readers = " ".join(owner for owner, reads in owners.items() if reads)

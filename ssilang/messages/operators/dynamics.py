@@ -136,12 +136,14 @@ MESSAGES: dict[str, Message] = {
         "la fréquence {frequency:.4g} Hz est négative",
     ),
     "ground-not-elastic": Message(
-        "the ground has YOUNG and MASSE_VOLUMIQUE above 0, POISSON between -1 and 0.5",
-        "le sol a YOUNG et MASSE_VOLUMIQUE positifs, POISSON entre -1 et 0.5",
+        "the ground has YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g}: "
+        "the first two are above 0, POISSON between -1 and 0.5",
+        "le sol a YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g} : les "
+        "deux premiers sont positifs, POISSON entre -1 et 0.5",
     ),
     "size-of-base": Message(
-        "the base {shape} needs {name}, in metres, above zero",
-        "la base {shape} demande {name}, en mètres, positif",
+        "the base {shape} needs {name}, in metres, above zero{given:?, not {given}}",
+        "la base {shape} demande {name}, en mètres, positif{given:?, pas {given}}",
     ),
     "incoherence-sign": Message(
         "INCOHERENCE {gamma:.4g} and VITESSE_APPARENTE {speed:.4g} are not negative; a speed is "
@@ -166,6 +168,15 @@ MESSAGES: dict[str, Message] = {
         "put that duration of zeros before the record",
         "mettre cette durée de zéros avant le signal",
         severity="warning",
+    ),
+    "passage-impossible": Message(
+        "no wave passes at {speed:.4g} m/s on ground whose shear waves do {shear:.4g} m/s",
+        "aucune onde ne passe à {speed:.4g} m/s sur un sol dont les ondes de cisaillement vont à "
+        "{shear:.4g} m/s",
+        "VITESSE_APPARENTE is in m/s: Vs over the sine of the incidence, 1000 and more for most "
+        "quakes",
+        "VITESSE_APPARENTE est en m/s : Vs sur le sinus de l'incidence, 1000 et plus pour la "
+        "plupart des séismes",
     ),
     "passage-slow": Message(
         "waves pass at {speed:.4g} m/s, slower than Rayleigh's on this ground (shear waves: "
@@ -439,11 +450,13 @@ MESSAGES: dict[str, Message] = {
     ),
     "body-without-mass": Message(
         "the body at node {node} has no mass and only joints hold it: it follows its loads "
-        "at once, and is lost where all its joints open",
+        "at once, and is lost where all its joints open"
+        "{others:?; so {others:does|do} {others} {others:other|others}}",
         "le corps au noeud {node} n'a pas de masse et n'est tenu que par des joints : il "
-        "suit aussitôt son chargement, et se perd quand tous ses joints s'ouvrent",
-        "give its MASS",
-        "donnez sa masse (MASS)",
+        "suit aussitôt son chargement, et se perd quand tous ses joints s'ouvrent"
+        "{others:? ; de même {others} {others:autre|autres}}",
+        "give its MASS{others:?, or hold such bodies: BLOQ, RELA}",
+        "donnez sa masse (MASS){others:?, ou tenez de tels corps : BLOQ, RELA}",
         severity="warning",
     ),
     "motion-elsewhere": Message(
@@ -472,6 +485,27 @@ MESSAGES: dict[str, Message] = {
         "'VITEUNIL' est sans effet : le pas conservatif garde de lui-même l'énergie des chocs",
         "VITEUNIL = FAUX",
         "VITEUNIL = FAUX",
+        severity="warning",
+    ),
+    "impacts-change-energy": Message(
+        "impacts on 'MINI' or 'MAXI' relations changed the energy by {share:.2g} %: the motion "
+        "after them depends on the step",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
+        "mouvement qui les suit dépend du pas",
+        "shorter steps, 'CONSERVATIF' = VRAI, or joints 'JOINT_SDM' in place of the relations",
+        "des pas plus courts, 'CONSERVATIF' = VRAI, ou des joints 'JOINT_SDM' à la place des "
+        "relations",
+        severity="warning",
+    ),
+    "impacts-uncorrected": Message(
+        "impacts on 'MINI' or 'MAXI' relations brought {share:.2g} % of energy: this scheme does "
+        "not correct velocities",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont apporté {share:.2g} % d'énergie : ce "
+        "schéma ne corrige pas les vitesses",
+        "the average acceleration does: leave ALPHA_F, RHO_INF, BETA and GAMMA; or "
+        "'CONSERVATIF' = VRAI",
+        "l'accélération moyenne le fait : retirez ALPHA_F, RHO_INF, BETA et GAMMA ; ou "
+        "'CONSERVATIF' = VRAI",
         severity="warning",
     ),
     "conserving-or-persistent": Message(
@@ -508,6 +542,46 @@ MESSAGES: dict[str, Message] = {
         "{conserving:?l'énergie est gardée ; dt <= T_c/30 = {wanted_dt:.3g} s suit aussi le contact"
         "|dt <= T_c/30 = {wanted_dt:.3g} s garde l'énergie ; ou CONSERVATIF, un joint plus souple}",
         severity="warning",
+    ),
+    "energies-out-of-balance": Message(
+        "{procedure}{number:?, calculation {number} of this run}: energies are out of balance by "
+        "{energy} % of the largest one{amount:? ({amount})}",
+        "{procedure}{number:?, calcul {number} de ce jeu} : les énergies ont un écart de {energy} "
+        "% de la plus grande{amount:? ({amount})}",
+        "likely: {causes:;}\nwhen it happens: TAB1 . 'ENERGIES' . 'ECART', beside 'TEMPS'",
+        "sans doute : {causes:;}\nquand cela arrive : TAB1 . 'ENERGIES' . 'ECART', à côté de "
+        "'TEMPS'",
+        severity="warning",
+    ),
+    "imbalance-joint": Message(
+        "a step too long for the joint (T_c/30 keeps energy, or CONSERVATIF, or a softer joint)",
+        "un pas trop long pour le joint (T_c/30 garde l'énergie, ou CONSERVATIF, ou un joint plus "
+        "souple)",
+    ),
+    "imbalance-stops": Message(
+        "a step too long for what strikes (a shorter one, or CONSERVATIF)",
+        "un pas trop long pour les chocs (un pas plus court, ou CONSERVATIF)",
+    ),
+    "imbalance-velocities": Message(
+        "velocities corrected at impacts, which takes energy (VITEUNIL, CONTACT_PERSISTANT)",
+        "des vitesses corrigées aux chocs, ce qui prend de l'énergie (VITEUNIL, "
+        "CONTACT_PERSISTANT)",
+    ),
+    "imbalance-scheme": Message(
+        "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA), which is in no account",
+        "l'amortissement propre au schéma (ALPHA_F, RHO_INF, GAMMA), qui n'est compté nulle part",
+    ),
+    "imbalance-added": Message(
+        "what CHARMECA adds to matrices and loads, whose energy is in no account",
+        "ce que CHARMECA ajoute aux matrices et aux charges, dont l'énergie n'est comptée nulle "
+        "part",
+    ),
+    "imbalance-step": Message(
+        "a step too long for the motion", "un pas trop long pour le mouvement"
+    ),
+    "imbalance-load-steps": Message(
+        "the work of loads is taken along straight lines from one load step to the next",
+        "le travail des charges est pris en ligne droite d'un pas de charge au suivant",
     ),
     "compiling": Message(
         "compiling the time loop, once on this machine (5 to 40 s)",

@@ -130,7 +130,7 @@ def zdyn(call: Call, table: Table) -> Table:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
-    report(entries, problem, history)
+    report(entries, problem, history, added=entries.flag("CHARMECA"))
     return results.table
 
 

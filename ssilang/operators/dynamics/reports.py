@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
+from ssilang.operators.dynamics.scheme_entries import NORMS
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.run import History
 
 _NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its end
+ENERGY_LIMIT = 0.01
+"""Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
+_LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
+LASTING = 8  # steps in a row: what an impact leaves for good
+CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
 
@@ -33,8 +39,18 @@ def _energy(history: History, word: str) -> ListReel:
     return ListReel(history.energies[:, ENERGIES.index(word)])
 
 
-def report(entries: Entries, problem: Problem, history: History) -> None:
-    """Energies in time into the table, and a line of statistics for the summary."""
+def report(
+    entries: Entries,
+    problem: Problem,
+    history: History,
+    *,
+    in_statics: bool = False,
+    added: bool = False,
+) -> None:
+    """Energies in time into the table, and a line of statistics for the summary.
+
+    `added`: a procedure of the script added loads or matrices on the way (CHARMECA).
+    """
     energies = LazyTable(partial(_energy, history), promises("TEMPS", *ENERGIES, "ECART"))
     entries.table.set(Mot("ENERGIES"), energies)
     steps, session = len(history.times) - 1, entries.call.session
@@ -56,7 +72,11 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
         "energy_imbalance": _relative(history.worst_imbalance, history.largest_energy),
         "energy_imbalance_joules": history.worst_imbalance * _joules(session),
+        "static": in_statics,
     }
+    if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT:
+        causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
+        line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
     if history.reduction is not None:
         line |= {
             "reduced": history.reduction.vectors > 0,
@@ -68,6 +88,47 @@ def report(entries: Entries, problem: Problem, history: History) -> None:
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+    warn_impacts(entries, problem, history)
+
+
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
+    """Warn where impacts on relations alone have changed the energy for good.
+
+    At an impact it is off for a step, see `kernel.contact.impact`. Schemes that damp take energy on
+    purpose; who asks for no correction, or for a penalty, knows.
+    """
+    if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
+        return
+    given, penalty = entries.get("VITEUNIL"), problem.contact_options.method == "PENALITE"
+    if penalty or NORMS.get(given) == "FAUX" or not history.energies[:, 0].any():
+        return
+    damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
+    change = history.imbalance if damps else np.abs(history.imbalance)
+    windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
+    share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
+    if share is not None and share > CHANGED:
+        code = "operators.dynamics.impacts-change-energy"
+        if damps:
+            code = "operators.dynamics.impacts-uncorrected"
+        entries.warn(code, share=100.0 * share)
+
+
+def _causes(problem: Problem, added: bool) -> list[str]:
+    """What may put the energies of a motion out of balance, by what it has; likeliest first."""
+    contact, options = problem.contact is not None, problem.contact_options
+    found = {
+        "operators.dynamics.imbalance-joint": problem.interface is not None
+        and not problem.scheme.conserving,
+        "operators.dynamics.imbalance-stops": contact and not problem.scheme.conserving,
+        "operators.dynamics.imbalance-velocities": contact
+        and (options.correction != "FAUX" or options.persistent),
+        "operators.dynamics.imbalance-scheme": not problem.scheme.conserving
+        and not problem.scheme.average_acceleration,
+        "operators.dynamics.imbalance-added": added,
+    }
+    return [cause for cause, holds in found.items() if holds] or [
+        "operators.dynamics.imbalance-step"
+    ]
 
 
 def _joules(session: Session) -> float:
@@ -127,9 +188,10 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
     if joints is not None:
         bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
     massless = [body for body in bodies if body.mass == 0.0]
-    for body in massless:
-        node = problem.numbering.table.told(body.node)
-        entries.warn("operators.dynamics.body-without-mass", node=node)
+    if massless:
+        node = problem.numbering.table.told(massless[0].node)
+        others = len(massless) - 1
+        entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
 

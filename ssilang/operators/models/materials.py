@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.near import nearest_names
-from ssilang.language.registry import Chosen, Help, arg, each, many, operator, select
+from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.operators.models.reduction import reference_to_curve
 from ssilang.operators.models.tension import tension_to_hardening
@@ -31,7 +31,6 @@ from ssilang.operators.vocabulary import words
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
-Check = Callable[[Model, list[Values]], None]
 
 _VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
 SHAPES = ("DEFO", "RIDE", "MADE")
@@ -48,6 +47,12 @@ _PAIRS = each(
     arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
     arg("value", *_VALUES, en="its value", fr="sa valeur"),
 )
+
+
+def _tables(language: str) -> Sequence[HelpTable]:
+    from ssilang.operators.vocabulary.law_tables import law_tables
+
+    return law_tables(language)
 
 
 @operator(
@@ -76,63 +81,33 @@ _PAIRS = each(
     aliases=("MATR",),
     help=Help(
         en="Field of the parameters of a model: name and value, as many as wanted.\n"
-        "Continuous elements, bars and beams: YOUN NU RHO ALPH TREF TALP VISQ; orthotropic: YG1 "
-        "YG2 YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3; joints: KN KS (KS1 KS2) RHO and, "
-        "for JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF is refused, with the least KN). Plastic "
-        "bodies besides: PARFAIT SIGY; ISOTROPE ECRO (curve of the strength over the plastic "
-        "strain) or TRAC (of the stress over the whole strain, from zero); CINEMATIQUE SIGY H; "
-        "J2 SIG0 SIGI KISO VELO (strength SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))); "
-        "DRUCKER_PARFAIT LTR LCS; DRUCKER_PRAGER ALFA BETA K ETA MU "
-        "KL H GAMM DELT; RH_COULOMB COHE PHI (radians); "
-        "CAM_CLAY E0 M P0 KAPA LAMD G1; IWAN GGAM (curve of G/Gmax over the shear "
-        "strain, Gmax being that of YOUN and NU) or GAMR (G/Gmax = 1 / (1 + gamma / GAMR)); "
-        "IWAN_PRESSION PREF too; PARFAIT_UNI SIGY H; "
-        "BETON_BAEL FC; ACIER_UNI STSY STSU EPSH EPSU ROFA BFAC A1FA A2FA (FALD A6FA CFAC AFAC); "
-        "BETON_UNI STFC EZER STFT ZETA ST85 TRAF (ALF1 OME1 FAMX); "
-        "FLUAGE NORTON AF1 AF2 AF3 (creep strain "
-        "AF1 q**AF2 t**AF3 under a constant stress). "
-        "Beams ELASTIQUE SECTION take the model of their section, MODS, and its material, MATS; "
-        "fibres take ALPY ALPZ, which multiply their shear stresses (and points SECT): the section "
-        "lies in x y, x along the beam's local axis y. "
-        "Geometric parameters (SECT INRY INRZ TORS SECY SECZ VECT "
-        "DIM3 ...) may be given here too, or by CARA. A value is a number, a field in cells, a "
-        "curve (parameter that depends on another field) or, for VECT, a point. IMPEDANCE takes "
-        "RAID VISC MASS AMOR, on rotations CPLE INER AROT, and as functions of the frequency MOCO "
-        "(curves of ordinates MOCO and VISC). MODAL takes FREQ MASS DEFO (AMOR), STATIQUE DEFO "
-        "RIDE MADE, the last three fields at points. DIRECTION V1 "
-        "(V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE angle, give the axes "
-        "of orthotropy (of JOI1: V1 is the normal).",
+        "What each law takes stands in the tables below, and on the page of the law (`ssilang help "
+        "CAM_CLAY`); what an element takes, sections included, on that of the element. Geometric "
+        "parameters (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) may be given here too, or by "
+        "CARA. Joints of two points (JOI1) take forces where the others take tractions.\n"
+        "A value is a number, a field in cells, a curve (parameter that depends on another field) "
+        "or, for VECT, a point. Numbers outside of the range of a parameter, and laws whose "
+        "parameters do not go together, are refused.\n"
+        "Beams ELASTIQUE SECTION take the model of their section and its material: the section "
+        "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
+        "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
+        "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
         fr="Champ des paramètres d'un modèle : nom et valeur, autant qu'on veut.\n"
-        "Massifs, barres et poutres : YOUN NU RHO ALPH TREF TALP VISQ ; orthotropes : YG1 YG2 "
-        "YG3 NU12 NU23 NU13 G12 G23 G13 RHO ALP1 ALP2 ALP3 ; joints : KN KS (KS1 KS2) RHO et, "
-        "pour JOINT_SDM, FU GF FC FROT (KN <= FU**2/GF est refusé, avec le plus petit "
-        "KN). Corps plastiques, en plus : PARFAIT SIGY ; ISOTROPE ECRO (courbe de la limite en "
-        "fonction de la déformation plastique) ou TRAC (de la contrainte en fonction de la "
-        "déformation totale, depuis zéro) ; CINEMATIQUE SIGY H ; J2 SIG0 SIGI "
-        "KISO VELO (limite SIG0 + KISO p + (SIGI - SIG0)(1 - exp(-VELO p))) ; DRUCKER_PARFAIT LTR "
-        "LCS ; "
-        "DRUCKER_PRAGER ALFA BETA K ETA MU KL H GAMM DELT ; RH_COULOMB COHE PHI (radians) ; "
-        "CAM_CLAY E0 M P0 KAPA LAMD G1 ; "
-        "IWAN GGAM (courbe de G/Gmax en fonction de la distorsion, Gmax étant celui de YOUN et NU) "
-        "ou GAMR (G/Gmax = 1 / (1 + gamma / GAMR)) ; IWAN_PRESSION aussi PREF ; "
-        "PARFAIT_UNI SIGY H ; BETON_BAEL FC ; ACIER_UNI STSY STSU EPSH EPSU ROFA BFAC A1FA A2FA "
-        "(FALD A6FA CFAC AFAC) ; BETON_UNI STFC EZER STFT ZETA ST85 TRAF (ALF1 OME1 FAMX) ; "
-        "FLUAGE NORTON AF1 AF2 AF3 (déformation de fluage "
-        "AF1 q**AF2 t**AF3 "
-        "sous contrainte constante). Les poutres ELASTIQUE SECTION prennent le modèle de leur "
-        "section, MODS, et son matériau, MATS ; les fibres ALPY ALPZ, qui multiplient leurs "
-        "cisaillements (et les points SECT) : la section est dans x y, x le long de l'axe local "
-        "y de la poutre. "
-        "Les paramètres géométriques (SECT INRY INRZ TORS SECY "
-        "SECZ VECT DIM3 ...) se donnent ici aussi, ou par CARA. Une valeur est un nombre, un "
-        "champ par éléments, une évolution ou, pour VECT, un point. IMPEDANCE "
-        "prend RAID VISC MASS AMOR, en rotation CPLE INER AROT, et MOCO (courbes d'ordonnées MOCO "
-        "et VISC) en fonction de la fréquence. MODAL prend FREQ MASS DEFO (AMOR), STATIQUE DEFO "
-        "RIDE MADE, ces trois étant des champs par points. DIRECTION V1 (V2) "
-        "ou RADIAL "
-        "P1 (P2), puis PARALLELE, PERPENDICULAIRE ou INCLINE angle, donnent les axes "
-        "d'orthotropie (de JOI1 : V1 est la normale).",
+        "Ce que prend chaque loi est dans les tableaux ci-dessous, et sur la page de la loi "
+        "(`ssilang help CAM_CLAY`) ; ce que prend un élément, section comprise, sur celle de "
+        "l'élément. Les paramètres géométriques (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) se "
+        "donnent ici aussi, ou par CARA. Les joints de deux points (JOI1) prennent des forces là "
+        "où les autres prennent des contraintes.\n"
+        "Une valeur est un nombre, un champ par éléments, une évolution (paramètre qui dépend d'un "
+        "autre champ) ou, pour VECT, un point. Les nombres hors du domaine d'un paramètre, et les "
+        "paramètres d'une loi qui ne vont pas ensemble, sont refusés.\n"
+        "Les poutres ELASTIQUE SECTION prennent le modèle de leur section et son matériau : la "
+        "section est dans x y, x le long de l'axe local y de la poutre ; ses fibres prennent ALPY "
+        "ALPZ (et les points SECT). DIRECTION V1 (V2) ou RADIAL P1 (P2), puis PARALLELE, "
+        "PERPENDICULAIRE ou INCLINE angle, donnent les axes d'orthotropie (de JOI1 : V1 est la "
+        "normale).",
         syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
+        tables=_tables,
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
             "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
@@ -161,20 +136,19 @@ _PAIRS = each(
 )
 def mate(call: Call, **said: Any) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
-    return _parameters(call, material_names, check_joints, **said)
+    return _parameters(call, material_names, True, **said)
+
+
+def parameter_name(written: str, known: Collection[str]) -> str:
+    """The parameter that a script means: in full where that is a known one, else four letters."""
+    told = written.upper().rstrip()
+    return told if told in known else told[:4]
 
 
 def material_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that MATE reads for a zone: with those that stand for others."""
     names = known_names(zone)
     return (*names, *(other for name, other in INSTEAD.items() if name in names))
-
-
-def check_joints(model: Model, given: list[Values]) -> None:
-    """Let the laws of joints look at parameters where they are given."""
-    for zone, values in zip(model.zones, given, strict=True):
-        if is_joint(zone):
-            check_joint(zone, {name: value for name, (value, _) in values.items()})
 
 
 @operator(
@@ -199,13 +173,13 @@ def check_joints(model: Model, given: list[Values]) -> None:
 )
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
-    return _parameters(call, lambda zone: geometric_names(zone).all, None, model, [], None, pairs)
+    return _parameters(call, lambda zone: geometric_names(zone).all, False, model, [], None, pairs)
 
 
 def _parameters(
     call: Call,
     known: Known,
-    check: Check | None,
+    of_laws: bool,
     model: Model,
     axes: list[Chosen],
     turn: Chosen | None,
@@ -219,24 +193,25 @@ def _parameters(
         _set_axes(call, directions, turn, model, given, known)
     for zone, values in zip(model.zones, given, strict=True):
         others = {n: values[n] for n in INSTEAD.values() if n in values}
-        _refuse_outside(call, zone, others, said)
+        refuse_outside(call, zone, others, said)
         tension_to_hardening(values)
         reference_to_curve(call, values, said)
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.error("operators.models.no-parameter", model)
-    if check is not None:
-        check(model, given)
     for zone, values in zip(model.zones, given, strict=True):
-        _refuse_outside(call, zone, values, said)
+        if of_laws and is_joint(zone):
+            check_joint(zone, {name: value for name, (value, _) in values.items()})
+    for zone, values in zip(model.zones, given, strict=True):
+        refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, values, said)
-        if check is not None:
-            _check_plastic(call, zone, values, said)
+        if of_laws:
+            check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
 
 
-def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+def refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
     """Refuse numbers outside of the range that the vocabulary gives for a parameter."""
     for name in said:
         array = values[name][0] if name in values else np.empty(0)
@@ -255,7 +230,7 @@ def _refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any]
             )
 
 
-def _check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+def check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
     """Let a plastic law look at its parameters; refusals stand at one that they name."""
     law = None if is_joint(zone) else plastic_law(zone.behaviour)
     if law is None or zone.formulation != "MECANIQUE":
@@ -285,11 +260,10 @@ def _set_value(
     call: Call, written: str, value: Any, model: Model, given: list[Values], known: Known
 ) -> str:
     """Put the value of a parameter into the zones that have it; its name."""
-    told = written.upper().rstrip()
-    name = told if any(told in known(z) for z in model.zones) else told[:4]
+    name = parameter_name(written, tuple(n for z in model.zones for n in known(z)))
     taking = [i for i, z in enumerate(model.zones) if name in known(z)]
     if not taking:
-        raise _unknown(call, written, model, known)
+        raise unknown_parameter(call, written, model, known)
     found = 0
     for i in taking:
         made = _values(call, model.zones[i], name, value)
@@ -301,7 +275,8 @@ def _set_value(
     return name
 
 
-def _unknown(call: Call, written: str, model: Model, known: Known) -> Exception:
+def unknown_parameter(call: Call, written: str, model: Model, known: Known) -> Exception:
+    """The refusal of a name that no zone of a model has, with the near ones."""
     name = written.upper().rstrip()
     if name == "ADHE" and any(z.formulation == "CONTACT" for z in model.zones):
         return call.error("operators.models.adherence-without-equation", written)

@@ -61,12 +61,12 @@ LAW_WORDS = (
     *IMPEDANCE_LAWS,
 )  # fmt: skip
 
-_OF_JOINTS = tuple(w for w in JOINT_WORDS if w != "PLASTIQUE")
+OF_JOINTS = tuple(w for w in JOINT_WORDS if w != "PLASTIQUE")
 """Words that only joints have."""
 
 
 @dataclass
-class _Wish:
+class Wish:
     """What a MODE statement says."""
 
     formulation: str = ""
@@ -366,20 +366,20 @@ def _wish(
     layers: int | None,
     rule: str | None,
     bound: str | None,
-) -> _Wish:
+) -> Wish:
     """What words and settings say."""
     given = {"DPGE": section, "INTEGRE": layers, "FRAME": bound}
-    wish = _Wish(
+    wish = Wish(
         constituent=(constituent or "").rstrip(),
         rule=rule or "",
         options={k: v for k, v in given.items() if v is not None},
     )
     for word in said:
-        _name(call, word, wish)
+        read_word(call, word, wish)
     return wish
 
 
-def _usable(call: Call, mesh: Mesh | Point, wish: _Wish) -> tuple[Mesh, tuple[CellBlock, ...]]:
+def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[CellBlock, ...]]:
     """The mesh that elements stand on, and the cells that tie hanging nodes."""
     if isinstance(mesh, Point):
         raise call.error("operators.models.no-element-on-a-point", mesh)
@@ -394,7 +394,7 @@ def _usable(call: Call, mesh: Mesh | Point, wish: _Wish) -> tuple[Mesh, tuple[Ce
     return used, ties
 
 
-def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
+def _check_elements(call: Call, wish: Wish, mesh: Mesh) -> None:
     """Refuse names of elements of which none fits the mesh."""
     kinds = [b.cell_type for b in mesh.blocks]
     fitting = [n for n in wish.elements if n in GENERIC_ELEMENTS or ELEMENTS[n].cell_type in kinds]
@@ -408,13 +408,13 @@ def _check_elements(call: Call, wish: _Wish, mesh: Mesh) -> None:
         )
 
 
-def _check_rule(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
+def _check_rule(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
     """Refuse a rule of joints where there are none."""
     if wish.rule and not any(is_joint(z) for z in zones):
         raise call.error("operators.models.rule-without-joints", rule=wish.rule)
 
 
-def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
+def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
     """Plastic thin shells need points across the thickness, 2 to 15 of them."""
     plastic = [z.element for z in zones if "PLASTIQUE" in z.behaviour]
     if "COQ3" in plastic:
@@ -428,8 +428,14 @@ def _check_layers(call: Call, wish: _Wish, zones: tuple[Zone, ...]) -> None:
         raise call.error("operators.models.points-across", count=count)
 
 
-def _name(call: Call, word: str, wish: _Wish) -> None:
-    """A formulation, a law or an element."""
+def read_word(call: Call, word: str, wish: Wish) -> None:
+    """A formulation, a law or an element.
+
+    Raises
+    ------
+    SsiError
+        If it is none, or not available.
+    """
     said = LONG_NAMES.get(word.upper().rstrip(), word.upper().rstrip())
     element = said if said in GENERIC_ELEMENTS else said[:4]
     if said in OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
@@ -481,7 +487,7 @@ def _unknown(call: Call, said: str) -> Exception:
     )
 
 
-def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
+def _zone(block: CellBlock, wish: Wish, ws: Workspace) -> Zone:
     name = _element(block, wish, ws.mode)
     kind = ELEMENTS[name]
     if ws.mode not in kind.modes:
@@ -504,7 +510,7 @@ def _zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     return Zone(block, "MECANIQUE", behaviour, name, ws.mode, constituent, options)
 
 
-def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
+def _pressure_zone(block: CellBlock, wish: Wish, ws: Workspace) -> Zone:
     """Sides that carry a pressure."""
     if block.kind.dimension != ws.mode.dimension - 1 or block.kind.joint:
         raise MeshError("operators.models.cells-carry-no-pressure", cell_type=block.cell_type)
@@ -515,7 +521,7 @@ def _pressure_zone(block: CellBlock, wish: _Wish, ws: Workspace) -> Zone:
     return Zone(block, "CHARGEMENT", behaviour, element, ws.mode, wish.constituent, dict(options))
 
 
-def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
+def _element(block: CellBlock, wish: Wish, mode: Mode) -> str:
     """The named element that fits the cells, else the default one."""
     cell = block.cell_type
     if "IMPEDANCE" in wish.laws and cell in IMPEDANCE_ELEMENTS:
@@ -530,7 +536,7 @@ def _element(block: CellBlock, wish: _Wish, mode: Mode) -> str:
         if shape in wish.laws and cell == "POI1":
             return shape
     joints = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cell]
-    if joints and (block.kind.joint or any(w in _OF_JOINTS for w in wish.laws)):
+    if joints and (block.kind.joint or any(w in OF_JOINTS for w in wish.laws)):
         return joints[0]
     return default_element(cell, mode)
 

@@ -78,7 +78,8 @@ def continue_loads(entries: Entries) -> None:
         _path_run(problem, inputs, bodies, observers), rate, lengths,
         lambda t: bool(t < times[-1]), most, every, "DIAG" in words,
     )  # fmt: skip
-    report(entries, problem, history_of(path, trace, time.perf_counter() - begun))
+    history = history_of(path, trace, time.perf_counter() - begun)
+    report(entries, problem, history, in_statics=True)
     _fill(entries, trace, followed)
 
 

@@ -182,7 +182,8 @@ def _stretch(
         line.close()
     if record is not None:
         record.save(history)
-    report(entries, problem, history)
+    added = work.flag("PROCEDURE_CHARMECA")
+    report(entries, problem, history, in_statics=not dynamic, added=added)
     return state_table(reached.values)
 
 

@@ -103,7 +103,7 @@ def _table(rows: Sequence[words.Row], language: str) -> list[str]:
     used = [r for r in rows if not r.word.kind]
     lines = [teller(language)("help.parameters")] if used else []
     for row in used:
-        default = teller(language)("help.required") if row.required else _number(row.default)
+        default = default_told(row, language) or "-"
         span = row.word.range.text(row.word.name)
         head = f"    {row.word.name:<5} {row.word.unit or '-':<7} {default:<11} {span:<20} "
         lines += textwrap.wrap(
@@ -113,6 +113,13 @@ def _table(rows: Sequence[words.Row], language: str) -> list[str]:
         names = [r.word.name for r in rows if r.word.kind == kind]
         lines += [f"    {teller(language)(code)} : {' '.join(names)}"] if names else []
     return lines
+
+
+def default_told(row: words.Row, language: str) -> str:
+    """What counts where a parameter is not given: it is required, a number, or '' for neither."""
+    if row.required:
+        return teller(language)("help.required")
+    return "" if row.default is None else _number(row.default)
 
 
 def _number(value: float | None) -> str:

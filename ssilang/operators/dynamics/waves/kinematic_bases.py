@@ -27,6 +27,9 @@ _MEASURED = 0.5
 _SLOWEST = 0.86
 """Speed of Rayleigh's waves over that of shear waves, for a Poisson's ratio of zero."""
 
+_IMPOSSIBLE = 0.1
+"""Part of it below which a speed is no wave's: km/s, most often, and calculations without end."""
+
 
 @operator(
     "ZBAS",
@@ -79,7 +82,12 @@ def _base(entries: Entries) -> RigidBase:
     for name in _SIZES[shape]:
         size = entries.get(name)
         if size is None or size <= 0.0:
-            raise entries.error("operators.dynamics.size-of-base", shape=shape, name=name)
+            raise entries.error(
+                "operators.dynamics.size-of-base",
+                shape=shape,
+                name=name,
+                given="" if size is None else f"{size:g}",
+            )
         sizes.append(float(size))
     return RigidBase(_SHAPES[shape], *sizes)
 
@@ -91,13 +99,17 @@ def _ground(entries: Entries) -> Ground:
         float(entries.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
     )
     if young <= 0 or density <= 0 or not -1 < poisson < 0.5:
-        raise entries.error("operators.dynamics.ground-not-elastic")
+        raise entries.error(
+            "operators.dynamics.ground-not-elastic", young=young, density=density, poisson=poisson
+        )
     shear = float(np.sqrt(young / (2 * (1 + poisson)) / density))
     gamma, apparent = float(entries.get("INCOHERENCE")), entries.get("VITESSE_APPARENTE")
     if gamma < 0.0 or (apparent is not None and apparent <= 0.0):
         raise entries.error("operators.dynamics.incoherence-sign", gamma=gamma, speed=apparent or 0)
     if gamma > _MEASURED:
         entries.warn("operators.dynamics.incoherence-large", gamma=gamma, most=_MEASURED)
+    if apparent is not None and apparent < _IMPOSSIBLE * shear:
+        raise entries.error("operators.dynamics.passage-impossible", speed=apparent, shear=shear)
     if apparent is not None and apparent < _SLOWEST * shear:
         entries.warn("operators.dynamics.passage-slow", speed=float(apparent), shear=shear)
     if gamma == 0.0 and apparent is None:
