@@ -5,12 +5,16 @@
 Displacement, velocity, acceleration of ten points (of the one that moves, for one unknown) and all
 joints at every step; the largest displacements, reactions, openings and joint forces over all
 steps. The ways run in turn, by processor time; printed are the median time of a step of the loop
-alone and the median of each way's ratio to it in the same turn. Loops that give the largest values
-only when asked are marked: there, nobody pays who does not ask, and reading them later steps again.
+alone and the median of each way's ratio to it in the same turn. Before each way, memory that others
+let go is given back to the system, so that rows lie in memory that nobody has touched, as in the
+first calculation of a script; but "again" takes what the way before it let go. "as DYNAMIC": beside
+largest values that nobody asked for. Loops that give the largest values only when asked are marked:
+there, nobody pays who does not ask, and reading them later steps again.
 """
 
 from __future__ import annotations
 
+import ctypes
 import statistics
 import sys
 import time
@@ -33,6 +37,7 @@ from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.track import Track
 
 POINTS, STIFFNESS, MASS, RELEASE = 10, 1.2e7, 3000.0, 0.01
+AGAIN = "again"
 
 
 def oscillator(steps: int, joint: bool) -> Problem:
@@ -80,6 +85,14 @@ def tracked(problem: Problem) -> Track:
     return Track(np.ones(len(problem.times), bool), unknowns)
 
 
+def give_back() -> None:
+    """Free memory to the system, where the C library can."""
+    if sys.platform == "linux":
+        trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
+        if trim is not None:
+            trim(0)
+
+
 def compare(name: str, problem: Problem, turns: int) -> None:
     """Print one line."""
     probe = Extremes(problem=problem, asked=False)
@@ -87,12 +100,18 @@ def compare(name: str, problem: Problem, turns: int) -> None:
     ways: dict[str, Callable[[], object]] = {
         "alone": lambda: integrate(problem),
         "points": lambda: integrate(problem, [tracked(problem)]),
+        AGAIN: lambda: integrate(problem, [tracked(problem)]),
+        "table": lambda: integrate(
+            problem, [tracked(problem), Extremes(problem=problem, asked=False)]
+        ),
         "largest": lambda: integrate(problem, [Extremes(problem=problem)]),
         "both": lambda: integrate(problem, [tracked(problem), Extremes(problem=problem)]),
     }
     seconds: dict[str, list[float]] = {way: [] for way in ways}
     for turn in range(turns + 1):
         for way, run in ways.items():
+            if way != AGAIN:
+                give_back()
             started = time.process_time()
             run()
             if turn:  # the first one compiles
@@ -106,6 +125,8 @@ def compare(name: str, problem: Problem, turns: int) -> None:
     print(
         f"{name:34s} {problem.numbering.size:5d} unknowns, {history.loop:10s} "
         f"{1e6 * step:9.3f} us a step; ten points {100 * (ratios['points'] - 1):+6.1f} %, "
+        f"again {100 * (ratios[AGAIN] - 1):+6.1f} %, "
+        f"as DYNAMIC {100 * (ratios['table'] - 1):+6.1f} %, "
         f"largest values {100 * (ratios['largest'] - 1):+6.1f} %{said}, "
         f"both {100 * (ratios['both'] - 1):+6.1f} %",
         flush=True,

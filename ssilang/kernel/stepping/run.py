@@ -361,7 +361,7 @@ class Integration:
         n, tapped = len(self.motion.u), len(self.taps.unknowns)
         last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
         most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
-        values = LOOKED_AT if self.taps.room is None else CHUNK_VALUES
+        values = LOOKED_AT if self.taps.looked_at else CHUNK_VALUES
         end = within(self.taps.wanted, values // (3 * most), first, last)
         return end if end == last or end - first < GRID else end - (end - first) % GRID
 

@@ -131,6 +131,8 @@ def recorder_of(
 class Room:
     """Memory for rows of taps that follow each other, taken in pieces that the system maps fast.
 
+    Parts of the same rows lie side by side: few places are new at a time.
+
     Parameters
     ----------
     rows : int
@@ -138,31 +140,42 @@ class Room:
     """
 
     def __init__(self, rows: int) -> None:
-        self._left = rows
-        self._free: dict[str, FloatArray] = {}
-
-    def take(self, name: str, rows: int, shape: tuple[int, ...]) -> FloatArray:
-        """Rows of a part, not set."""
-        free = self._free.get(name)
-        if free is None or len(free) < rows or free.shape[1:] != shape:
-            most = PIECE // max(8 * math.prod(shape), 1)
-            free = np.empty((max(rows, min(self._left, most)), *shape))
-        self._free[name] = free[rows:]
-        return free[:rows]
+        self._left, self._free = rows, np.empty(0)
 
     def tap(self, row: IntArray, at: IntArray, shapes: dict[str, tuple[int, ...]]) -> Tap:
-        """Room for the rows, numbered without gaps; `shapes` of the parts that are kept."""
+        """Room for the rows, numbered without gaps, not set; `shapes` of the parts kept."""
         rows = int(row.max(initial=-1)) + 1
-        parts = {
-            name: self.take(name, rows, shapes[name]) if name in shapes else np.empty(NO_ROWS[name])
-            for name in PARTS
-        }
+        sizes = {name: math.prod(shape) for name, shape in shapes.items()}
+        each, first = sum(sizes.values()), 0
+        if len(self._free) < rows * each:
+            self._free = numbers(max(rows, min(self._left, PIECE // (8 * each))) * each)
+        parts = {name: np.empty(NO_ROWS[name]) for name in PARTS if name not in shapes}
+        for name, size in sizes.items():
+            last = first + rows * size
+            parts[name] = self._free[first:last].reshape(rows, *shapes[name])
+            first = last
+        self._free = self._free[first:]
         self._left -= rows
         return Tap(row, at, **parts)
 
 
-PIECE = 1 << 24
-"""Bytes of a piece of memory: above 4 MB numpy asks for large pages, which are mapped faster."""
+def numbers(n: int) -> FloatArray:
+    """So many numbers, not set; where they are many, they begin with a large page.
+
+    numpy asks for large pages above 4 MB, but the system gives them only where they lie whole in
+    the memory: the parts before the first and behind the last would be mapped by 4 kB.
+    """
+    if 8 * n < 2 * PAGE:
+        return np.empty(n)
+    memory = np.empty(n + 2 * PAGE // 8)
+    first = -memory.__array_interface__["data"][0] % PAGE // 8
+    return memory[first : first + n]
+
+
+PAGE = 1 << 21
+"""Bytes of a large page."""
+PIECE = 27 << 20
+"""Bytes of a piece of memory: the C library keeps what is let go for others, up to 32 MB."""
 NO_ROWS = dict.fromkeys(PARTS, (0, 0)) | dict.fromkeys(("w", "t", "state"), (0, 0, 0))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -18,7 +18,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.equilibrium import joint_forces
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
-from ssilang.kernel.stepping.state import Motion, Peaks, Room, Tap, peaks_of
+from ssilang.kernel.stepping.state import Motion, Peaks, Room, Tap, peaks_of, tap_of
 
 FIELDS = ("u", "v", "a")
 MOST_COORDINATES = 50_000_000
@@ -199,11 +199,14 @@ class Rows:
         mapped = self.view.map
         if mapped is None or mapped.shape[0] >= mapped.shape[1]:
             return self
-        joints, view = self.joints, self.view
-        fields: dict[str, Any] = {name: self.values(name) for name in FIELDS}
-        tap = self.tap._replace(**fields, **joints._asdict(), f=self.tap.f[:0])
-        shapes = {k: v for k, v in view.shapes.items() if k != "f"}
-        return replace(self, tap=tap, view=View(view.at, shapes))
+        made: dict[str, Any] = {name: self.values(name) for name in FIELDS}
+        made |= self.joints._asdict()
+        shapes = {name: shape for name, shape in self.view.shapes.items() if name != "f"}
+        for name in shapes:  # what was kept as it is lies in a piece of memory with all the rest
+            kept = getattr(self.tap, name)
+            made[name] = kept.copy() if made.get(name, kept) is kept else made[name]
+        tap = tap_of(self.tap.row, self.tap.at, {})._replace(**made)
+        return replace(self, tap=tap, view=View(self.view.at, shapes))
 
     def snapshot(self, row: int) -> Snapshot:
         """One of the instants, where all unknowns were kept."""
@@ -373,6 +376,11 @@ class Taps:
         Increasing.
     peaks : Peaks
         The largest values, for loops that compare them.
+    room : Room or None
+        For rows that some track keeps as they are; others look at rows, or take what they want of
+        them, so that their memory is soon free for the next.
+    looked_at : bool
+        Whether anything but keeping is done with rows while the run goes on.
     """
 
     tracks: Sequence[Track]
@@ -381,16 +389,24 @@ class Taps:
     wanted: BoolArray = field(init=False)
     unknowns: IntArray = field(init=False)
     room: Room | None = field(init=False, default=None)
+    looked_at: bool = field(init=False)
 
     def __post_init__(self) -> None:
-        self.wanted = np.zeros(self.n_times, bool)
-        for track in self.tracks:
-            self.wanted |= track.wanted
+        times = [track.wanted for track in self.tracks] or [np.zeros(self.n_times, bool)]
+        self.wanted = reduce(np.logical_or, times)
         asked = [track.unknowns for track in self.tracks]
         self.unknowns = np.unique(np.concatenate([np.zeros(0, np.int64), *asked]))
-        kept = len(self.tracks) == 1 and self.tracks[0].keeps
-        if kept:  # others look at rows, or take what they want of them
-            self.room = Room(int(np.count_nonzero(self.wanted)))
+        rows, width = int(np.count_nonzero(self.wanted)), len(self.unknowns)
+        kept = [
+            track
+            for track in self.tracks
+            if track.keeps
+            and np.count_nonzero(track.wanted) == rows
+            and len(track.unknowns) == width
+        ]  # they get the rows that the loop fills, and no copies
+        self.looked_at = any(track.wanted.any() for track in self.tracks if track not in kept)
+        if kept:
+            self.room = Room(rows)
 
     def give(self, rows: Rows) -> None:
         """Hand rows at all the unknowns, or more, to the tracks that want them."""

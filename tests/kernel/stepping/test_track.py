@@ -22,11 +22,13 @@ from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.track import Track
+from ssilang.kernel.stepping.state import Room
+from ssilang.kernel.stepping.track import Taps, Track
 
 SIZE = (16, 8, 4)
 FIELDS, JOINTS = ("u", "v", "a"), ("w", "t", "state")
 STEPS = 150
+CHUNK = 65_536
 
 
 def bouncing(shear=0.0, moving=False, dashpot=False, scheme=None, feet=3, more=0, idle=False):
@@ -191,8 +193,93 @@ def test_pieces_that_fit_in_memory_hold_the_same(monkeypatch):
 def test_a_track_of_few_unknowns_lets_go_of_the_coordinates(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.stepping.track.MOST_COORDINATES", 0)
     _, recorder, tracks = kept(bouncing())
-    assert tracks[1].pieces[-1].tap.u.shape[1] == 2
+    few = tracks[1].pieces[-1].tap
+    assert few.u.shape[1] == 2
+    whole = tracks[0].pieces[-1].tap
+    assert not any(np.may_share_memory(x, few_x) for x in whole[2:] for few_x in few[2:])
     assert_same(recorder, tracks)
+
+
+def test_rows_that_are_kept_settle_out_of_their_piece_of_memory(monkeypatch):
+    problem, few = bouncing(shear=1e5), np.arange(2)
+    tracks = [Track(np.ones(len(problem.times), bool), few) for _ in range(2)]
+    integrate(problem, [tracks[0]])
+    monkeypatch.setattr("ssilang.kernel.stepping.track.MOST_COORDINATES", 0)
+    integrate(problem, [tracks[1]])
+    piece, tap = tracks[0].pieces[-1].tap, tracks[1].pieces[-1].tap
+    assert base_of(piece.u) is base_of(piece.state)  # one piece holds all parts
+    for part in tap[2:]:
+        assert base_of(part).nbytes <= tap.state.nbytes
+    for name in (*FIELDS, *JOINTS):
+        found, exact = (
+            t.joints(name) if name in JOINTS else t.values(name, few)
+            for t in (tracks[1], tracks[0])
+        )
+        assert np.array_equal(found, exact)
+
+
+def base_of(part):
+    """The array whose memory a part takes."""
+    while part.base is not None:
+        part = part.base
+    return part
+
+
+@pytest.mark.parametrize(("rows", "large"), [(1000, False), (400_000, True), (3_000_000, True)])
+def test_rooms_pieces_begin_with_a_large_page(rows, large):
+    shapes, room, done = {"u": (1,), "v": (1,), "w": (2, 3)}, Room(rows), 0
+    pieces, begun = [], []
+    while done < rows:
+        n = min(CHUNK, rows - done)
+        tap = room.tap(np.arange(n), np.zeros(1, int), shapes)
+        done += n
+        parts = [tap.u, tap.v, tap.w]
+        assert [x.shape for x in parts] == [(n, 1), (n, 1), (n, 2, 3)]
+        assert all(x.flags.c_contiguous for x in parts)
+        assert len(tap.t) == len(tap.a) == 0
+        if not pieces or base_of(tap.u) is not base_of(pieces[-1][0]):
+            place = tap.u.__array_interface__["data"][0]
+            assert (place % 2**21 == 0) or not large
+            pieces.append(parts)
+            begun.append(done - n)
+        assert all(base_of(x) is base_of(tap.u) for x in parts)
+    full = (27 << 20) // 64
+    assert all(full - CHUNK < held <= full for held in np.diff(begun))
+
+
+def test_rows_of_a_room_do_not_overlap():
+    room, taps = Room(100), []
+    shapes = {"u": (2,), "state": (1, 3)}
+    for i in range(10):
+        tap = room.tap(np.arange(10), np.zeros(2, int), shapes)
+        tap.u[:], tap.state[:] = i, 100 + i
+        taps.append(tap)
+    for i, tap in enumerate(taps):
+        assert (tap.u == i).all()
+        assert (tap.state == 100 + i).all()
+
+
+@pytest.mark.parametrize(
+    ("others", "room", "looked_at"),
+    [
+        ([], True, False),
+        ([(True, range(4), slice(None))], True, False),  # another that keeps all of it
+        ([(True, range(2), slice(None))], True, True),  # one that keeps less
+        ([(False, range(4), slice(0, 0))], True, False),  # largest values that nobody asked for
+        ([(False, range(4), slice(None))], True, True),
+        ([(False, range(6), slice(None))], False, True),  # one that looks at more
+    ],
+)
+def test_tracks_that_keep_rows_as_they_are_get_room(others, room, looked_at):
+    def track(keeps, unknowns, when):
+        found = Track(np.zeros(50, bool), np.array(unknowns))
+        found.wanted[when] = True
+        found.keeps = keeps
+        return found
+
+    tracks = [track(*x) for x in ((True, range(4), slice(None)), *others)]
+    taps = Taps(tracks, 50)
+    assert (taps.room is not None, taps.looked_at) == (room, looked_at)
 
 
 def test_steps_with_additions_are_recorded(monkeypatch):
