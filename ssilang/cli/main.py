@@ -177,11 +177,12 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _compile_ahead(source: Source) -> None:
-    """Let the other process begin with joints, if the script names them and there is no code yet.
+    """Let the other process begin with joints, if the script steps some and there is no code yet.
 
-    It compiles while this one reads and meshes; where no step is made it has worked in vain.
+    It compiles while this one reads and meshes.
     """
-    if "JOINT" not in source.code.upper():
+    code = source.code.upper()
+    if "JOINT" not in code or not ("DYNAMIC" in code or "PASAPAS" in code):
         return
     from ssilang.kernel.base.compiled.beside import tell_ahead
     from ssilang.kernel.base.compiled.cache import is_compiled

@@ -257,9 +257,10 @@ def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):
 @pytest.mark.parametrize(
     ("script", "kept", "begun"),
     [
-        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'joint' ;", False, ["interface"]),
-        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'JOINT' ;", True, []),
-        ("MESS 1 ;", False, []),
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'joint' ;\nPASAPAS T1 ;", False, ["interface"]),
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'JOINT' ;\nDYNAMIC T1 ;", True, []),
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'JOINT' ;\n* PASAPAS\n", False, []),
+        ("DYNAMIC T1 ;", False, []),
     ],
 )
 def test_joints_are_compiled_while_the_script_is_read(monkeypatch, script, kept, begun):

@@ -5,8 +5,9 @@ most of them next. They are told to another process, which compiles them and kee
 run loads what it finds done. Who makes a file of a function's name compiles it; the run waits where
 the other has begun, and never the other way. What only Python calls is not known before its turn:
 `ahead.toml` has the types that most decks share, room by room, and the other process is told of a
-room when the run compiles the first function of it. Were they others, the other process would work
-in vain, and no answer would change.
+room when the run compiles the first function of it. It begins before that with joints, where the
+script steps some (`cli.main`), and is told of one of several solvers when a model has chosen it
+(`tell_more`). Were the types others, it would work in vain, and no answer would change.
 
 Nothing starts but where it was allowed (the command line does) and there is a second core. The
 other process is given names and types by a pipe, writes only kept code, and ends with the run,
