@@ -46,7 +46,7 @@ def main(names: list[str]) -> None:
         program = CASES.get(name) or RUN.format(str(Path(name).resolve()))
         with tempfile.TemporaryDirectory() as folder:
             first, second = times(program, folder), times(program, folder)
-            n = sum(1 for _ in Path(folder).rglob("*.nbi"))
+            n = sum(1 for _ in Path(folder).rglob("*.code"))
         print(
             f"{Path(name).stem:12s} {n:4d} functions kept; first run {first[0]:6.1f} s "
             f"({first[1]:.1f} of a processor), next {second[0]:.1f} s ({second[1]:.1f}), "

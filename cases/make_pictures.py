@@ -51,6 +51,7 @@ PICTURES = {
     "published/bar_on_wall": {1: "bar_on_wall"},
     "published/sheared_fault": {1: "sheared_fault"},
     "published/newmark_by_hand": {1: "newmark_by_hand"},
+    "published/rocking_block": {1: "rocking_block"},
     "published/rocking_wall": {1: "rocking_wall"},
     "published/wave_in_column": {1: "wave_in_column"},
     "published/nafems_contact": {1: "nafems_contact"},

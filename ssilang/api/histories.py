@@ -12,7 +12,7 @@ from ssilang.api.fields import node_axes
 from ssilang.api.libraries import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering
+from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering, field_to_vector
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.values import LazyRows, Table
 from ssilang.operators.curves.evol import results_in_time
@@ -87,8 +87,13 @@ def _arrays(fields: Sequence[Any]) -> tuple[IntArray, list[str], FloatArray, Flo
     numberings = {id(f.numbering): f.numbering for f in fields if isinstance(f, InstantField)}
     if len(numberings) == 1:
         (numbering,) = numberings.values()
-        rows = np.array([_vector(f, numbering) for f in fields])
-        return _placed(numbering, np.arange(numbering.size), rows)
+        rows = [
+            f.vector
+            if isinstance(f, InstantField)
+            else field_to_vector(f, numbering, dual=False, absent=np.nan)
+            for f in fields
+        ]
+        return _placed(numbering, np.arange(numbering.size), np.array(rows))
     return _of_fields([f.make() if isinstance(f, InstantField) else f for f in fields])
 
 
@@ -101,17 +106,6 @@ def _of_fields(
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *parts]))
     values = np.array([[f.values_at(n, nodes, np.nan) for n in names] for f in fields])
     return nodes, names, values.transpose(0, 2, 1), fields[0].table.coordinates[nodes]
-
-
-def _vector(found: InstantField | NodeField, numbering: Numbering) -> FloatArray:
-    """Values of the unknowns (size,) of an instant."""
-    if isinstance(found, InstantField):
-        return found.vector
-    vector = np.full(numbering.size, np.nan)
-    for code, name in enumerate(numbering.unknowns):
-        at = np.flatnonzero(numbering.codes == code)
-        vector[at] = found.values_at(name, numbering.nodes[at], np.nan)
-    return vector
 
 
 def _placed(

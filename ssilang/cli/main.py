@@ -19,6 +19,7 @@ from ssilang.late_imports import lasting
 
 if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
+    from ssilang.language.text.source import Source
 
 OK, FAILED, USAGE = 0, 1, 2
 SELDOM = 10_000  # new objects between two searches for garbage: a start makes a hundred thousand
@@ -163,6 +164,7 @@ def _run(options: argparse.Namespace) -> int:
     from ssilang.kernel.base.compiled import ALLOWED
 
     ALLOWED.add("beside")
+    _compile_ahead(source)
     run_options = _run_options(options)
     run_options.report = options.report
     run_options.summary = options.file != "-" or options.out is not None
@@ -172,6 +174,20 @@ def _run(options: argparse.Namespace) -> int:
 
         return interact(result.session)
     return result.exit_code
+
+
+def _compile_ahead(source: Source) -> None:
+    """Let the other process begin with joints, if the script names them and there is no code yet.
+
+    It compiles while this one reads and meshes; where no step is made it has worked in vain.
+    """
+    if "JOINT" not in source.code.upper():
+        return
+    from ssilang.kernel.base.compiled.beside import tell_ahead
+    from ssilang.kernel.base.compiled.cache import is_compiled
+
+    if not is_compiled("interface"):
+        tell_ahead("interface")
 
 
 def _run_options(options: argparse.Namespace) -> RunOptions:

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from references.small_motions import OSCILLATOR
+
+from ssilang.cli.main import _compile_ahead
+from ssilang.kernel.base.compiled import beside, cache
+from ssilang.language.text.source import Source
 
 
 def test_a_file_alone_is_run(ssilang, script):
@@ -21,18 +26,7 @@ def test_debug_shows_the_traceback_too(ssilang, script):
     assert "Traceback" in ssilang("run", script("y = 1 / 0 ;\n"), "--debug").err
 
 
-MASS_ON_A_SPRING = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
-P = 0. 0. ; Q = -1. 0. ; L = DROI 1 Q P ;
-MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
-MA = MATE MO 'YOUN' 4. 'NU' 0. 'SECT' 1. 'RHO' 0. ;
-T1 = TABL ;
-T1 . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UX' 'UY' Q) ET (BLOQ 'UY' P) ;
-T1 . 'MASS' = MASS 'DEPL' 1. P ;
-T1 . 'VITE' = MANU 'CHPO' P 1 'UX' 1. ;
-T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 1. ;
-T2 = DYNAMIC T1 ;
-"""
+MASS_ON_A_SPRING = OSCILLATOR + "T2 = DYNAMIC T1 ;\n"
 
 
 def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script):
@@ -119,9 +113,9 @@ def test_limits_are_options(ssilang, script):
 
 
 def test_memory_is_bounded_by_option(process, script):
-    text = "l1 = PROG 0. PAS 1.E-6 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
+    text = "l1 = PROG 4000000 * 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
     big = script(text)
-    done = process("run", big, "--max-memory", "1500")
+    done = process("run", big, "--max-memory", "1000")
     assert done.code == 1
     assert "memory" in done.err
 
@@ -258,3 +252,19 @@ def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert any(p.endswith(".png") for p in summary["pictures"])
     assert summary["figures"] == []
+
+
+@pytest.mark.parametrize(
+    ("script", "kept", "begun"),
+    [
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'joint' ;", False, ["interface"]),
+        ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'ISOTROPE' 'JOINT' ;", True, []),
+        ("MESS 1 ;", False, []),
+    ],
+)
+def test_joints_are_compiled_while_the_script_is_read(monkeypatch, script, kept, begun):
+    entered = []
+    monkeypatch.setattr(beside.BESIDE, "enter", entered.append)
+    monkeypatch.setattr(cache, "is_compiled", lambda package: kept)
+    _compile_ahead(Source("deck", script))
+    assert entered == begun

@@ -15,32 +15,32 @@ from ssilang.cli.starters import starters, summary
 ROOT = Path(__file__).parents[2]
 
 
-def test_starters_are_listed_written_and_never_replaced(process, tmp_path):
-    listed = process("new")
+def test_starters_are_listed_written_and_never_replaced(ssilang, tmp_path):
+    listed = ssilang("new")
     assert listed.code == 0
     assert [line.split()[0] for line in listed.out.splitlines()] == sorted(starters())
     deck = tmp_path / "mine.ssi"
-    assert process("new", "oscillator", str(deck)).code == 0
+    assert ssilang("new", "oscillator", str(deck)).code == 0
     assert deck.read_bytes() == starters()["oscillator"].read_bytes()
     deck.write_text("mine")
-    again = process("new", "oscillator", str(deck))
+    again = ssilang("new", "oscillator", str(deck))
     assert (again.code, deck.read_text()) == (1, "mine")
     assert "is there already" in again.err
 
 
-def test_a_starter_that_does_not_exist_names_the_near_one(process):
-    outcome = process("new", "towr")
+def test_a_starter_that_does_not_exist_names_the_near_one(ssilang):
+    outcome = ssilang("new", "towr")
     assert outcome.code == 2
     assert "did you mean tower?" in outcome.err
-    assert "vouliez-vous dire tower" in process("new", "towr", "--lang", "fr").err
+    assert "vouliez-vous dire tower" in ssilang("new", "towr", "--lang", "fr").err
 
 
 @pytest.mark.parametrize("path", starters().values(), ids=lambda p: p.stem)
-def test_starters_are_commented_and_pass_the_checker(path, process):
+def test_starters_are_commented_and_pass_the_checker(path, ssilang):
     text = path.read_text(encoding="utf-8")
     assert len(summary(path)) > 20
     assert sum(line.startswith("*") for line in text.splitlines()) >= 8
-    assert process("check", str(path)).out == ""
+    assert ssilang("check", str(path)).out == ""
 
 
 # ---- shells -----------------------------------------------------------------------------------

@@ -37,8 +37,8 @@ def test_functions_are_compiled_once_counted_and_kept(warm, tmp_path):
     first = warm("peaks.ssi")
     assert (first.returncode, first.stderr) == (0, "")
     kept = tmp_path / "home" / "ssilang" / "compiled"
-    count = len(list(kept.glob("ssilang.kernel.records.inelastic-*/*/*.nbc")))
-    assert count == len(list(kept.rglob("*.nbc"))) == 1
+    count = len(list(kept.glob("ssilang.kernel.records.inelastic-*/*.code")))
+    assert count == len(list(kept.rglob("*.code"))) == 1
     deck, total = first.stdout.splitlines()
     assert re.fullmatch(r"peaks.ssi: 1 function compiled, \d+\.\d s", deck)
     assert total.startswith("1 function compiled for 1 deck in ")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from references.small_motions import HOPPER
 
 from ssilang.cli.run import run_text
 
@@ -13,19 +14,6 @@ SURFACE = """
 OPTI DIME 3 ELEM {} ;
 L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; B = L TRAN 2 (0. 1. 0.) ; A = B PLUS (0. 0. 0.) ;
 J = LIAI A B ;
-"""
-HOPPER = """
-OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
-SOL = 0. -1. ; P = 0. 0. ; J = MANU 'SEG2' SOL P ;
-MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
-MA = MATE MO 'KN' 1000. 'KS' 0. ;
-T1 = TABL ;
-T1 . 'RIGI' = (BLOQ 'UX' 'UY' SOL) ET (BLOQ 'UX' P) ;
-T1 . 'MASS' = MASS 'DEPL' 1. P ;
-T1 . 'CHAR' = CHAR 'MECA' (FORC (0. -9.81) P) ;
-T1 . 'DEPL' = MANU 'CHPO' P 1 'UY' -0.05 ;
-T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = MA ;
-T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ;
 """
 
 

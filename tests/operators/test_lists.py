@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.run import run_text
+from ssilang.operators.lists import progressions
 
 INTEGERS = st.lists(st.integers(-99, 99), min_size=1, max_size=15)
 WORDS = st.lists(st.text("ABCab", min_size=1, max_size=4), min_size=1, max_size=10)
@@ -226,13 +227,18 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
         "L = PROG 1. 2. ; REPE B 60 ; L = L ET L ; FIN B ;",
         "L = LECT 1 2 ; REPE B 60 ; L = L ET L ; FIN B ;",
         "L = MOTS 'A' ; REPE B 60 ; L = L ET L ; FIN B ;",
-        "L = ENUM (PROG 1.) ; REPE B 60 ; L = L ET L ; FIN B ;",
         "L = CHAI 'A' *1000000000 ;",
         "L = MOT 'A' ; REPE B 60 ; L = CHAI L L ; FIN B ;",
     ],
 )
 def test_lists_that_would_fill_the_memory_are_refused_at_once(refused, phrase):
     assert "too long" in refused(phrase)
+
+
+def test_lists_of_objects_that_would_fill_the_memory_are_refused(refused, monkeypatch):
+    monkeypatch.setattr(progressions, "LONGEST", 1_000_000)  # objects take a while to be made
+    told = refused("L = ENUM (PROG 1.) ; REPE B 60 ; L = L ET L ; FIN B ;")
+    assert "too long, the limit is 1000000" in told
 
 
 def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):

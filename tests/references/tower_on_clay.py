@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from references.recorder import Recorder
 from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -14,6 +15,7 @@ from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
+from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 DT = 1e-2
@@ -85,3 +87,11 @@ def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4):
     inputs = Inputs(K, times, M, None, load, model=Model((joints,)), characteristics=field)
     problem = make_problem(inputs)
     return problem, bulk_of((clay,), clay_field, numbering)
+
+
+def stepped_tower(law: str = "J2", steps: int = 56, wide: int = 4, keeper=None, full=False):
+    """History of its run, what an observer has seen, plastic strains (m,) at the end."""
+    problem, bulk = tower_on_clay(law, steps, wide)
+    seen = Recorder(steps + 1)
+    history = run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, keeper, full)
+    return history, seen, seen.snapshots[-1].bulk_state[0].variables[:, 0]

@@ -12,7 +12,7 @@ from ssilang.cli.checking.sound import SoundStatements
 from ssilang.language.say.diagnostics import sentence, suggestion
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
-from ssilang.messages.message import teller
+from ssilang.messages.message import Sentence, teller
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +110,7 @@ def _before_semicolon(code: str, start: int) -> int:
 
 def _semicolon_before(error: SsiError, source: Source, language: str) -> Iterator[Fix]:
     """A semicolon at the end of the line above the operator that begins one."""
-    line = cast(tuple[str, int, int], error.data["begins_line"])[1]
+    line = cast(int, cast(Sentence, error.data["begins_line"]).data["line"])
     at = len(source.code[: source.offset(line, 1)].rstrip())
     yield Fix(teller(language)("cli.fix-semicolon"), at, at, " ;")
 

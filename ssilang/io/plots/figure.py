@@ -8,9 +8,9 @@ import textwrap
 import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import replacing
 
@@ -57,10 +57,34 @@ def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
+    _share_what_is_read()
     with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
         figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
         figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # type: ignore[union-attr, call-arg]
         yield figure
+
+
+@cache
+def _share_what_is_read() -> None:
+    """Let matplotlib find again what it has read of a formula or of a number on an axis.
+
+    It keeps that by the object that reads, of which each file has its own, and an SVG several: half
+    of the time of a picture of curves went into reading the same numbers again. What is read
+    depends on the kind of file alone.
+    """
+    from matplotlib.mathtext import MathTextParser
+
+    def kind(reader: MathTextParser[Any]) -> object:
+        return getattr(reader, "_output_type", id(reader))
+
+    def equal(reader: MathTextParser[Any], other: object) -> bool:
+        return isinstance(other, MathTextParser) and kind(reader) == kind(other)
+
+    def key(reader: MathTextParser[Any]) -> int:
+        return hash(kind(reader))
+
+    MathTextParser.__eq__ = equal  # type: ignore[method-assign, assignment]
+    MathTextParser.__hash__ = key  # type: ignore[method-assign, assignment]
 
 
 def head(figure: Figure, title: str) -> None:

@@ -101,8 +101,8 @@ def _change(active: ActiveSet, i: int) -> None:
 
 
 @compiled_fast
-def _solve(active: ActiveSet, g: FloatArray, out: FloatArray) -> None:
-    """Forces of closed rows and jumps of open ones."""
+def answer(active: ActiveSet, g: FloatArray, out: FloatArray) -> None:
+    """Forces of closed rows and jumps of open ones, into `out`, for the jumps g without forces."""
     E, order, n = active.E, active.order, active.tally[0]
     for i in range(len(g)):
         out[i] = 0.0 if active.closed[i] else g[i]
@@ -129,7 +129,7 @@ def find_active(active: ActiveSet) -> int:
         return 1
     while True:
         turn += 1
-        _solve(active, g, out)
+        answer(active, g, out)
         changed = False
         for i in range(len(g)):
             closed = active.closed[i]

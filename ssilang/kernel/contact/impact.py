@@ -5,17 +5,21 @@ With C the rows that close in a step and v_L the velocity at its end, the correc
 the kinetic energy; (2) in that of the step's matrix, which spreads it over the neighbours. The
 acceleration stays that of equilibrium. Rows that were closed already are, if wished, projected:
 `C v = 0` with the smallest change in the norm of the mass. Velocities are relative to what the
-relations impose. Where friction holds, slips have no velocity.
+relations impose. Where friction holds, slips have no velocity. A body that other rows hold when a
+row strikes it does not rebound, see `struck`.
 """
 
 from __future__ import annotations
+
+from functools import cached_property
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
-from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.contact.struck import STILL, press, strike
+from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import Motion
@@ -38,22 +42,30 @@ class ImpactRule:
     ) -> None:
         self.contact, self.closed = contact, closed
         self.options = problem.contact_options
+        self._problem, self._effective = problem, effective
         own = contact.pushing[: len(contact)]
         self._by_mass: FloatArray | None = None
         if self.options.correction == "MASSE" or self.options.persistent:
-            self._by_mass = _mass_motions(problem, effective, own)
+            self._by_mass = _mass_motions(problem, effective, own)[1]
         self._slips: FloatArray | None = None
         if contact.friction is not None:
-            self._slips = _mass_motions(problem, effective, contact.friction.H)
+            self._slips = _mass_motions(problem, effective, contact.friction.H)[1]
         self._by_step: FloatArray | None = None
         if self.options.correction == "RIGIDITE":
             self._by_step = effective.solve(own.T.toarray())
 
-    def correct(self, motion: Motion, rate: FloatArray) -> None:
-        """Change `motion.v`; `rate` (m,) is the velocity of the imposed values."""
+    def correct(self, motion: Motion, rate: FloatArray) -> float | None:
+        """Change `motion.v`; `rate` (m,) is the velocity of the imposed values.
+
+        Where a body was struck while it was held, `motion.a` and `motion.contact` change too, and
+        the result is the work of moving stops on it.
+        """
         now = self.contact.closed(motion.contact)
-        closing, lasting = now & ~self.closed, now & self.closed
-        self.closed[:] = now
+        closing, lasting, work = now & ~self.closed, now & self.closed, None
+        if now.any() and solves_bodies(self._problem):
+            work = self._strike(motion, closing, rate)
+        self.closed[:] = self.contact.closed(motion.contact)
+        lasting &= self.closed
         if self.options.correction != "FAUX" and closing.any():
             motions = self._by_mass if self.options.correction == "MASSE" else self._by_step
             assert motions is not None
@@ -62,6 +74,39 @@ class ImpactRule:
             assert self._by_mass is not None
             self._move(motion, self._by_mass, lasting, -1.0, rate)
         self._hold(motion)
+        return work
+
+    def _strike(self, motion: Motion, closing: BoolArray, rate: FloatArray) -> float | None:
+        """Bodies that are struck while they are held; their rows no longer count as `closing`."""
+        m, G, (X, W, mass, flexibility) = len(rate), self.contact.G, self._bodies
+        p = motion.contact[:m]
+        v = G @ motion.v - rate
+        c = v - 2.0 / self._effective.dt * (flexibility @ p)
+        held = self.closed & ~closing & (c <= 0.0)
+        stays = held & (p > 0.0) & (rate == 0.0) & (np.abs(v) > STILL * np.abs(c))
+        body, struck = np.zeros(m, bool), np.zeros(m, bool)
+        impulse, change = np.zeros(m), np.zeros(m)
+        if not (closing | stays).any():
+            return None
+        if strike(W, c, v, closing | stays, held, body, struck, impulse) == 0:
+            return None
+        move, T, V = X @ impulse, self._problem.constraints.T, self._problem.constraints.V
+        motion.v[:] += move
+        if self._problem.C.nnz:
+            motion.a[:] -= T @ mass.solve(V.T @ (self._problem.C @ move))
+        press(W, G @ motion.a, struck, p, change)
+        motion.a[:] += X @ change
+        p += change
+        closing &= ~body
+        return float(rate @ (impulse - 0.5 * self._effective.dt * change))
+
+    @cached_property
+    def _bodies(self) -> tuple[FloatArray, FloatArray, Inverse, FloatArray]:
+        """Motions and flexibilities by the mass, its inverse, flexibilities of the step."""
+        G, effective = self.contact.G, self._effective
+        inverse, X = _mass_motions(self._problem, effective, G)
+        flexibility = np.asarray(G @ effective.solve(G.T.toarray()))
+        return X, np.ascontiguousarray(G @ X), inverse, flexibility
 
     def _hold(self, motion: Motion) -> None:
         """What sticks has no velocity and no acceleration along its friction.
@@ -92,11 +137,25 @@ class ImpactRule:
         motion.v[:] += X @ np.linalg.lstsq(G @ X, wanted, rcond=1e-12)[0]
 
 
-def _mass_motions(problem: Problem, effective: Effective, rows: sp.csr_array) -> FloatArray:
-    """`M^-1 rows^T` on the admissible motions (n, m)."""
+def solves_bodies(problem: Problem) -> bool:
+    """Whether impacts on bodies that are held are solved: multipliers, corrected, of two rows.
+
+    Not where rows rub: sticking places would take part in the impact.
+    """
+    contact, options = problem.contact, problem.contact_options
+    if contact is None or len(contact) < 2 or options.correction == "FAUX":
+        return False
+    if contact.friction is not None:
+        return False
+    return options.method != "PENALITE" and contact.associated and problem.constraints.associated
+
+
+def _mass_motions(
+    problem: Problem, effective: Effective, rows: sp.csr_array
+) -> tuple[Inverse, FloatArray]:
+    """Inverse of the mass on the admissible motions, `M^-1 rows^T` (n, m)."""
     T, V = problem.constraints.T, problem.constraints.V
     mass = problem.M + (MASSLESS * 0.25 * effective.dt**2) * effective.A
     mass = sp.csr_array(V.T @ mass @ T)
     inverse = invert(mass, problem.constraints.associated, problem.solver)
-    found: FloatArray = T @ inverse.solve(V.T @ rows.T.toarray())
-    return found
+    return inverse, T @ inverse.solve(V.T @ rows.T.toarray())

@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.active_set import ActiveSet, active_set_of
-from ssilang.kernel.contact.impact import MASSLESS
+from ssilang.kernel.contact.impact import MASSLESS, solves_bodies
 from ssilang.kernel.contact.modal_loop import (
     ROUNDING,
     Stops,
@@ -83,17 +83,20 @@ def _stops(
     G = np.ascontiguousarray(contact.G @ modes.X)
     stiffness = float(options.coefficient or 0.0) if options.method == "PENALITE" else 0.0
     none = np.zeros((modes.size, 0))
-    by_mass = np.ascontiguousarray(G.T / (modes.m + MASSLESS * 0.25 * dt**2)[:, None])
+    mass = modes.m + MASSLESS * 0.25 * dt**2
+    by_mass = np.ascontiguousarray(G.T / mass[:, None])
     by_step = np.ascontiguousarray(G.T)
     closing = {"MASSE": by_mass, "RIGIDITE": by_step}.get(options.correction, none)
     lasting = by_mass if options.persistent else none
+    struck = by_mass if solves_bodies(problem) else none
     nothing = np.zeros((0, 0))
     return Stops(
         n, Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size)), G, modes.forces,
         np.ascontiguousarray(contact.imposed),
         VelocityChange(closing, G @ closing if closing.size else nothing, -2.0),
-        VelocityChange(lasting, G @ lasting if lasting.size else nothing, -1.0), stiffness,
-        closed,
+        VelocityChange(lasting, G @ lasting if lasting.size else nothing, -1.0),
+        VelocityChange(struck, G @ struck if struck.size else nothing, -1.0), modes.c / mass,
+        stiffness, closed,
     )  # fmt: skip
 
 

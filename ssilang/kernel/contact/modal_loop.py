@@ -6,7 +6,8 @@ flexibility of the rows `W = G G^T` is theirs for all steps. A step asks for rea
     w = q + W p >= 0 ,   p >= 0 ,   w p = 0
 
 with the gaps q that it would end with without them, by `active_set` (f = -p). W is regular here,
-so the reactions are those of any other order. Velocities are corrected as `impact` says.
+so the reactions are those of any other order. Velocities are corrected as `impact` and `struck`
+say.
 """
 
 from __future__ import annotations
@@ -16,8 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.contact.active_set import ActiveSet, find_active
+from ssilang.kernel.contact.struck import COUPLED, STILL, press, strike
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.modal.diagonal import (
@@ -28,7 +31,15 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     predict,
     sweep_of,
 )
-from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion, Recorder
+from ssilang.kernel.stepping.state import (
+    DAMPED,
+    ELASTIC,
+    EXTERNAL,
+    KINETIC,
+    LOST,
+    Motion,
+    Recorder,
+)
 from ssilang.kernel.stepping.verbs import keep, tap
 
 ROUNDING = 1e-12  # of the largest gap, or of a pivot
@@ -49,7 +60,8 @@ class Stops(NamedTuple):
     """Diagonals, rows of the relations, loads, for one step length.
 
     `closed` (m,) are the rows that pushed in the last step; `closing` and `lasting` change
-    velocities of rows that close and that stay closed; `stiffness` is that of a penalty, or zero.
+    velocities of rows that close and that stay closed, `struck` of those that strike a body while
+    others hold it; `slowing` (r,) is damping over mass; `stiffness` is that of a penalty, or zero.
     """
 
     newmark: Newmark
@@ -59,6 +71,8 @@ class Stops(NamedTuple):
     imposed: FloatArray  # (m, n_loads)
     closing: VelocityChange
     lasting: VelocityChange
+    struck: VelocityChange
+    slowing: FloatArray
     stiffness: float
     closed: np.ndarray
 
@@ -121,19 +135,99 @@ def _change_velocity(
 
 
 @compiled_fused
-def _impacts(stops: Stops, x: Motion, rate: FloatArray) -> None:
-    """Velocities of rows that close, and of those that stay closed; the new set of closed rows."""
+def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
+    """Velocities of rows that close, and of those that stay closed; the new set of closed rows.
+
+    The work of moving stops on bodies that were struck while they were held; NaN: none was.
+    """
     m, closed = len(x.contact), stops.closed
-    closing, lasting = np.zeros(m, np.bool_), np.zeros(m, np.bool_)
+    closing, lasting, strikes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), False
     for i in range(m):
         now = x.contact[i] > 0.0
         closing[i] = now and not closed[i]
         lasting[i] = now and closed[i]
-        closed[i] = now
+    work = np.nan
+    if stops.struck.by.shape[1]:
+        for i in range(m):
+            if closing[i]:
+                strikes = strikes or _joins(stops, closing, i)
+            elif lasting[i]:
+                strikes = strikes or _stays(stops, Q, x, rate, i)
+    if strikes:
+        work = _strike(stops, Q, x, rate, closing)
+    for i in range(m):
+        closed[i] = x.contact[i] > 0.0
+        lasting[i] = lasting[i] and closed[i]
     if stops.closing.by.shape[1]:
         _change_velocity(stops.G, stops.closing, closing, rate, x.v)
     if stops.lasting.by.shape[1]:
         _change_velocity(stops.G, stops.lasting, lasting, rate, x.v)
+    return work
+
+
+@compiled_fused
+def _joins(stops: Stops, closing: np.ndarray, i: int) -> bool:
+    """Whether a row that closes moves one that was closed."""
+    W = stops.struck.on
+    for j in range(len(closing)):
+        if stops.closed[j] and not closing[j] and W[i, j] ** 2 > COUPLED**2 * W[i, i] * W[j, j]:
+            return True
+    return False
+
+
+@compiled_fast
+def _stays(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, i: int) -> bool:
+    """Whether a row was turned round and pushes all the same: it moves, and does not rebound."""
+    if rate[i] != 0.0:
+        return False
+    row, v, push = stops.G[i], 0.0, 0.0
+    for j in range(len(x.v)):
+        v += row[j] * x.v[j]
+    for j in range(len(x.contact)):
+        push += Q[i, j] * x.contact[j]
+    c = v - stops.newmark.v_du * push
+    return c <= 0.0 and abs(v) > STILL * abs(c)
+
+
+@seldom
+@compiled_fused
+def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: np.ndarray) -> float:
+    """Bodies that are struck while they are held; their rows no longer count as `closing`."""
+    m, r, by, W = len(x.contact), len(x.v), stops.struck.by, stops.struck.on
+    v, c, impulse, change = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
+    held, body, struck = np.zeros(m, np.bool_), np.zeros(m, np.bool_), np.zeros(m, np.bool_)
+    strikes = closing.copy()
+    for i in range(m):
+        v[i] = c[i] = -rate[i]
+        for j in range(r):
+            v[i] += stops.G[i, j] * x.v[j]
+        c[i] = v[i]
+        for j in range(m):
+            c[i] -= stops.newmark.v_du * Q[i, j] * x.contact[j]
+        held[i] = stops.closed[i] and not closing[i] and c[i] <= 0.0
+        if held[i] and x.contact[i] > 0.0:
+            strikes[i] = _stays(stops, Q, x, rate, i)
+    if strike(W, c, v, strikes, held, body, struck, impulse) == 0:
+        return np.nan
+    for j in range(r):
+        move = 0.0
+        for i in range(m):
+            move += by[j, i] * impulse[i]
+        x.v[j] += move
+        x.a[j] -= stops.slowing[j] * move
+    for i in range(m):
+        v[i] = 0.0
+        for j in range(r):
+            v[i] += stops.G[i, j] * x.a[j]
+    press(W, v, struck, x.contact, change)
+    work = 0.0
+    for i in range(m):
+        closing[i] = closing[i] and not body[i]
+        work += rate[i] * (impulse[i] - 0.5 * stops.newmark.dt * change[i])
+        x.contact[i] += change[i]
+        for j in range(r):
+            x.a[j] += by[j, i] * change[i]
+    return work
 
 
 @compiled_fast
@@ -160,6 +254,15 @@ def _correct_energies(stops: Stops, x: Motion, v0: FloatArray, du: FloatArray) -
     return size
 
 
+@compiled_fused
+def _total(energies: FloatArray) -> float:
+    """What a motion keeps."""
+    total: float = -energies[EXTERNAL]
+    for i in range(EXTERNAL):
+        total += energies[i]
+    return total
+
+
 @compiled_fast
 def run_contact(
     stops: Stops, rows: ActiveSet, x: Motion, factors: FloatArray, to: Recorder
@@ -172,6 +275,7 @@ def run_contact(
     gap, rise, rate, before = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
     worst, corrected = 0, stops.closing.by.shape[1] + stops.lasting.by.shape[1] > 0
     next_load(stops.forces, factors[0], sweep.load0, sweep.load1)
+    balance = _total(x.energies)
     _rows_of(stops.G, x.u, gap)  # without what is imposed
     for k in range(len(to.row)):
         # predict: increments without reactions, and the gaps that they lead to
@@ -200,7 +304,7 @@ def run_contact(
         account(x, sweep)
         _rows_of(stops.G, sweep.du, gap)
         copy_state(x.v, v1)
-        _impacts(stops, x, rate)
+        work = _impacts(stops, rows.Q, x, rate)
         if corrected:
             size += _correct_energies(stops, x, v1, sweep.du)
         if not np.isfinite(size):
@@ -209,6 +313,13 @@ def run_contact(
             x.energies[EXTERNAL] += 0.5 * (before[i] + x.contact[i]) * rise[i]
             if stops.stiffness > 0.0:  # what is closed has the gap -p / stiffness
                 x.energies[ELASTIC] += 0.5 * x.contact[i] ** 2 / stops.stiffness
+        total = _total(x.energies)
+        if not np.isnan(work):  # what the step's balance lacks went with the impact
+            x.energies[EXTERNAL] += work
+            lost = max(balance - total + work, 0.0)
+            x.energies[LOST] += lost
+            total += lost - work
+        balance = total
         copy_state(x.energies, to.energies[k])
         if to.row[k] >= 0:
             keep(x, to, to.row[k])

@@ -18,7 +18,6 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.interface.response import (
-    InterfaceState,
     accept,
     interface_response,
     interface_stiffness,
@@ -142,7 +141,7 @@ class ContactSolver:
         assert joints is not None
         SJP, SGJ = joints.J @ self.Y, seen @ e.Y
         trial, found = new_trial(motion.w.shape, joints.size), motion.contact.copy()
-        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        now = motion.joints
         y0, y = trial.y0, trial.y
         y0[:] = joints.J @ du
         y[:] = y0

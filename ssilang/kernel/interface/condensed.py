@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.copies import dot
 from ssilang.kernel.interface.response import InterfaceState, Joints, Trial, interface_stiffness
 
 
@@ -38,18 +39,12 @@ def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     """`h = c (f - f_0) - R y` and `r = y - y_0 + S h` of the trial; the largest |r|."""
     S, R, y, h, r = condensed.S, condensed.R, trial.y, trial.h, trial.r
     for i in range(len(h)):
-        total = condensed.c * (trial.f[i] - now.f[i])
+        h[i] = condensed.c * (trial.f[i] - now.f[i])
         if len(R):
-            row = R[i]
-            for j in range(len(y)):
-                total -= row[j] * y[j]
-        h[i] = total
+            h[i] -= dot(R[i], y)
     size = 0.0
     for i in range(len(r)):
-        total, row = 0.0, S[i]
-        for j in range(len(h)):
-            total += row[j] * h[j]
-        r[i] = y[i] - trial.y0[i] + total
+        r[i] = y[i] - trial.y0[i] + dot(S[i], h)
         size = max(size, abs(r[i]))
     return size
 

@@ -36,6 +36,8 @@ from ssilang.kernel.matrices.matrix import ElementMatrices
 _SPRINGS = {2: (("QS",),), 3: (("QN",), ("QS1", "QS"), ("QS2", "QS"))}
 _CURVATURES = {2: ("CXZ",), 3: ("CXX", "CXY", "CXZ")}
 _MOMENTS = {2: ("MOMZ",), 3: ("MOMX", "MOMY", "MOMZ")}
+ROTATIONS = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
+"""Primal names by the number of dimensions."""
 
 
 def displacement_names(zone: Zone) -> tuple[str, ...]:
@@ -86,7 +88,7 @@ class JointFamily(ElementFamily):
         """Rows of the element vectors."""
         names = displacement_names(zone)
         if has_rotations(zone):
-            names += ("RZ",) if zone.mode.dimension == 2 else ("RX", "RY", "RZ")
+            names += ROTATIONS[zone.mode.dimension]
         return node_major_layout(zone, names)
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ from ssilang.kernel.interface.bed_results import (
     zone_variables,
 )
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.family import component_order, displacement_names
+from ssilang.kernel.interface.family import ROTATIONS, component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import (
@@ -258,12 +258,11 @@ def macro_jumps(joints: JointCells, numbering: Numbering) -> sp.csr_array:
     """Rotations about t1 (and t2) and opening of macro-elements, d rows a cell."""
     d, frames = joints.element.dimension, joints.frames[:, 0]
     resolve = joints.zone.cells.nodes.resolve
-    turning = ("RZ",) if d == 2 else ("RX", "RY", "RZ")
     moving = displacement_names(joints.zone)
     matrix = sp.lil_array((len(frames) * d, numbering.size))
     for side, sign in ((joints.upper, 1.0), (joints.lower, -1.0)):
         for cell, node in enumerate(resolve(side).ravel()):
-            turn = _places(numbering, int(node), turning)
+            turn = _places(numbering, int(node), ROTATIONS[d])
             move = _places(numbering, int(node), moving)
             axes = np.ones((1, 1)) if d == 2 else frames[cell, : d - 1]
             for row in range(d - 1):
@@ -288,7 +287,7 @@ def sliding_jumps(
             for row in range(d - 1):
                 matrix[i * d + row, move] += sign * frame[row]
             if d == 3:
-                turn = _places(numbering, node, ("RX", "RY", "RZ"))
+                turn = _places(numbering, node, ROTATIONS[d])
                 matrix[i * d + 2, turn] += sign * frame[-1]
     return sp.csr_array(matrix)
 

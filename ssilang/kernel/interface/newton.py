@@ -16,7 +16,7 @@ from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import largest
 from ssilang.kernel.interface.factors.changed import Changes
 from ssilang.kernel.interface.factors.inverse import Inverse
-from ssilang.kernel.interface.factors.kept import Factors, new_factors, solve_tangent
+from ssilang.kernel.interface.factors.kept import FORCING, Factors, new_factors, solve_tangent
 from ssilang.kernel.interface.factors.krylov import Krylov
 from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.laws.columns import (
@@ -41,7 +41,6 @@ HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
 HALVINGS = 12  # of a step in the line search
 ACCEPTED = 1e-9  # residual at which an iteration that only rounding errors move is accepted
-FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
 MOVED = 1e-14  # least step of Newton, relative to the jumps
 
 

@@ -21,10 +21,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
-from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.factors.inverse import solve_small
-from ssilang.kernel.interface.factors.kept import Factors, solve_tangent
+from ssilang.kernel.interface.factors.kept import FORCING, Factors, solve_tangent
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import (
@@ -38,7 +38,6 @@ from ssilang.kernel.interface.response import (
 MOST_TURNS = 12
 TOLERANCE = 1e-8  # of the largest traction: Newton's method goes on from there
 STIFF = 0.5  # rho under which points are stiff
-FORCING = 1e-4  # residual of an iterated direction
 
 
 @compiled_fast
@@ -133,26 +132,6 @@ def _tangents(joints: Joints, rho: FloatArray, D: FloatArray, F: FloatArray) -> 
     return True
 
 
-@compiled_fast
-def _right_side(
-    condensed: Condensed, now: InterfaceState, trial: Trial, f: FloatArray, out: FloatArray
-) -> None:
-    """`y_0 - y - S (c (f - f_0) - R y)`."""
-    S, R, y, h = condensed.S, condensed.R, trial.y, trial.h
-    for i in range(len(h)):
-        total = condensed.c * (f[i] - now.f[i])
-        if len(R):
-            row = R[i]
-            for j in range(len(y)):
-                total -= row[j] * y[j]
-        h[i] = total
-    for i in range(len(out)):
-        total, row = 0.0, S[i]
-        for j in range(len(h)):
-            total += row[j] * h[j]
-        out[i] = trial.y0[i] - y[i] - total
-
-
 @seldom
 @compiled
 def find_start(
@@ -162,7 +141,7 @@ def find_start(
     """The start value `trial.y`: turns it took; 0, and `trial.y` as it was, if none was found."""
     n, d = trial.w.shape
     t, F, w = np.empty((n, d)), np.empty((n, d)), np.empty((n, d))
-    f, begin = np.empty(len(trial.y)), np.empty(len(trial.y))
+    begin = np.empty(len(trial.y))
     copy_rows(now.t, t)
     copy_state(trial.y, begin)
     for turn in range(1, MOST_TURNS + 1):
@@ -183,8 +162,10 @@ def find_start(
         for i in range(n):
             for j in range(d):
                 t[i, j] -= F[i, j]
-        interface_forces(joints, t, f)
-        _right_side(condensed, now, trial, f, trial.dy)
+        interface_forces(joints, t, trial.f)
+        residual(condensed, now, trial)
+        for i in range(len(trial.y)):
+            trial.dy[i] = -trial.r[i]
         if not solve_tangent(joints, condensed, factors, trial.D, trial.dy, FORCING):
             break
         for i in range(len(trial.y)):

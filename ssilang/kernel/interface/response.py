@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
@@ -122,6 +122,30 @@ def interface_forces(joints: Joints, t: FloatArray, f: FloatArray) -> None:
                 for a in range(pairs.shape[1]):
                     for j in range(d):
                         f[pairs[p, a] * d + j] += force * B[p, i, a * d + j]
+
+
+@compiled_fast
+def add_stiffness_forces(
+    joints: Joints, c: float, D: FloatArray, x: FloatArray, f: FloatArray
+) -> None:
+    """`f += c K x` on pair jumps x (q,), K of the local tangents D (n_points, d, d)."""
+    pairs, B = joints.pairs, joints.B
+    n, d, _ = B.shape
+    for p in range(n):
+        for i in range(d):
+            force = 0.0
+            for k in range(d):
+                if D[p, i, k] != 0.0:
+                    jump = 0.0
+                    for pair in range(pairs.shape[1]):
+                        for j in range(d):
+                            jump += B[p, k, pair * d + j] * x[pairs[p, pair] * d + j]
+                    force += D[p, i, k] * jump
+            if force != 0.0:
+                force *= c * joints.weights[p]
+                for pair in range(pairs.shape[1]):
+                    for j in range(d):
+                        f[pairs[p, pair] * d + j] += force * B[p, i, pair * d + j]
 
 
 @compiled

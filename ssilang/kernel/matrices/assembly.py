@@ -379,8 +379,10 @@ def _stack(parts: tuple[Relations, ...], numbering: Numbering) -> sp.csr_array:
 # --- fields ----------------------------------------------------------------------------------
 
 
-def field_to_vector(field: NodeField, numbering: Numbering, dual: bool = True) -> FloatArray:
-    """Values of a nodal field at each unknown, shape (n,), zero where it has none.
+def field_to_vector(
+    field: NodeField, numbering: Numbering, dual: bool = True, absent: float = 0.0
+) -> FloatArray:
+    """Values of a nodal field at each unknown, shape (n,), `absent` where it has none.
 
     Parameters
     ----------
@@ -392,7 +394,7 @@ def field_to_vector(field: NodeField, numbering: Numbering, dual: bool = True) -
     Values at nodes or of components outside the numbering are left out; `outside` finds them.
     """
     names = numbering.duals if dual else numbering.unknowns
-    vector = np.zeros(numbering.size)
+    vector = np.full(numbering.size, absent)
     for code, name in enumerate(names):
         part = field.components.get(name)
         if part is not None:

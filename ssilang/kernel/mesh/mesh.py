@@ -100,6 +100,10 @@ class CellBlock:
         """Coordinates of the cells' nodes, shape (n_cells, n_nodes, 3)."""
         return self.nodes.coordinates[self.connectivity]
 
+    def shown_middle(self, cell: int) -> FloatArray:
+        """Middle of a cell as scripts see it."""
+        return self.nodes.shown(self.coordinates[cell].mean(axis=0))
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:

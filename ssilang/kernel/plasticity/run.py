@@ -28,7 +28,13 @@ from ssilang.kernel.stepping.problem.initial import (
     joint_state,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome, support_work
+from ssilang.kernel.stepping.rests.sparse.loop import (
+    SparseLoop,
+    StepOutcome,
+    balance,
+    lose,
+    support_work,
+)
 from ssilang.kernel.stepping.run import History, Progress
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.kernel.stepping.state import (
@@ -405,8 +411,9 @@ class _BulkLoop(SparseLoop):
         run.state, run.force = solver.state, solver.force
         driven = driven + run.bulk.pushed(run.state)
         self._advance(n, outcome.du)
+        before, work = balance(m.energies), None
         if impact is not None and p.contact is not None:
-            impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
+            work = impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
         # the bodies' forces are no loads: their part in the work of the loads is taken back
         loads = np.stack([load0 - old, load1 - solver.force])
         self._account(outcome.du, dd, loads, pushed, factors)
@@ -414,6 +421,8 @@ class _BulkLoop(SparseLoop):
             run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
         m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force + driven)
         run.account(stored, solver.work)
+        if work is not None:
+            run.lost += lose(m, work, before)
         return outcome
 
 

@@ -14,11 +14,8 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.contact.impact import ImpactRule
-from ssilang.kernel.contact.rows import BoolArray
-from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
@@ -174,6 +171,8 @@ def _iterated(case: Case) -> Loop:
 
 
 def _condensed(case: Case) -> Loop:
+    from ssilang.kernel.contact.solver import step_solver
+
     return _sparse(case, step_solver(case.problem, case.effective))
 
 
@@ -188,6 +187,8 @@ def _full_newton(case: Case) -> Loop:
 def _sparse(case: Case, solver: StepSolver) -> Loop:
     p, impact = case.problem, None
     if p.contact is not None:
+        from ssilang.kernel.contact.impact import ImpactRule
+
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
     n = newmark_of(p.scheme, case.dt)
     return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)

@@ -70,7 +70,8 @@ class History:
     ----------
     times : array (n_times,)
     kept : array (n_times, N_ENERGIES)
-        Kinetic, elastic, stored in joints, lost in joints, damped, work of loads and supports;
+        Kinetic, elastic, stored in joints, lost in joints, by friction and at impacts, damped,
+        work of loads and supports;
         ask for `energies`.
     iterations : int
         Most interface iterations in one step.

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.response import InterfaceState
 
 N_ENERGIES = 6
 KINETIC, ELASTIC, STORED, LOST, DAMPED, EXTERNAL = range(N_ENERGIES)
@@ -32,6 +33,11 @@ class Motion(NamedTuple):
     reaction: FloatArray  # (n,) M a + C v + K u + J^T f - F of the last step
     energies: FloatArray  # (N_ENERGIES,)
     contact: FloatArray  # (m,) reactions of unilateral relations
+
+    @property
+    def joints(self) -> InterfaceState:
+        """The interface's part of the state, the same arrays."""
+        return InterfaceState(self.delta, self.f, self.w, self.t, self.state)
 
 
 class Tap(NamedTuple):

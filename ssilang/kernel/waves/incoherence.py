@@ -19,6 +19,7 @@ its copy moved by s have in common.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -91,6 +92,10 @@ class Ground:
         return self.gamma * w / self.shear, 0.0 if self.apparent is None else w / self.apparent
 
 
+Pair = Callable[[RigidBase, float, float], tuple[float, float]]
+"""Two means over a base by decay and wave number."""
+
+
 @dataclass(frozen=True)
 class Factors:
     """What a base makes of unit motion at each frequency.
@@ -112,9 +117,8 @@ class Factors:
 def factors(base: RigidBase, ground: Ground, frequencies: FloatArray) -> Factors:
     """Factors of translation, rotation and torsion at frequencies (n,) in Hz."""
     mean_of = _disc if base.shape == "disc" else _rectangle
-    found = [mean_of(base, *ground.numbers(float(f))) for f in frequencies]
-    squares = np.array(found, float).reshape(len(frequencies), 2)
-    translation, rotation = np.sqrt(np.maximum(squares, 0.0)).T
+    squares = _over(frequencies, mean_of, base, ground)
+    translation, rotation = np.sqrt(np.maximum(squares, 0.0))
     return Factors(translation, rotation, base.torsion_share * rotation)
 
 
@@ -126,9 +130,14 @@ def signs(
     Those of their cross spectra with the motion at the centre, which is all that the coherency
     says of phases: without chance the wave's own; where chance prevails none goes against it.
     """
-    found = [_with_centre(base, *ground.numbers(float(f))) for f in frequencies]
-    translation, slope = np.array(found, float).reshape(len(frequencies), 2).T
-    return np.where(translation < 0.0, -1.0, 1.0), np.where(slope < 0.0, -1.0, 1.0)
+    translation, slope = np.where(_over(frequencies, _with_centre, base, ground) < 0.0, -1.0, 1.0)
+    return translation, slope
+
+
+def _over(frequencies: FloatArray, of: Pair, base: RigidBase, ground: Ground) -> FloatArray:
+    """Two means (2, n) at frequencies (n,)."""
+    found = [of(base, *ground.numbers(float(f))) for f in frequencies]
+    return np.array(found, float).reshape(len(frequencies), 2).T
 
 
 def frequencies_of(acceleration: FloatArray, step: float) -> FloatArray:
@@ -219,13 +228,7 @@ def _disc(base: RigidBase, decay: float, number: float) -> tuple[float, float]:
     ratio = np.full_like(phase, 0.5)  # J1(z)/z
     np.divide(j1(phase), phase, out=ratio, where=phase > 0.0)
     loss = np.exp(-((decay * s) ** 2))
-    mean = (
-        1.0
-        + 2
-        * np.pi
-        * float(weights @ (s * area * (loss * j0(phase) - 1.0)))
-        / (np.pi * radius**2) ** 2
-    )
+    mean = 1.0 + 2 * float(weights @ (s * area * (loss * j0(phase) - 1.0))) / np.pi / radius**4
     apart = (along - s**2 / 4 * area) * (loss * (j0(phase) - ratio) - 0.5)
     turned = apart + across * (loss * ratio - 0.5)
     moment = np.pi * radius**4 / 4

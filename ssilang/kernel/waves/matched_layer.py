@@ -13,10 +13,10 @@ nothing split),
     a = alpha_1 alpha_2, b = alpha_1 beta_2 + alpha_2 beta_1, c = beta_1 beta_2,
     L_e = diag(alpha_2, alpha_1), L_p = diag(beta_2, beta_1), D the compliance.
 
-Here S stands at the integration points of the displacement elements and jumps between them: with
-alpha = 1 and beta = 0 the equations are then those of the elements inside, and nothing of the mesh
-is seen at the box but the stretching. The second equation counts with its sign turned, which makes
-matrices symmetric; the inertia of S is negative.
+Here alpha is 1, and S stands at the integration points of the displacement elements and jumps
+between them: where beta = 0 the equations are then those of the elements inside, and nothing of
+the mesh is seen at the box but the stretching. The second equation counts with its sign turned,
+which makes matrices symmetric; the inertia of S is negative.
 """
 
 from __future__ import annotations
@@ -72,23 +72,17 @@ class Stretching:
     speed: float
     reflection: float
 
-    def depths(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Depth in the layer as a share of its thickness, and that thickness, (..., 2)."""
-        under, over = self.low - points, points - self.high
-        thick = np.where(under > 0, self.below, self.above)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = np.where(thick > 0, np.maximum(np.maximum(under, over), 0.0) / thick, 0.0)
-        return share, thick
-
     def rates(self, points: FloatArray) -> FloatArray:
-        """Beta (..., 2) at points (..., 2), in 1/s; alpha is 1.
+        """Beta (..., 2) at points (..., 2), in 1/s.
 
         The wave that crosses the layer and comes back has lost exp(-2/c int beta dx), which is the
         reflection wanted.
         """
-        share, thick = self.depths(points)
+        under, over = self.low - points, points - self.high
+        thick = np.where(under > 0, self.below, self.above)
         most = (ORDER + 1) * self.speed * np.log(1 / self.reflection) / 2
         with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.maximum(np.maximum(under, over), 0.0) / thick
             found: FloatArray = np.where(thick > 0, most / thick * share**ORDER, 0.0)
         return found
 
@@ -181,7 +175,7 @@ def _refuse_inside(zone: Zone, low: FloatArray, high: FloatArray, size: float) -
     middles = zone.cells.coordinates[..., :2].mean(axis=1)
     wrong = ((middles > low - size) & (middles < high + size)).all(axis=1)
     if wrong.any():
-        place = zone.cells.nodes.shown(zone.cells.coordinates[int(np.argmax(wrong))].mean(axis=0))
+        place = zone.cells.shown_middle(int(np.argmax(wrong)))
         raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
 
 
@@ -212,10 +206,10 @@ def _blocks(
     return found[0], found[1], found[2]
 
 
-def _products(alpha: FloatArray, beta: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _products(beta: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """c, a, b of the equations: what stands with a motion, its second and its first rate."""
-    (a1, a2), (b1, b2) = np.moveaxis(alpha, -1, 0), np.moveaxis(beta, -1, 0)
-    return b1 * b2, a1 * a2, a1 * b2 + a2 * b1
+    b1, b2 = np.moveaxis(beta, -1, 0)
+    return b1 * b2, np.ones_like(b1), b1 + b2
 
 
 def _points_of(zone: Zone, support: Support) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -232,7 +226,7 @@ def _inertia(zone: Zone, parameters: ZoneField, stretching: Stretching) -> list[
     heavy = volumes * per_cell(parameters.at("RHO", "MASSE"), every)
     k = shapes.shape[1]
     found = []
-    for share in _products(np.ones_like(beta), beta):
+    for share in _products(beta):
         scalar = np.einsum("cp,pa,pb->cab", heavy * share, shapes, shapes)
         values = np.zeros((len(zone.cells), 2 * k, 2 * k))
         values[:, 0::2, 0::2] = values[:, 1::2, 1::2] = scalar
@@ -267,12 +261,12 @@ class _Histories:
         shapes, gradients, volumes = _points_of(zone, "RIGIDITE")
         xyz = np.einsum("pa,cad->cpd", shapes, zone.cells.coordinates)
         beta = stretching.rates(xyz[..., :2])
-        alpha = np.ones_like(beta)
         moduli = solid_moduli(zone, parameters, "RIGIDITE")[..., IN_PLANE, :][..., IN_PLANE]
         compliances = np.linalg.inv(moduli) * volumes[..., None, None]
         nodes = zone.cells.nodes.add(xyz.reshape(-1, xyz.shape[-1])).reshape(volumes.shape)
-        ties = tuple(_tie(gradients, volumes, of[..., ::-1]) for of in (beta, alpha))
-        return cls(zone, nodes, compliances, (ties[0], ties[1]), _products(alpha, beta))
+        by_p = _tie(gradients, volumes, beta[..., ::-1])
+        by_e = _tie(gradients, volumes, np.ones_like(beta))
+        return cls(zone, nodes, compliances, (by_p, by_e), _products(beta))
 
     def values(self) -> list[FloatArray]:
         """Stiffness, mass, damping (n_cells, 2 k + 3 p, 2 k + 3 p)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -58,9 +58,7 @@ def coarse_elements(model: Model, material: CellField, frequency: float) -> Coar
         if ratio[i] > 1 + 1e-9 and (worst is None or ratio[i] > worst.length / worst.wanted):
             place = zone.cells.coordinates[i].mean(axis=0)
             worst = Coarse(place, lengths[i], wanted[i], shear[i], 0, elements)
-    if worst is None:
-        return None
-    return Coarse(worst.place, worst.length, worst.wanted, worst.shear, total, worst.elements)
+    return None if worst is None else replace(worst, count=total)
 
 
 def longest_sides(zone: Zone) -> FloatArray:

@@ -57,8 +57,7 @@ def _yielding(model: Model, wanted: Callable[[IntArray], BoolArray]) -> Yielding
             continue
         found = np.flatnonzero(wanted(zone.cells.connectivity))
         if len(found) and first is None:
-            middle = zone.cells.coordinates[found[0]].mean(axis=0)
-            first = (zone.behaviour, zone.cells.nodes.shown(middle))
+            first = (zone.behaviour, zone.cells.shown_middle(int(found[0])))
         count += len(found)
     return None if first is None else Yielding(*first, count)
 
@@ -103,7 +102,7 @@ def yielded(variables: CellField, nodes: IntArray, axis: int | None = None) -> Y
         if len(found) and strain[found].max() > worst:
             cell = int(found[np.argmax(strain[found])])
             worst = float(strain[cell])
-            place = block.cells.nodes.shown(block.cells.coordinates[cell].mean(axis=0))
+            place = block.cells.shown_middle(cell)
     return Yielded(worst, place, count) if count else None
 
 

@@ -30,6 +30,7 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.language.vocabulary.entries import is_declared_value
+from ssilang.messages.message import Sentence
 
 if TYPE_CHECKING:
     from ssilang.language.run.session import LoopObserver, Session
@@ -215,7 +216,7 @@ class Evaluator(PhraseRunner):
         target, item = statement.targets[0], statement.items[0]
         said = item.text if isinstance(item, tree.Quoted | tree.Name) else ""
         held = error.data.get("held_word")
-        word = str(held[0]) if isinstance(held, tuple) else said
+        word = str(held.data["word"]) if isinstance(held, Sentence) else said
         index = target.indices[-1] if isinstance(target, tree.Path) else None
         if not word or not isinstance(index, tree.Quoted | tree.Name):
             return None

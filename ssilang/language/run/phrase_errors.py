@@ -12,6 +12,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.values import Mot
+from ssilang.messages.message import Sentence
 
 
 def tell_held_word(error: SsiError, operand: Operand) -> None:
@@ -20,7 +21,8 @@ def tell_held_word(error: SsiError, operand: Operand) -> None:
     if PREDEFINED.get(written.upper()) == operand.value:
         return
     if not operand.result and written.strip("'").upper()[:4] != str(operand.value).upper()[:4]:
-        error.data.setdefault("held_word", (str(operand.value), written))
+        note = Sentence("held-word", word=str(operand.value), holder=written)
+        error.data.setdefault("held_word", note)
 
 
 def tell_unread_word(error: SsiError, left: Sequence[Operand], found: Operator) -> None:
@@ -33,13 +35,14 @@ def tell_unread_word(error: SsiError, left: Sequence[Operand], found: Operator) 
     word = str(written.value)
     near = nearest(word, keywords_of(found))
     if near and near != word.rstrip().upper():
-        error.data.setdefault("unread_word", (word, near))
+        error.data.setdefault("unread_word", Sentence("unread-word", word=word, near=near))
 
 
 def tell_quoted_operator(error: SsiError, items: Sequence[tree.Item]) -> None:
     """Add that a quoted word ran as the operator of that name, if it is all that stands there."""
     if len(items) == 1 and isinstance(items[0], tree.Quoted):
-        error.data.setdefault("quoted_operator", items[0].text)
+        note = Sentence("quoted-operator", word=items[0].text)
+        error.data.setdefault("quoted_operator", note)
 
 
 def name_as_word(code: str, words: Sequence[Operand], held: object) -> SsiError | None:
@@ -59,7 +62,9 @@ def tell_line_begun(error: SsiError, operand: Operand) -> None:
         return
     first = span.source.position(wrong.start)[0]
     if first < line:
-        error.data.setdefault("begins_line", (span.text.strip("'"), line, first))
+        word = span.text.strip("'")
+        note = Sentence("statement-goes-on", word=word, line=line, first=first)
+        error.data.setdefault("begins_line", note)
 
 
 _IN_THE_WAY = frozenset({"wrong-argument", "excess", "no-result"})

@@ -27,6 +27,10 @@ _INDICES_SHOWN = 20
 _KINDS = {"error": "label-error", "warning": "label-warning"}
 
 
+_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line")
+"""Data that phrases add to errors: sentences that are said before the hint (`phrase_errors`)."""
+
+
 class _Data(dict[str, Any]):
     def __missing__(self, name: str) -> str:
         return ""
@@ -92,12 +96,8 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
         data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
     hint = message.hint(error.code, data, language, script=True).strip()
-    before = (
-        _held_hint(data, language),
-        _unread_hint(data, language),
-        _quoted_hint(data, language),
-        _line_hint(data, language),
-    )
+    notes = (n for name in _NOTES if isinstance(n := error.data.get(name), Sentence))
+    before = [message.sentence(n.code, n.data, language) for n in notes]
     return text, "\n".join(h for h in (*before, hint) if h)
 
 
@@ -110,38 +110,6 @@ def suggestion(error: SsiError, names: Iterable[str] = ()) -> str:
         if not near and isinstance(hint, Sentence):
             near = hint.data.get("near", "")
     return str(near).strip("'")
-
-
-def _held_hint(data: dict[str, Any], language: str) -> str:
-    """Says that an operator ran because the value of a name or an entry is its name."""
-    if "held_word" not in data:
-        return ""
-    word, holder = data["held_word"]
-    return message.sentence("held-word", {"word": word, "holder": holder}, language)
-
-
-def _unread_hint(data: dict[str, Any], language: str) -> str:
-    """Says that a word was not read, and the keyword that it looks like."""
-    if "unread_word" not in data:
-        return ""
-    word, near = data["unread_word"]
-    return message.sentence("unread-word", {"word": word, "near": near}, language)
-
-
-def _quoted_hint(data: dict[str, Any], language: str) -> str:
-    """Says that a word in quotes is run where it names an operator, and how to write the word."""
-    word = data.get("quoted_operator")
-    return message.sentence("quoted-operator", {"word": word}, language) if word else ""
-
-
-def _line_hint(data: dict[str, Any], language: str) -> str:
-    """Says that the operator begins a line, and that a ; may be missing before it."""
-    if "begins_line" not in data:
-        return ""
-    word, line, first = data["begins_line"]
-    return message.sentence(
-        "statement-goes-on", {"word": word, "line": line, "first": first}, language
-    )
 
 
 def _label(error: SsiError, language: str) -> str:

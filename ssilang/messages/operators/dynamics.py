@@ -487,6 +487,27 @@ MESSAGES: dict[str, Message] = {
         "VITEUNIL = FAUX",
         severity="warning",
     ),
+    "impacts-change-energy": Message(
+        "impacts on 'MINI' or 'MAXI' relations changed the energy by {share:.2g} %: the motion "
+        "after them depends on the step",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
+        "mouvement qui les suit dépend du pas",
+        "shorter steps, 'CONSERVATIF' = VRAI, or joints 'JOINT_SDM' in place of the relations",
+        "des pas plus courts, 'CONSERVATIF' = VRAI, ou des joints 'JOINT_SDM' à la place des "
+        "relations",
+        severity="warning",
+    ),
+    "impacts-uncorrected": Message(
+        "impacts on 'MINI' or 'MAXI' relations brought {share:.2g} % of energy: this scheme does "
+        "not correct velocities",
+        "les chocs sur les relations 'MINI' ou 'MAXI' ont apporté {share:.2g} % d'énergie : ce "
+        "schéma ne corrige pas les vitesses",
+        "the average acceleration does: leave ALPHA_F, RHO_INF, BETA and GAMMA; or "
+        "'CONSERVATIF' = VRAI",
+        "l'accélération moyenne le fait : retirez ALPHA_F, RHO_INF, BETA et GAMMA ; ou "
+        "'CONSERVATIF' = VRAI",
+        severity="warning",
+    ),
     "conserving-or-persistent": Message(
         "'CONTACT_PERSISTANT' takes energy, 'CONSERVATIF' keeps it: they exclude each other",
         "'CONTACT_PERSISTANT' prend de l'énergie, 'CONSERVATIF' la garde : ils s'excluent",

@@ -1,1 +1,1 @@
-"""Operators: DYNAMIC and free-field motions."""
+"""Operators: DYNAMIC and what stands around it."""

@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import (
     Interface,
@@ -23,12 +23,10 @@ from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Table
-
-_TURNING = {2: ("RZ",), 3: ("RX", "RY", "RZ")}
 
 
 @operator(
@@ -82,7 +80,7 @@ def zsem(
     footings = footings_of(interface, numbering)
     if len(footings) != 1:
         raise call.error("operators.dynamics.several-footings", model, count=len(footings))
-    u = np.array([_values(numbering, field) for field in displacements])
+    u = np.array([field_to_vector(f, numbering, dual=False, absent=np.nan) for f in displacements])
     footing = footings[0]
     names = displacement_names(zones[0])
     if footing.outline is not None:  # whose jumps are rotations too
@@ -146,20 +144,11 @@ def _numbering(model: Model) -> Numbering:
     zones = joint_zones(model)
     table = zones[0].cells.nodes
     dimension = zones[0].mode.dimension
-    names = displacement_names(zones[0]) + _TURNING.get(dimension, ())
+    names = displacement_names(zones[0]) + ROTATIONS[dimension]
     nodes = np.unique(np.concatenate([z.cells.raw.ravel() for z in zones]))
     nodes = np.unique(table.resolve(nodes))
     codes = np.tile(np.arange(len(names)), len(nodes))
     return Numbering(table, names, names, np.repeat(nodes, len(names)), codes, table.version)
-
-
-def _values(numbering: Numbering, field: NodeField) -> FloatArray:
-    """Values of the unknowns, nan where the field has none."""
-    found = np.zeros(numbering.size)
-    for name in numbering.unknowns:
-        place = numbering.where(name)
-        found[place] = field.values_at(name, numbering.nodes[place], np.nan)
-    return found
 
 
 def _jumps(interface: Interface, u: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
+from ssilang.operators.dynamics.scheme_entries import NORMS
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
@@ -24,6 +25,8 @@ _NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its e
 ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
 _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
+LASTING = 8  # steps in a row: what an impact leaves for good
+CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
 
@@ -85,6 +88,29 @@ def report(
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+    warn_impacts(entries, problem, history)
+
+
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
+    """Warn where impacts on relations alone have changed the energy for good.
+
+    At an impact it is off for a step, see `kernel.contact.impact`. Schemes that damp take energy on
+    purpose; who asks for no correction, or for a penalty, knows.
+    """
+    if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
+        return
+    given, penalty = entries.get("VITEUNIL"), problem.contact_options.method == "PENALITE"
+    if penalty or NORMS.get(given) == "FAUX" or not history.energies[:, 0].any():
+        return
+    damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
+    change = history.imbalance if damps else np.abs(history.imbalance)
+    windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
+    share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
+    if share is not None and share > CHANGED:
+        code = "operators.dynamics.impacts-change-energy"
+        if damps:
+            code = "operators.dynamics.impacts-uncorrected"
+        entries.warn(code, share=100.0 * share)
 
 
 def _causes(problem: Problem, added: bool) -> list[str]:

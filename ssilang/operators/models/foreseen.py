@@ -12,8 +12,9 @@ import numpy as np
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
-from ssilang.kernel.interface.elements import JOINT_NAMES
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.behaviours import UNIAXIAL_LAWS, normalised
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names
@@ -22,7 +23,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.operators.models.materials import (
     Values,
-    check_joints,
     check_plastic,
     material_names,
     parameter_name,
@@ -83,7 +83,7 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
         Of the law of a joint, as in a run.
     """
     known = (*material_names(zone), *geometric_names(zone).all)
-    law = None if zone.element in JOINT_NAMES else plastic_law(zone.behaviour)
+    law = None if is_joint(zone) else plastic_law(zone.behaviour)
     values: Values = {}
     said: dict[str, Any] = {}
     for written, value in pairs:
@@ -95,7 +95,8 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
         number = type(value) in (int, float)
         one = np.full((1, 1), float(value)) if number else np.full((1, 1), None, dtype=object)
         values[name], said[name] = (one, "GRAVITE"), value
-    check_joints(Model((zone,)), [values])
+    if is_joint(zone):
+        check_given(zone, {name: value for name, (value, _) in values.items()})
     refuse_outside(call, zone, values, said)
     check_plastic(call, zone, values, said)
     warn_of_units(call, zone, {name: (value, said[name]) for name, (value, _) in values.items()})

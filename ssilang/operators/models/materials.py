@@ -31,7 +31,6 @@ from ssilang.operators.vocabulary import words
 Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
-Check = Callable[[Model, list[Values]], None]
 
 _VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
 SHAPES = ("DEFO", "RIDE", "MADE")
@@ -137,7 +136,7 @@ def _tables(language: str) -> Sequence[HelpTable]:
 )
 def mate(call: Call, **said: Any) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
-    return _parameters(call, material_names, check_joints, **said)
+    return _parameters(call, material_names, True, **said)
 
 
 def parameter_name(written: str, known: Collection[str]) -> str:
@@ -150,13 +149,6 @@ def material_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that MATE reads for a zone: with those that stand for others."""
     names = known_names(zone)
     return (*names, *(other for name, other in INSTEAD.items() if name in names))
-
-
-def check_joints(model: Model, given: list[Values]) -> None:
-    """Let the laws of joints look at parameters where they are given."""
-    for zone, values in zip(model.zones, given, strict=True):
-        if is_joint(zone):
-            check_joint(zone, {name: value for name, (value, _) in values.items()})
 
 
 @operator(
@@ -181,13 +173,13 @@ def check_joints(model: Model, given: list[Values]) -> None:
 )
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
-    return _parameters(call, lambda zone: geometric_names(zone).all, None, model, [], None, pairs)
+    return _parameters(call, lambda zone: geometric_names(zone).all, False, model, [], None, pairs)
 
 
 def _parameters(
     call: Call,
     known: Known,
-    check: Check | None,
+    of_laws: bool,
     model: Model,
     axes: list[Chosen],
     turn: Chosen | None,
@@ -207,12 +199,13 @@ def _parameters(
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.error("operators.models.no-parameter", model)
-    if check is not None:
-        check(model, given)
+    for zone, values in zip(model.zones, given, strict=True):
+        if of_laws and is_joint(zone):
+            check_joint(zone, {name: value for name, (value, _) in values.items()})
     for zone, values in zip(model.zones, given, strict=True):
         refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, values, said)
-        if check is not None:
+        if of_laws:
             check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -274,8 +275,10 @@ def _state_read(
     variables: CellField,
     material: tuple[CellField, ...],
     precision: float,
+    step: float | None,
     number: float | None,
 ) -> _StateRead:
+    """What `_STATE` reads."""
     precision = precision if number is None else number
     if precision <= 0.0:
         raise call.error("operators.statics.precision-not-positive", precision=precision)
@@ -340,19 +343,9 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
         ),
     ),
 )
-def ktan(
-    call: Call,
-    model: Model,
-    stress: CellField,
-    variables: CellField,
-    material: tuple[CellField, ...],
-    precision: float,
-    step: float | None,
-    number: float | None,
-    symmetric: bool,
-) -> Matrix:
+def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     """Tangent stiffness."""
-    read = _state_read(call, model, stress, variables, material, precision, number)
+    read = _state_read(call, **state)
     answers = [read.tangent(z) for z in read.model.zones]
     tangents = [(a.tangent, a.symmetric) for a in answers]
     return _tangent_matrix(read.model, tangents, read.material, symmetric)
@@ -429,18 +422,9 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
         ),
     ),
 )
-def hota(
-    call: Call,
-    model: Model,
-    stress: CellField,
-    variables: CellField,
-    material: tuple[CellField, ...],
-    precision: float,
-    step: float | None,
-    number: float | None,
-) -> CellField:
+def hota(call: Call, **state: Any) -> CellField:
     """Tangent Hooke matrices."""
-    read = _state_read(call, model, stress, variables, material, precision, number)
+    read = _state_read(call, **state)
     blocks = [hooke_block(z, read.tangent(z).tangent, "STRESSES") for z in read.model.zones]
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 
@@ -464,18 +448,9 @@ def hota(
         ),
     ),
 )
-def crit(
-    call: Call,
-    model: Model,
-    stress: CellField,
-    variables: CellField,
-    material: tuple[CellField, ...],
-    precision: float,
-    step: float | None,
-    number: float | None,
-) -> CellField:
+def crit(call: Call, **state: Any) -> CellField:
     """Yield criterion."""
-    read = _state_read(call, model, stress, variables, material, precision, number)
+    read = _state_read(call, **state)
     blocks = []
     for zone in read.model.zones:
         there = _stresses_of(zone, read.stress)
@@ -506,18 +481,9 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
         ),
     ),
 )
-def mota(
-    call: Call,
-    model: Model,
-    stress: CellField,
-    variables: CellField,
-    material: tuple[CellField, ...],
-    precision: float,
-    step: float | None,
-    number: float | None,
-) -> CellField:
+def mota(call: Call, **state: Any) -> CellField:
     """Tangent moduli."""
-    read = _state_read(call, model, stress, variables, material, precision, number)
+    read = _state_read(call, **state)
     blocks = []
     for zone in read.model.zones:
         there, held = _stresses_of(zone, read.stress), zone_field(zone, read.variables)

@@ -114,27 +114,27 @@ def test_a_star_that_would_begin_a_comment_stays(text):
     assert_kept(text)
 
 
-def test_the_command_writes_checks_and_shows(process, tmp_path):
+def test_the_command_writes_checks_and_shows(ssilang, tmp_path):
     deck = tmp_path / "case.ssi"
     deck.write_bytes("X=1;\r\n* caf\u00e9\r\nMESS   X;\r\n".encode("latin-1"))
-    checked = process("format", "--check", str(deck))
+    checked = ssilang("format", "--check", str(deck))
     assert (checked.code, "would be laid out" in checked.out) == (1, True)
-    shown = process("format", "--diff", str(deck))
+    shown = ssilang("format", "--diff", str(deck))
     assert "+X = 1 ;" in shown.out
     assert deck.read_bytes().startswith(b"X=1;")
-    done = process("format", str(deck))
+    done = ssilang("format", str(deck))
     assert done.code == 0
     assert deck.read_bytes() == "X = 1 ;\r\n* caf\u00e9\r\nMESS X ;\r\n".encode("latin-1")
-    again = process("format", str(deck))
+    again = ssilang("format", str(deck))
     assert (again.code, again.out) == (0, "")
-    assert process("format", "-", stdin="X=1;").out == "X = 1 ;\n"
+    assert ssilang("format", "-", stdin="X=1;").out == "X = 1 ;\n"
 
 
-def test_unsound_scripts_are_refused_and_left(process, tmp_path):
+def test_unsound_scripts_are_refused_and_left(ssilang, tmp_path):
     deck = tmp_path / "case.ssi"
     deck.write_text("X=(1;\n")
-    refused = process("format", str(deck))
+    refused = ssilang("format", str(deck))
     assert refused.code == 1
     assert "parenthesis" in refused.err
     assert deck.read_text() == "X=(1;\n"
-    assert process("format", str(tmp_path / "none.ssi")).code == 2
+    assert ssilang("format", str(tmp_path / "none.ssi")).code == 2

@@ -11,5 +11,8 @@ import os
 
 PLAIN = os.environ.get("SSILANG_PLAIN_NUMBA", "") not in ("", "0")
 
+UNCOMPILED = os.environ.get("NUMBA_DISABLE_JIT", "") not in ("", "0")
+"""Functions run as Python has them."""
+
 ALLOWED: set[str] = set()
 """What this process may start: `beside`, a second one that compiles."""

@@ -16,23 +16,25 @@ however that ends.
 from __future__ import annotations
 
 import atexit
-import hashlib
 import importlib
 import os
 import pickle
 import shutil
-import subprocess
 import sys
-import tempfile
 import threading
 import time
-import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 from ssilang.kernel.base.compiled import ALLOWED, PLAIN
+from ssilang.kernel.base.compiled.cache import digest
+from ssilang.kernel.base.compiled.kinds import words_of_types
+
+if TYPE_CHECKING:
+    import subprocess
 
 PACKAGES = Path(__file__).parents[4]
 """Where the package lies."""
@@ -43,7 +45,7 @@ KERNEL = "ssilang.kernel."
 
 
 Task = tuple[str, bytes]
-"""Title of a function with its types, and its pickled module, name and types."""
+"""Title of a function with its kinds of arguments, and what `task_of` makes of it."""
 
 
 def free_cores() -> int:
@@ -85,12 +87,19 @@ class Beside:
             except OSError:  # it has ended: the run goes on alone
                 self.end()
 
+    @property
+    def helped(self) -> bool:
+        """Whether another process compiles for this one."""
+        return self._process is not None
+
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
         room = module.removeprefix(KERNEL).partition(".")[0]
         helped = self._process is not None or "beside" in ALLOWED
         if helped and self.found is None and room not in self._rooms:
             self._rooms.add(room)
+            if self._process is None:  # it gets ready meanwhile
+                self._start()
             for name, task in tasks_ahead(room):
                 self.tell(name, task)
 
@@ -100,7 +109,7 @@ class Beside:
         if self._claims is None or name in self._own:
             yield True
             return
-        place = self._claims / hashlib.sha256(name.encode()).hexdigest()
+        place = self._claims / digest(name)
         done = place.with_suffix(".done")
         try:
             place.touch(exist_ok=False)
@@ -128,6 +137,9 @@ class Beside:
         ALLOWED.discard("beside")
         if PLAIN or os.name != "posix" or free_cores() < 2:
             return
+        import subprocess  # few runs have anything to compile
+        import tempfile
+
         paths = os.pathsep.join([str(PACKAGES), os.environ.get("PYTHONPATH", "")])
         program = f"import sys; from {__name__} import BESIDE; BESIDE.serve(sys.argv[1])"
         try:
@@ -165,10 +177,11 @@ class Beside:
             if not waiting:
                 time.sleep(POLL)
                 continue
-            module, name, args = pickle.loads(waiting.pop()[1])
+            module, name, words, types = pickle.loads(waiting.pop()[1])
             self.found = []
             with suppress(Exception):  # the run will tell
-                getattr(importlib.import_module(module), name).compile(args)
+                function = getattr(importlib.import_module(module), name)
+                function.prepare(words, partial(pickle.loads, types))
             waiting += [task for task in reversed(self.found) if task[0] not in dict(waiting)]
 
     def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
@@ -186,12 +199,21 @@ BESIDE = Beside()
 
 
 def tell_ahead(room: str) -> None:
-    """Tell of functions that the run will call from Python: a room of `ahead.toml`."""
+    """Tell of functions that the run will call: a room of `ahead.toml`."""
     BESIDE.enter(room)
+
+
+def tell_more(*rooms: str) -> None:
+    """Tell of functions that one of several models needs, where there is another process."""
+    if BESIDE.helped:
+        for room in rooms:
+            BESIDE.enter(room)
 
 
 def tasks_ahead(room: str) -> list[Task]:
     """Functions of a room of `ahead.toml`, in the order of need; none of a room it has not."""
+    import tomllib
+
     from numba import types
 
     known = tomllib.loads(AHEAD.read_text(encoding="ascii"))
@@ -214,11 +236,18 @@ def tasks_ahead(room: str) -> list[Task]:
     found = []
     for path, text in known.get(room, {}).items():
         module, _, name = path.rpartition(".")
-        task = KERNEL + module, name, (*types_of(text),)
-        found.append((title(*task), pickle.dumps(task)))
+        args = (*types_of(text),)
+        words = words_of_types(args)
+        told = KERNEL + module, name, words
+        found.append((title(*told), task_of(*told, args)))
     return found
 
 
-def title(module: str, name: str, args: tuple[Any, ...]) -> str:
-    """A function for types of arguments."""
-    return f"{module}.{name}{args}"
+def title(module: str, name: str, words: str) -> str:
+    """A function for kinds of arguments."""
+    return f"{module}.{name}({words})"
+
+
+def task_of(module: str, name: str, words: str, types: tuple[Any, ...]) -> bytes:
+    """A function with kinds of arguments, and numba's types of them, which few need to read."""
+    return pickle.dumps((module, name, words, pickle.dumps(types)))

@@ -11,13 +11,13 @@ Kept code is run unseen, so a folder is used only if nobody else could have put 
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import shutil
 import tempfile
 import time
 from functools import cache
+from importlib.util import source_hash
 from pathlib import Path
 
 from ssilang.kernel.base.compiled import PLAIN
@@ -28,6 +28,7 @@ from ssilang.kernel.base.compiled.private import (
     user_number,
 )
 
+SUFFIX = ".code"  # of a file with a function's machine code
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
 IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 PACKAGE = Path(__file__).parents[3]  # ssilang
@@ -37,19 +38,17 @@ REFUSED: list[tuple[Path, Path]] = []
 
 
 def is_compiled(package: str) -> bool:
-    """Whether functions of a package of the kernel ('dynamics') were compiled before."""
-    given = os.environ.get("NUMBA_CACHE_DIR")
-    if given:
-        kept = _given(given)
-        return kept is not None and any(kept.glob(f"{package}_*/*.nbi"))
-    base = None if PLAIN else _base()
+    """Whether functions of a package of the kernel ('stepping') were compiled before."""
+    base = None if PLAIN else _folder()
     if base is None:
         return False
-    kernel = PACKAGE / "kernel"
-    paths = (p.relative_to(kernel).with_suffix("") for p in (kernel / package).rglob("*.py"))
-    names = (".".join(("ssilang.kernel", *p.parts)) for p in paths)
-    folders = (base / f"{name}-{state_of(name)}" for name in names)
-    return any(any(folder.glob("*/*.nbi")) for folder in folders)
+    start = f"ssilang.kernel.{package}."
+    kept = (name.rpartition("-") for name in os.listdir(base) if name.startswith(start))
+    return any(
+        any((base / f"{module}-{state}").glob(f"*{SUFFIX}"))
+        for module, _, state in kept
+        if state == state_of(module)
+    )
 
 
 def state_of(module: str, package: Path = PACKAGE) -> str:
@@ -66,8 +65,12 @@ def state_of(module: str, package: Path = PACKAGE) -> str:
         if name not in known:
             known[name], imported = _read(name, package)
             waiting += imported
-    digest = hashlib.sha256("".join(known[name] for name in sorted(known)).encode())
-    return digest.hexdigest()[:16]
+    return digest("".join(known[name] for name in sorted(known)))
+
+
+def digest(text: str) -> str:
+    """16 letters that tell a text from others, as Python tells sources; hashlib loads OpenSSL."""
+    return source_hash(text.encode()).hex()
 
 
 @cache
@@ -84,7 +87,7 @@ def _read(module: str, package: Path) -> tuple[str, tuple[str, ...]]:
         for m, rest in IMPORTED.findall(text)
     ]
     found = [n for m, inside in names for n in (m, *(inside if _is_package(m, package) else ()))]
-    return hashlib.sha256(f"{module}\n{text}".encode()).hexdigest(), tuple(found)
+    return digest(f"{module}\n{text}"), tuple(found)
 
 
 def _is_package(module: str, package: Path) -> bool:
@@ -95,10 +98,21 @@ def kept_code() -> tuple[Path, int] | None:
     """The folder that keeps code for later processes and the number of functions in it, if any."""
     given = os.environ.get("NUMBA_CACHE_DIR")
     places = (Path(given),) if given else () if PLAIN else _places()
-    base = _given(given) if given else None if PLAIN else _base()
+    base = _folder()
     if base is None or base not in [place.resolve() for place in places]:
         return None
-    return base, sum(1 for _ in base.rglob("*.nbc"))
+    return base, sum(1 for _ in base.rglob("*.nbc" if PLAIN else f"*{SUFFIX}"))
+
+
+def _folder() -> Path | None:
+    """Where code is kept: in the folder that NUMBA_CACHE_DIR names, else in one of ours."""
+    return given_folder() if os.environ.get("NUMBA_CACHE_DIR") else None if PLAIN else _base()
+
+
+def given_folder() -> Path | None:
+    """The folder that NUMBA_CACHE_DIR names, if it does and only we could have written to it."""
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    return _given(given) if given else None
 
 
 def _places() -> tuple[Path, Path]:
@@ -138,17 +152,15 @@ def folder_of(module: str) -> Path | None:
 
     None: there is no place where nobody else could put his own.
     """
-    given = os.environ.get("NUMBA_CACHE_DIR")
-    if given:
-        return _given(given)
-    base = _base()
+    base = _folder()
     if base is None:
         return None
     folder = base / f"{module}-{state_of(module)}"
     try:
         folder.mkdir(mode=0o700, exist_ok=True)
         os.utime(folder)
-        _remove_old(base)
+        if not os.environ.get("NUMBA_CACHE_DIR"):  # else others may keep theirs there
+            _remove_old(base)
     except OSError:  # another process removes the same folders, or the disk is full
         pass
     return folder if opened_to_others(folder) is None else None

@@ -1,171 +1,74 @@
-"""Compiled code that is kept on disk, loaded without what only compiling needs.
+"""Compiled code on disk: a file for each function and kinds of arguments.
 
-Numba imports its implementations of Python and numpy, some 100 modules, before it looks whether
-code is kept, and others for names that only interpreted code would look up; it reads LLVM's form of
-the code too, which serves where the code is linked into new one. Kept code is machine code: it
-needs numba's own memory management at most. What is not kept is compiled, and numba's compiler
-imports all that it needs by itself.
+The name of the file tells them, so that processes which fill a folder at a time need no index. It
+also tells who made it: numba's, LLVM's and Python's version, the processor.
 """
-
-# mypy: allow-untyped-calls
 
 from __future__ import annotations
 
-import hashlib
+import importlib.util
+import os
 import pickle
-from typing import Any
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
 
-import llvmlite.binding as llvm
-from numba.core import environment
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompileResult
-from numba.core.runtime.nrt import rtsys
+import llvmlite
 
-FORMAT = "ssilang 1"
-
-
-class _Loaded(JITCodeLibrary):
-    """Machine code from a file; LLVM's form of it is read where new code links it."""
-
-    bitcode = b""
-
-    def _get_module_for_linking(self) -> Any:
-        if self._shared_module is None:
-            self._shared_module = llvm.parse_bitcode(self.bitcode)
-        return self._shared_module
+from ssilang.kernel.base.compiled.cache import SUFFIX, digest, folder_of, state_of
+from ssilang.kernel.base.compiled.machine import Code, processor
 
 
-class _Results(CompileResultCacheImpl):
-    """What is kept of a compiled function: what numba keeps, and names of all that it defines."""
-
-    def reduce(self, made: Any) -> Any:
-        """As it is written."""
-        module = made.library._get_module_for_linking()
-        defined = [
-            value.name
-            for values in (module.functions, module.global_variables)
-            for value in values
-            if not value.is_declaration
-        ]
-        return FORMAT, defined, super().reduce(made)
-
-    def rebuild(self, target_context: Any, payload: Any) -> Any:
-        """The compiled function, None if another program has written it."""
-        if payload[0] != FORMAT:
-            return None
-        _, defined, (code, fndesc, env, signature, objectmode, lifted, note, init, envs) = payload
-        for start in init:
-            start()
-        library = _library(target_context.codegen(), code, defined)
-        result: Any = CompileResult
-        made = result(
-            target_context=target_context,
-            typing_context=target_context.typing_context,
-            library=library,
-            environment=env,
-            entry_point=target_context.get_executable(library, fndesc, env),
-            fndesc=fndesc,
-            type_annotation=note,
-            signature=signature,
-            objectmode=objectmode,
-            lifted=lifted,
-            typing_error=None,
-            call_helper=None,
-            metadata=None,
-            reload_init=init,
-            referenced_envs=envs,
-        )
-        for referenced in envs:
-            library.codegen.set_env(referenced.env_name, referenced)
-        return made
-
-
-def _library(codegen: Any, code: Any, defined: list[str]) -> Any:
-    """Code ready to run."""
-    name, kind, data = code
-    if kind != "object":
-        return codegen.unserialize_library(code)
-    made = _Loaded(codegen, name)
-    machine, made.bitcode = data
-    made.enable_object_caching()
-    made._set_compiled_object(machine)
-    made._finalize_final_module()
-    codegen._engine._defined_symbols.update(defined)
-    return made
-
-
-class KeptFiles(IndexDataCacheFile):
-    """Files of one function's code, which several processes may fill at a time.
-
-    Numba numbers them: two processes that compile for other types take the same number, and the
-    code of one stands under the types of the other. Here the types name the file.
-    """
-
-    def save(self, key: Any, data: Any) -> None:
-        """Write code, then the index that leads to it."""
-        digest = hashlib.sha256(self._dump((self._source_stamp, key))).hexdigest()[:16]
-        name = self._data_name_pattern.replace("{number:d}", digest)
-        self._save_data(name, data)
-        self._save_index(self._load_index() | {key: name})
-
-    def _load_index(self) -> dict[Any, str]:
-        """What is kept by types; nothing if they name a class whose module is elsewhere by now."""
-        try:
-            found: dict[Any, str] = super()._load_index()
-        except (ImportError, AttributeError):
-            return {}
-        return found
-
-
-class KeptCode(FunctionCache):
-    """Where the code of one function is kept."""
-
-    _impl_class = _Results
-
-    def __init__(self, function: Any) -> None:
-        super().__init__(function)
-        self._cache_file.__class__ = KeptFiles
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The compiled function for a signature, None if it is not kept."""
-        rtsys.initialize(target_context)
-        with self._guard_against_spurious_io_errors():
-            return self._load_overload(sig, target_context)
-
-    def _load_overload(self, sig: Any, target_context: Any) -> Any:
-        files = self._cache_file
-        name = files._load_index().get(self._index_key(sig, target_context.codegen()))
-        try:
-            if name is not None:
-                with open(files._data_path(name), "rb") as file:
-                    return self._impl.rebuild(target_context, _Unpickler(file).load())
-        except FileNotFoundError:  # another process removes old code
-            pass
+def load(module: str, function: str, words: str) -> Code | None:
+    """The code that is kept of a function for kinds of arguments, None if there is none."""
+    place = _place(module, function, words)
+    if place is None:
+        return None
+    try:
+        return Code(*pickle.loads(place.read_bytes()))
+    except Exception:  # none yet, or another program has written it: it is compiled
         return None
 
 
-def keep(made: Any) -> None:
-    """Let a function of numba's find its code on disk, or keep it there once it is compiled."""
-    made._cache = KeptCode(made.py_func)
+def save(module: str, function: str, words: str, code: Code) -> None:
+    """Keep code for later processes; where that is not possible nothing is kept."""
+    place = _place(module, function, words)
+    if place is None:
+        return
+    try:
+        number, name = tempfile.mkstemp(dir=place.parent, prefix=".", suffix=".new")
+        with os.fdopen(number, "wb") as file:
+            file.write(pickle.dumps(tuple(code), pickle.HIGHEST_PROTOCOL))
+        os.replace(name, place)
+    except OSError:  # another process removes old code, the disk is full
+        pass
 
 
-class _Unpickler(pickle.Unpickler):
-    """Reads what numba keeps; the environments of numba's own functions have no names in them."""
-
-    def find_class(self, module: str, name: str) -> Any:
-        """What a name of the file stands for."""
-        if (module, name) == ("numba.core.environment", "_rebuild_env"):
-            return _environment
-        return super().find_class(module, name)
+def _place(module: str, function: str, words: str) -> Path | None:
+    folder = folder_of(module)
+    if folder is None:
+        return None
+    told = "\n".join([module, function, words, _state(module), _maker()])
+    return folder / f"{function.rpartition('.')[2]}-{digest(told)}{SUFFIX}"
 
 
-def _environment(module: str, constants: list[Any], name: str) -> Any:
-    """Constants of compiled code; names of its module, which only interpreted code looks up."""
-    known = environment.lookup_environment(name)
-    if known is not None or not module.startswith("numba."):
-        return known or environment._rebuild_env(module, constants, name)
-    made = environment.Environment({"__name__": module})
-    made.consts[:], made.env_name = constants, name
-    environment.Environment._memo[name] = made
-    return made
+@cache
+def _state(module: str) -> str:
+    """The text that a module's code comes from, with that of what it imports from the kernel."""
+    if module.startswith("ssilang."):
+        return state_of(module)
+    try:
+        text = Path(getattr(sys.modules.get(module), "__file__", "")).read_text(encoding="utf-8")
+    except OSError:
+        return ""
+    return digest(text)
+
+
+@cache
+def _maker() -> str:
+    found = importlib.util.find_spec("numba")  # its folder: nothing is imported
+    version = ""
+    if found is not None and found.origin is not None:
+        version = Path(found.origin).with_name("_version.py").read_text(encoding="utf-8")
+    return "\n".join([version, llvmlite.__version__, sys.version, processor()])

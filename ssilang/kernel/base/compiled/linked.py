@@ -21,7 +21,8 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import make_concrete_template
 
-from ssilang.kernel.base.compiled.beside import BESIDE, title
+from ssilang.kernel.base.compiled.beside import BESIDE
+from ssilang.kernel.base.compiled.machine import Code, Ready
 
 Types = tuple[Any, ...]
 
@@ -63,8 +64,18 @@ class _Options(compiler.Flags):
 class _Whole(JITCodeLibrary):
     """Code that is optimised once, when all that it calls is linked."""
 
+    counts = True  # references to arrays
+
     def _optimize_functions(self, module: Any) -> None:
         module.data_layout = self._codegen._data_layout
+
+    def _optimize_final_module(self) -> None:
+        """Without numba's passes before all others where there are no counts for them to remove."""
+        if self.counts:
+            super()._optimize_final_module()
+        else:
+            passes, builder = self._codegen._module_pass_manager()
+            passes.run(self._final_module, builder)
 
 
 class _Part(_Whole):
@@ -86,6 +97,7 @@ class _Compiler(compiler.Compiler):
             BESIDE.enter(self.state.func_id.modname)
             codegen = self.state.targetctx.codegen()
             self.state.library = _Whole(codegen, self.state.func_id.func_qualname)
+            self.state.library.counts = self.state.flags.nrt
             self.state.library.enable_object_caching()
         return super()._compile_core()
 
@@ -115,14 +127,28 @@ class Linked(CPUDispatcher):
     def _compilation_chain_init_hook(self) -> None:
         """Packages that teach numba types of theirs are not looked for: none comes in here."""
 
-    def compile(self, sig: Any) -> Any:
-        """Code that Python can call, or by its address; none of what the run makes itself."""
-        args = getattr(sig, "args", sig)
-        if args in self.overloads:
-            return super().compile(sig)
-        function = title(self.py_func.__module__, self.py_func.__qualname__, args)
-        with _without_collections(), BESIDE.taking(function) as mine:
-            return super().compile(sig) if mine or BESIDE.found is None else None
+    def made(self, args: Types) -> tuple[Code, Ready]:
+        """Code that Python can call, or by its address: to be kept, and to be called."""
+        with _without_collections():
+            self.compile(args)
+        done: Any = self.overloads[args]
+        library, names = done.library, done.fndesc
+        module = library._get_module_for_linking()
+        values = [value for of in (module.functions, module.global_variables) for value in of]
+        code = Code(
+            library._get_compiled_object(),
+            names.llvm_func_name,
+            "" if self.targetoptions.get("no_cpython_wrapper") else names.llvm_cpython_wrapper_name,
+            [value.name for value in values if value.is_declaration],
+            [
+                (e.env_name, str(e.globals.get("__name__")), list(e.consts))
+                for e in done._find_referenced_environments()
+            ],
+            names.env_name,
+            str(done.signature.return_type),
+        )
+        address = int(library.get_pointer_to_function(names.llvm_func_name))
+        return code, Ready(done.entry_point if code.wrapper else None, address, code.result)
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Type of a call in compiled code: numba asks before it compiles the call."""

@@ -16,12 +16,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import clear, copy_rows, is_equal
+from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
 from ssilang.kernel.interface.factors.lu import LU, factorise
-from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 from ssilang.kernel.solvers.dense import solve_factors_together
 
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow
@@ -37,34 +37,21 @@ class Inverse(NamedTuple):
 
 
 @compiled_fast
-def _rows_of(pairs: IntArray, B: FloatArray, Y: FloatArray, rows: FloatArray) -> None:
-    """rows (d, q) = B Y of one point."""
+def _products(pairs: IntArray, B: FloatArray, Y: FloatArray, room: FloatArray) -> None:
+    """B Y and (Y B^T)^T of one point: room (2, d, q)."""
     d = len(B)
-    clear(rows)
     for a in range(d):
-        row = rows[a]
-        for pair in range(len(pairs)):
-            for j in range(d):
-                value = B[a, pair * d + j]
-                if value != 0.0:
-                    line = Y[pairs[pair] * d + j]
-                    for k in range(len(line)):
-                        row[k] += value * line[k]
-
-
-@compiled_fast
-def _columns_of(pairs: IntArray, B: FloatArray, Y: FloatArray, columns: FloatArray) -> None:
-    """columns (d, q) = (Y B^T)^T of one point."""
-    d = len(B)
-    clear(columns)
-    for a in range(d):
-        column = columns[a]
-        for pair in range(len(pairs)):
-            for j in range(d):
-                value, at = B[a, pair * d + j], pairs[pair] * d + j
-                if value != 0.0:
-                    for k in range(len(column)):
-                        column[k] += value * Y[k, at]
+        row, column = room[0, a], room[1, a]
+        for k in range(len(Y)):
+            row[k] = column[k] = 0.0
+        for b in range(B.shape[1]):
+            value, at = B[a, b], pairs[b // d] * d + b % d
+            if value != 0.0:
+                line = Y[at]
+                for k in range(len(Y)):
+                    row[k] += value * line[k]
+                for k in range(len(Y)):
+                    column[k] += value * Y[k, at]
 
 
 @compiled_fast
@@ -115,16 +102,14 @@ def update_point(
     for i in range(d):
         for j in range(d):
             E[i, j] = weight * (D[i, j] - known[i, j])
-    _rows_of(pairs, B, Y, rows)
-    _columns_of(pairs, B, Y, columns)
+    _products(pairs, B, Y, room)
     for i in range(d):
         for j in range(d):
             T[i, j] = 1.0 if i == j else 0.0
             for k in range(d):  # M (B Y) B^T
                 product = 0.0
-                for pair in range(len(pairs)):
-                    for at in range(d):
-                        product += rows[k, pairs[pair] * d + at] * B[j, pair * d + at]
+                for b in range(B.shape[1]):
+                    product += rows[k, pairs[b // d] * d + b % d] * B[j, b]
                 T[i, j] += E[i, k] * product
     if not solve_small(T, E):
         return False
@@ -139,7 +124,7 @@ def update_point(
     return True
 
 
-@apart
+@seldom
 @compiled
 def update_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse
@@ -183,30 +168,11 @@ def apply_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
     """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
-    pairs, B, R, Y, g = joints.pairs, joints.B, condensed.R, inverse.Y, inverse.room
-    n, d, _ = B.shape
-    # g = (c K - R) x, point by point
+    R, Y, g = condensed.R, inverse.Y, inverse.room
     for i in range(len(x)):
         g[i] = 0.0
         for j in range(len(R)):
             g[i] -= R[i, j] * x[j]
-    for p in range(n):
-        for i in range(d):
-            force = 0.0
-            for k in range(d):
-                if D[p, i, k] != 0.0:
-                    jump = 0.0
-                    for pair in range(pairs.shape[1]):
-                        for j in range(d):
-                            jump += B[p, k, pair * d + j] * x[pairs[p, pair] * d + j]
-                    force += D[p, i, k] * jump
-            if force != 0.0:
-                force *= condensed.c * joints.weights[p]
-                for pair in range(pairs.shape[1]):
-                    for j in range(d):
-                        g[pairs[p, pair] * d + j] += force * B[p, i, pair * d + j]
+    add_stiffness_forces(joints, condensed.c, D, x, g)
     for i in range(len(x)):
-        total, row = 0.0, Y[i]
-        for j in range(len(g)):
-            total += row[j] * g[j]
-        x[i] -= total
+        x[i] -= dot(Y[i], g)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, is_equal
@@ -25,20 +26,15 @@ from ssilang.kernel.interface.factors.changed import (
     forget_changes,
     solve_changed,
 )
-from ssilang.kernel.interface.factors.inverse import (
-    Inverse,
-    apply_inverse,
-    update_inverse,
-)
+from ssilang.kernel.interface.factors.inverse import Inverse, apply_inverse, update_inverse
 from ssilang.kernel.interface.factors.krylov import Krylov, new_krylov, pays, solve_iterated
 from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.solvers.dense import (
-    solve_factors,
-)
+from ssilang.kernel.solvers.dense import solve_factors
 
 FEW = 160  # jumps up to which an inverse is kept
 LARGE = 300  # jumps from which factors are changed rather than made again
+FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
 
 
 class Factors(NamedTuple):
@@ -58,6 +54,7 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LAR
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
     own = q if q <= few else 0  # of an inverse
     whole, changing = q - own, q if own == 0 and q >= large else 0
+    tell_more(*(["inverse"] if own else ["iterated"]), *(["changed"] if changing else []))
     return Factors(
         np.full((*shape, shape[1]), np.nan),
         LU(np.zeros((whole, whole)), np.zeros(whole, np.int64)),
@@ -110,9 +107,8 @@ def solve_tangent(
             found = solve_changed(joints, condensed, D, known, lu, factors.changes, x)
             if found != TOO_MANY:
                 return found == DONE
-        S, c = condensed.S, condensed.c
         if pays(factors.krylov, D) and solve_iterated(
-            joints, S, c, D, known, lu, factors.krylov, x, enough
+            joints, condensed, D, known, lu, factors.krylov, x, enough
         ):
             return True
     if not same:

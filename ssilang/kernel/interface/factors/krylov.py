@@ -18,9 +18,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state, dot, is_equal
 from ssilang.kernel.interface.factors.lu import LU
-from ssilang.kernel.interface.response import Joints
+from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 from ssilang.kernel.solvers.dense import solve_factors
 
 MOST_TURNS = 60
@@ -60,39 +61,6 @@ def pays(krylov: Krylov, D: FloatArray) -> bool:
         again = again and is_equal(D[p], krylov.asked[p])
         copy_rows(D[p], krylov.asked[p])
     return not (again and krylov.spent[0] * WORTH > krylov.V.shape[1])
-
-
-@compiled_fast
-def _times_change(
-    joints: Joints, c: float, D: FloatArray, known: FloatArray, x: FloatArray, g: FloatArray
-) -> None:
-    """g = c (K(D) - K(known)) x, point by point."""
-    pairs, B = joints.pairs, joints.B
-    n, d, m = B.shape
-    for i in range(len(g)):
-        g[i] = 0.0
-    for p in range(n):
-        if is_equal(D[p], known[p]):
-            continue
-        for j in range(d):
-            jump = 0.0
-            for a in range(m):
-                jump += B[p, j, a] * x[pairs[p, a // d] * d + a % d]
-            jump *= c * joints.weights[p]
-            for i in range(d):
-                force = (D[p, i, j] - known[p, i, j]) * jump
-                if force != 0.0:
-                    for a in range(m):
-                        g[pairs[p, a // d] * d + a % d] += force * B[p, i, a]
-
-
-@compiled_fast
-def _times(S: FloatArray, g: FloatArray, out: FloatArray) -> None:
-    for i in range(len(out)):
-        total, row = 0.0, S[i]
-        for j in range(len(g)):
-            total += row[j] * g[j]
-        out[i] = total
 
 
 @compiled_fast
@@ -144,7 +112,7 @@ def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatAr
 @seldom
 @compiled
 def solve_iterated(
-    joints: Joints, S: FloatArray, c: float, D: FloatArray, known: FloatArray, lu: LU,
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, lu: LU,
     krylov: Krylov, x: FloatArray, enough: float,
 ) -> bool:  # fmt: skip
     """Solve in place with the tangents D by factors of the tangents `known`.
@@ -159,10 +127,14 @@ def solve_iterated(
     bool
         False if that takes too many turns: x is what it was.
     """
-    n, V = len(x), krylov.V
+    n, S, V = len(x), condensed.S, krylov.V
     most = len(V) - 1
     H, turned, e = np.zeros((most, most + 1)), np.zeros((most, 2)), np.zeros(most + 1)
-    b, g = np.empty(n), np.empty(n)
+    b, g, change = np.empty(n), np.empty(n), np.empty_like(D)
+    for p in range(len(D)):
+        for i in range(D.shape[1]):
+            for j in range(D.shape[2]):
+                change[p, i, j] = D[p, i, j] - known[p, i, j]
     copy_state(x, b)
     solve_factors(lu.A, lu.exchanges, x)
     e[0] = math.sqrt(dot(x, x))
@@ -173,8 +145,11 @@ def solve_iterated(
         V[0, i] = x[i] / e[0]
     for k in range(most):
         w = V[k + 1]
-        _times_change(joints, c, D, known, V[k], g)
-        _times(S, g, w)
+        for i in range(n):
+            g[i] = 0.0
+        add_stiffness_forces(joints, condensed.c, change, V[k], g)
+        for i in range(n):
+            w[i] = dot(S[i], g)
         solve_factors(lu.A, lu.exchanges, w)
         for i in range(n):
             w[i] += V[k, i]

@@ -12,7 +12,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.interface.kinematics import JointCells, point_values
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
-from ssilang.kernel.interface.laws.law_table import LAWS, law_of
+from ssilang.kernel.interface.laws.law_table import LAWS, Law, law_of
 from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.model import Zone
 
@@ -37,21 +37,12 @@ def joint_parameters(joints: JointCells, given: ZoneField) -> FloatArray:
     _refuse_faces(joints.zone)
     n, g = joints.weights.shape
     _refuse_turning_slip(point_values(given, "TYPE", n, joints.shape))
-    table = np.zeros((n, g, N_PARAMETERS))
-    for name, default in DEFAULTS.items():
-        table[:, :, Parameter[name]] = default
-    for parameter in Parameter:
-        values = _values(joints, given, parameter.name)
-        if values is not None:
-            table[:, :, parameter] = values
-    for name, targets in law.angles.items():
-        angle = point_values(given, name, n, joints.shape)
-        if angle is None:
+    found = {p.name: _values(joints, given, p.name) for p in Parameter}
+    for name in law.angles:
+        found[name] = point_values(given, name, n, joints.shape)
+        if found[name] is None:
             raise missing_parameter(joints.zone, name, given.names)
-        for target in targets:
-            table[:, :, Parameter[target]] = np.where(
-                np.abs(angle) < 90.0, np.tan(np.radians(angle)), np.inf
-            )
+    table = _table(law, (n, g), {name: v for name, v in found.items() if v is not None})
     if joints.element.name == "JOI1":  # slip of a joint of two points is without dilatancy
         table[:, :, Parameter.TPSI] = 0.0
     if ELASTIC_SHEAR in joints.zone.behaviour:
@@ -103,19 +94,23 @@ def check_given(zone: Zone, values: Mapping[str, NDArray[np.generic]]) -> None:
     shapes = {v.shape[1] for v in given.values()} - {1}
     if not needed <= set(given) or len(shapes) > 1 or law.check is None:
         return
-    table = np.zeros((len(zone.cells), max(shapes, default=1), N_PARAMETERS))
+    table = _table(law, (len(zone.cells), max(shapes, default=1)), given)
+    law.check(table.reshape(-1, N_PARAMETERS))
+
+
+def _table(law: Law, shape: tuple[int, int], given: Mapping[str, FloatArray]) -> FloatArray:
+    """Parameters that are given on (n, g) points, tangents of angles, defaults of the others."""
+    table = np.zeros((*shape, N_PARAMETERS))
     for name, default in DEFAULTS.items():
         table[:, :, Parameter[name]] = default
     for parameter in Parameter:
         if parameter.name in given:
             table[:, :, parameter] = given[parameter.name]
     for name, targets in law.angles.items():
-        steep = np.abs(given[name]) >= 90.0
+        steep, slope = np.abs(given[name]) >= 90.0, np.tan(np.radians(given[name]))
         for target in targets:
-            table[:, :, Parameter[target]] = np.where(
-                steep, np.inf, np.tan(np.radians(given[name]))
-            )
-    law.check(table.reshape(-1, N_PARAMETERS))
+            table[:, :, Parameter[target]] = np.where(steep, np.inf, slope)
+    return table
 
 
 def _refuse_faces(zone: Zone) -> None:

@@ -28,7 +28,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.conditions import require
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.materials.plastic.uniaxial import elastic_shear, fibre_tangent
+from ssilang.kernel.materials.plastic.uniaxial import Along, fibres
 
 REQUIRED = ("STFC", "EZER", "STFT", "ZETA", "ST85", "TRAF")
 DEFAULTS = {"ALF1": 0.0, "OME1": 0.0, "FAMX": -1.0}
@@ -57,13 +57,11 @@ def respond(
     """Concrete (see the head of this module)."""
     from ssilang.kernel.materials.plastic.fibre_cycles import concrete_points
 
-    found, kept = elastic_shear(parameters, stress, strain), variables.copy()
-    along, slope = stress[:, 0].copy(), np.empty(len(stress))
+    along = Along(stress[:, 0].copy(), variables.copy(), np.empty(len(stress)))
     rest = (parameters[n] for n in ("ST85", "STFT", "TRAF"))
     table = np.stack([*confined(parameters), *rest])
-    concrete_points(table, strain[:, 0].copy(), along, kept, slope)
-    found[:, 0] = along
-    return Response(found, kept, fibre_tangent(parameters, slope))
+    concrete_points(table, strain[:, 0].copy(), *along)
+    return fibres(parameters, stress, strain, along)
 
 
 def check(p: PointParameters) -> None:

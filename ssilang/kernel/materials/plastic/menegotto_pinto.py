@@ -28,7 +28,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.plastic.conditions import require
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.materials.plastic.uniaxial import elastic_shear, fibre_tangent
+from ssilang.kernel.materials.plastic.uniaxial import Along, fibres
 
 REQUIRED = ("STSY", "STSU", "EPSH", "EPSU", "ROFA", "BFAC", "A1FA", "A2FA")
 BUCKLING = ("FALD", "A6FA", "CFAC", "AFAC")
@@ -45,12 +45,10 @@ def respond(
     """Steel in cycles (see the head of this module)."""
     from ssilang.kernel.materials.plastic.fibre_cycles import STEEL, steel_points
 
-    found, kept = elastic_shear(parameters, stress, strain), variables.copy()
-    along, slope = stress[:, 0].copy(), np.empty(len(stress))
+    along = Along(stress[:, 0].copy(), variables.copy(), np.empty(len(stress)))
     table = np.stack([parameters[n] for n in STEEL])
-    steel_points(table, strain[:, 0].copy(), along, kept, slope)
-    found[:, 0] = along
-    return Response(found, kept, fibre_tangent(parameters, slope))
+    steel_points(table, strain[:, 0].copy(), *along)
+    return fibres(parameters, stress, strain, along)
 
 
 def check(p: PointParameters) -> None:

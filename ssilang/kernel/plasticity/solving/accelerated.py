@@ -24,7 +24,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
-from ssilang.kernel.interface.response import InterfaceState, accept
+from ssilang.kernel.interface.response import accept
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.plasticity.newton import RIGID, TOLERANCE, BulkSolver
 from ssilang.kernel.plasticity.solving.part import (
@@ -381,7 +381,7 @@ class AcceleratedSolver(BulkSolver):
         work.trial.y[:] = work.trial.y0
         R = e.R if e.R.any() else np.zeros((0, 0))
         condensed = Condensed(e.S, R, self.share)
-        turns, _ = solve_interface(joints.points, condensed, _joints_of(motion), work)
+        turns, _ = solve_interface(joints.points, condensed, motion.joints, work)
         return work.trial.h if turns > 0 else None
 
     # ---- what is out of balance
@@ -411,17 +411,13 @@ class AcceleratedSolver(BulkSolver):
         known, answer = step.known, step.answer
         assert answer is not None
         if self._jumps is not None:
-            accept(self._jumps.trial, _joints_of(step.motion))
+            accept(self._jumps.trial, step.motion.joints)
         self.load[:] = 0.0
         self.load[known.order[step.part.places]] = step.p / known.scale[step.part.places]
         self.state, self.force, self.work = answer.state, answer.force, answer.work
         if known.elastic:
             self.cells = cells_for_the_next(self.bulk, self.cells, answer)
         return StepOutcome(step.du, turn, residual)
-
-
-def _joints_of(motion: Motion) -> InterfaceState:
-    return InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
 
 
 def is_accelerated(problem: Problem, bulk: Bulk, A: sp.csr_array) -> bool:

@@ -112,12 +112,29 @@ class Start(NamedTuple):
     given: FloatArray
 
 
+class Step(NamedTuple):
+    """A step that passes answer.
+
+    Attributes
+    ----------
+    start : Start
+    du : array (n,)
+        Displacement.
+    freed : array (m, 6)
+        Strain without stress, or no rows.
+    """
+
+    start: Start
+    du: FloatArray
+    freed: FloatArray
+
+
 class Space(NamedTuple):
     """Working space of a pass: compiled code that makes arrays counts references to all of them.
 
     Displacements and forces (n_rows, n_lanes) of the cells of a block; strains, stresses without
     flow and stresses (6, n_lanes), how far the former are beyond their surfaces (n_lanes,); an
-    element's matrix, and its rows; room (6, 6) for the law of a point.
+    element's matrix, and its rows; room (8, 6) for the law of a point.
     """
 
     u: FloatArray
@@ -136,20 +153,18 @@ def _space(cells: Cells) -> Space:
     return Space(
         np.zeros((rows, lanes)), np.zeros((rows, lanes)), np.zeros((6, lanes)),
         np.zeros((6, lanes)), np.zeros((6, lanes)), np.zeros(lanes), np.zeros((rows, rows)),
-        np.zeros(rows), np.zeros((6, 6)),
+        np.zeros(rows), np.zeros((8, 6)),
     )  # fmt: skip
 
 
 @compiled_fused
-def strains(
-    cells: Cells, block: int, first: int, n: int, du: FloatArray, freed: FloatArray, space: Space
-) -> None:
-    """Strains of the points `first` to `first + n` of a block in a step du of displacement."""
+def strains(cells: Cells, block: int, first: int, n: int, step: Step, space: Space) -> None:
+    """Strains of the points `first` to `first + n` of a block."""
     rows, start, places, p = cells.rows, cells.start, cells.places, points_of(cells)
     for r in range(len(space.u)):
         u = space.u[r]
         for k in range(n // p):
-            value = du[places[first // p + k, r]]
+            value = step.du[places[first // p + k, r]]
             for j in range(p):
                 u[k * p + j] = value
     for a in range(len(cells.components)):
@@ -160,10 +175,10 @@ def strains(
             u, term = space.u[rows[i]], cells.terms[block, i]
             for x in range(n):
                 e[x] += term[x] * u[x]
-    if len(freed):
+    if len(step.freed):
         for i in range(6):
             for x in range(n):
-                space.e[i, x] -= freed[first + x, i]
+                space.e[i, x] -= step.freed[first + x, i]
 
 
 @compiled_inline
@@ -320,13 +335,12 @@ class ZonePass:
         return self._read(values)
 
     def over(
-        self, start: Start, du: FloatArray, freed: FloatArray, new: Points, force: FloatArray,
-        D: FloatArray, beyond: FloatArray,
-    ) -> float:  # fmt: skip
+        self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
+    ) -> float:
         """`pass_over`."""
         raise NotImplementedError
 
-    def flow_over(self, start: Start, du: FloatArray, force: FloatArray) -> None:
+    def flow_over(self, step: Step, force: FloatArray) -> None:
         """Add what flow takes away from the forces."""
         raise NotImplementedError
 
@@ -375,13 +389,13 @@ class ZonePass:
         start, beyond = self.start(old), np.empty(len(self.cells.places))
         before = start.points
         new = Points(np.empty_like(before.stress), before.plastic.copy(), before.variables.copy())
-        work = self.over(start, du, freed, new, force, D, beyond)
+        work = self.over(Step(start, du, freed), new, force, D, beyond)
         return Passed(new.stress.T, new.plastic.T, self.kept(new.variables), work, beyond)
 
     def flow(self, old: PointState, du: FloatArray, force: FloatArray) -> None:
         """Add to `force` (n,) what flow takes away from the forces in a step du (n,)."""
         if len(self.cells.places):
-            self.flow_over(self.start(old), du, force)
+            self.flow_over(Step(self.start(old), du, NO_ROWS), force)
 
     def blank_tangents(self, wanted: bool = True) -> FloatArray:
         """Room for the tangents (m, n_strains, n_strains), or for none."""

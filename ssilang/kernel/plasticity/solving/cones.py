@@ -19,12 +19,12 @@ from ssilang.kernel.materials.plastic.cone_rows import (
 )
 from ssilang.kernel.plasticity.solving.blocks import (
     BULK,
-    NO_ROWS,
     SHEAR,
     Cells,
     Points,
     Space,
     Start,
+    Step,
     ZonePass,
     forces,
     points_of,
@@ -137,21 +137,15 @@ def _tangent(N: FloatArray, t: FloatArray, components: IntArray, D: FloatArray) 
 
 
 @compiled_fused
-def flow_over(
-    cells: Cells, cone: ConeRows, start: Start, du: FloatArray, nothing: FloatArray,
-    force: FloatArray, space: Space,
-) -> None:  # fmt: skip
-    """Add to `force` (n,) what flow takes away from the forces in a step du (n,).
-
-    `nothing` has no rows.
-    """
-    m, p, n_lanes = len(cells.weights), points_of(cells), cells.terms.shape[2]
+def flow_over(cells: Cells, cone: ConeRows, step: Step, force: FloatArray, space: Space) -> None:
+    """Add to `force` (n,) what flow takes away from the forces in a step."""
+    m, p, n_lanes, start = len(cells.weights), points_of(cells), cells.terms.shape[2], step.start
     first_term, rows, components = cells.start, cells.rows, cells.components
     moves = len(start.points.variables) > 1
     for block in range(len(cells.terms)):
         first = block * n_lanes
         n = min(n_lanes, m - first)
-        strains(cells, block, first, n, du, nothing, space)
+        strains(cells, block, first, n, step, space)
         _elastic(start, first, n, space)
         for x in range(n):
             at = first + x
@@ -170,15 +164,13 @@ def flow_over(
 
 @compiled_fused
 def pass_over(
-    cells: Cells, cone: ConeRows, start: Start, du: FloatArray, freed: FloatArray, new: Points,
-    force: FloatArray, D: FloatArray, beyond: FloatArray, space: Space,
+    cells: Cells, cone: ConeRows, step: Step, new: Points, force: FloatArray, D: FloatArray,
+    beyond: FloatArray, space: Space,
 ) -> float:  # fmt: skip
-    """The state after a step du (n,) of displacement, its forces added to `force` (n,).
+    """The state after a step, its forces added to `force` (n,).
 
     Parameters
     ----------
-    freed : array (m, 6)
-        Strain of the step without stress, or no rows.
     new : Points
         Plastic strains and variables are those of the start, and changed where points flow.
     D : array (m, n_strains, n_strains)
@@ -191,13 +183,13 @@ def pass_over(
     work : float
         Of the stresses over the step (average of both ends).
     """
-    m, p, n_lanes = len(cells.weights), points_of(cells), cells.terms.shape[2]
+    m, p, n_lanes, start = len(cells.weights), points_of(cells), cells.terms.shape[2], step.start
     variables, tangent, work = start.points.variables, len(D) > 0, 0.0
     moves = len(variables) > 1
     for block in range(len(cells.terms)):
         first = block * n_lanes
         n = min(n_lanes, m - first)
-        strains(cells, block, first, n, du, freed, space)
+        strains(cells, block, first, n, step, space)
         _elastic(start, first, n, space)
         for k in range(n // p):
             most = -1.0
@@ -246,12 +238,11 @@ class ConePass(ZonePass):
         return found
 
     def over(
-        self, start: Start, du: FloatArray, freed: FloatArray, new: Points, force: FloatArray,
-        D: FloatArray, beyond: FloatArray,
-    ) -> float:  # fmt: skip
+        self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
+    ) -> float:
         """`pass_over`."""
-        return pass_over(self.cells, self.cone, start, du, freed, new, force, D, beyond, self.space)
+        return pass_over(self.cells, self.cone, step, new, force, D, beyond, self.space)
 
-    def flow_over(self, start: Start, du: FloatArray, force: FloatArray) -> None:
+    def flow_over(self, step: Step, force: FloatArray) -> None:
         """Add what flow takes away from the forces."""
-        flow_over(self.cells, self.cone, start, du, NO_ROWS, force, self.space)
+        flow_over(self.cells, self.cone, step, force, self.space)

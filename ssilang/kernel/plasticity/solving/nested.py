@@ -18,12 +18,12 @@ from ssilang.kernel.materials.plastic.iwan import LEAST, PRESSURE
 from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.plasticity.solving.blocks import (
     BULK,
-    NO_ROWS,
     SHEAR,
     Cells,
     Points,
     Space,
     Start,
+    Step,
     ZonePass,
     forces,
     points_of,
@@ -31,6 +31,9 @@ from ssilang.kernel.plasticity.solving.blocks import (
     stressed,
     trial_stresses,
 )
+
+PART, BY_FACTOR = 6, 7
+"""Rows of `Space.point` behind the tangent: deviator of a part, stresses by the factor."""
 
 
 class Nested(NamedTuple):
@@ -60,14 +63,6 @@ def nested_of(parts: Backbones, parameters: PointParameters) -> Nested:
     return Nested(parts.strains, parts.shares, parts.which, moduli)
 
 
-class Room(NamedTuple):
-    """Working space for a point: tangent (6, 6), deviator of a part and stresses by factor (6,)."""
-
-    D: FloatArray
-    t: FloatArray
-    by_factor: FloatArray
-
-
 @compiled_fused
 def _factor(start: Start, at: int, x: int, space: Space) -> tuple[float, float]:
     """Factor of the strengths, and its derivative by the trace of the strain."""
@@ -82,15 +77,15 @@ def _factor(start: Start, at: int, x: int, space: Space) -> tuple[float, float]:
 
 @compiled_fused
 def _returned(
-    nested: Nested, start: Start, at: int, x: int, space: Space, room: Room, new: FloatArray,
-    tangent: bool,
-) -> float:  # fmt: skip
+    nested: Nested, start: Start, at: int, x: int, space: Space, new: FloatArray, tangent: bool
+) -> float:
     """The law at a point, lane x: its stress in `space.s`; how far it is beyond a surface at most.
 
-    Internal variables go to `new` (m, k) if it has rows, the tangent to `room` if it is asked for.
+    Internal variables go to `new` (m, k) if it has rows, the tangent to the first rows of
+    `space.point` if it is asked for.
     """
     G, curve, old = start.given[SHEAR, at], nested.which[at], start.points.variables
-    e, t, D, kept = space.e, room.t, room.D, len(new) > 0
+    e, D, kept = space.e, space.point, len(new) > 0
     mean = (e[0, x] + e[1, x] + e[2, x]) / 3.0
     exx, eyy, exy, exz, eyz = e[0, x] - mean, e[1, x] - mean, e[3, x], e[4, x], e[5, x]
     factor, rate = _factor(start, at, x, space)
@@ -98,7 +93,7 @@ def _returned(
     stiff, most = 0.0, -1.0
     if tangent:
         for j in range(6):
-            room.by_factor[j] = 0.0
+            D[BY_FACTOR, j] = 0.0
             for k in range(6):
                 D[j, k] = 0.0
     for i in range(nested.shares.shape[1]):
@@ -127,12 +122,13 @@ def _returned(
             pyz += lost * tyz
             most = 1.0
             if tangent:
-                t[0], t[1], t[2], t[3], t[4], t[5] = txx, tyy, tzz, txy, txz, tyz
+                D[PART, 0], D[PART, 1], D[PART, 2] = txx, tyy, tzz
+                D[PART, 3], D[PART, 4], D[PART, 5] = txy, txz, tyz
                 turning, rise = own * left / (size * size), first / size
                 for j in range(6):
-                    room.by_factor[j] += rise * t[j]
+                    D[BY_FACTOR, j] += rise * D[PART, j]
                     for k in range(j + 1):
-                        D[j, k] -= turning * t[j] * t[k]
+                        D[j, k] -= turning * D[PART, j] * D[PART, k]
         elif most < 0.0:
             most = max(most, (square - 2.0 * limit * limit) / (square + 2.0 * limit * limit))
         stiff += 2.0 * own * left
@@ -160,27 +156,24 @@ def _returned(
         if rate != 0.0:
             for j in range(6):
                 for k in range(3):
-                    D[j, k] += room.by_factor[j] * rate
+                    D[j, k] += D[BY_FACTOR, j] * rate
     return most
 
 
 @compiled_fused
-def flow_over(
-    cells: Cells, nested: Nested, start: Start, du: FloatArray, nothing: FloatArray,
-    force: FloatArray, space: Space, room: Room,
-) -> None:  # fmt: skip
-    """Add to `force` (n,) what flow takes away from the forces in a step du (n,).
+def flow_over(cells: Cells, nested: Nested, step: Step, force: FloatArray, space: Space) -> None:
+    """Add to `force` (n,) what flow takes away from the forces in a step.
 
-    `nothing` has no rows.
+    All its strain has a stress: `step.freed` has no rows, and no variables are kept.
     """
-    m, n_lanes = len(cells.weights), cells.terms.shape[2]
+    m, n_lanes, start = len(cells.weights), cells.terms.shape[2], step.start
     for block in range(len(cells.terms)):
         first = block * n_lanes
         n = min(n_lanes, m - first)
-        strains(cells, block, first, n, du, nothing, space)
+        strains(cells, block, first, n, step, space)
         trial_stresses(start, first, n, space)
         for x in range(n):
-            _returned(nested, start, first + x, x, space, room, nothing, False)
+            _returned(nested, start, first + x, x, space, step.freed, False)
         for i in range(6):
             for x in range(n):
                 space.s[i, x] -= space.trial[i, x]
@@ -189,15 +182,13 @@ def flow_over(
 
 @compiled_fused
 def pass_over(
-    cells: Cells, nested: Nested, start: Start, du: FloatArray, freed: FloatArray, new: Points,
-    force: FloatArray, D: FloatArray, beyond: FloatArray, space: Space, room: Room,
+    cells: Cells, nested: Nested, step: Step, new: Points, force: FloatArray, D: FloatArray,
+    beyond: FloatArray, space: Space,
 ) -> float:  # fmt: skip
-    """The state after a step du (n,) of displacement, its forces added to `force` (n,).
+    """The state after a step, its forces added to `force` (n,).
 
     Parameters
     ----------
-    freed : array (m, 6)
-        Strain of the step without stress, or no rows.
     new : Points
         Plastic strains are those of the start, and changed where points flow.
     D : array (m, n_strains, n_strains)
@@ -210,16 +201,16 @@ def pass_over(
     work : float
         Of the stresses over the step (average of both ends).
     """
-    m, p, n_lanes = len(cells.weights), points_of(cells), cells.terms.shape[2]
+    m, p, n_lanes, start = len(cells.weights), points_of(cells), cells.terms.shape[2], step.start
     components, tangent, work = cells.components, len(D) > 0, 0.0
     for block in range(len(cells.terms)):
         first = block * n_lanes
         n = min(n_lanes, m - first)
-        strains(cells, block, first, n, du, freed, space)
+        strains(cells, block, first, n, step, space)
         trial_stresses(start, first, n, space)
         for x in range(n):
             at = first + x
-            most = _returned(nested, start, at, x, space, room, new.variables, tangent)
+            most = _returned(nested, start, at, x, space, new.variables, tangent)
             cell = at // p
             beyond[cell] = most if x % p == 0 else max(beyond[cell], most)
             G = start.given[SHEAR, at]
@@ -229,7 +220,7 @@ def pass_over(
             if tangent:
                 for a in range(len(components)):
                     for b in range(len(components)):
-                        D[at, a, b] = room.D[components[a], components[b]]
+                        D[at, a, b] = space.point[components[a], components[b]]
         work += stressed(cells, start, first, n, new, space)
         forces(cells, block, first, n, force, space)
     return work
@@ -266,7 +257,6 @@ class NestedPass(ZonePass):
     def __init__(self, cells: Cells, nested: Nested, points: IntArray | None = None) -> None:
         super().__init__(cells, points)
         self.nested = nested
-        self._room = Room(np.zeros((6, 6)), np.zeros(6), np.zeros(6))
 
     def of(self, which: IntArray) -> NestedPass:
         """A pass over some cells: it reads their points of the zone's states."""
@@ -288,18 +278,14 @@ class NestedPass(ZonePass):
         return variables
 
     def over(
-        self, start: Start, du: FloatArray, freed: FloatArray, new: Points, force: FloatArray,
-        D: FloatArray, beyond: FloatArray,
-    ) -> float:  # fmt: skip
+        self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
+    ) -> float:
         """`pass_over`."""
-        return pass_over(
-            self.cells, self.nested, start, du, freed, new, force, D, beyond, self.space,
-            self._room,
-        )  # fmt: skip
+        return pass_over(self.cells, self.nested, step, new, force, D, beyond, self.space)
 
-    def flow_over(self, start: Start, du: FloatArray, force: FloatArray) -> None:
+    def flow_over(self, step: Step, force: FloatArray) -> None:
         """Add what flow takes away from the forces."""
-        flow_over(self.cells, self.nested, start, du, NO_ROWS, force, self.space, self._room)
+        flow_over(self.cells, self.nested, step, force, self.space)
 
     def locked(self, start: Start) -> float:
         """Energy of the parts beyond that of the stresses."""

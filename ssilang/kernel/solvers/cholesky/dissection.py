@@ -3,16 +3,18 @@
 The unknowns of a point stay together. A set of points is cut at the middle of one of the axes;
 the points of one half that touch the other are its separator, numbered behind both halves, which
 are cut in turn (George 1973). Each separator and each part too small to be cut is a supernode.
+
+All parts of a level are cut together by numpy, so that nothing waits to be compiled.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 
 LEAF = 10  # points below which a part is not cut: more fill-in, fewer and larger supernodes
@@ -55,11 +57,8 @@ def dissection(A: sp.csr_array, points: FloatArray, last: IntArray) -> Tree:
     _, group = np.unique(np.round(points / size, 10), axis=0, return_inverse=True)
     group = 2 * group.ravel() + ending
     _, member, group = np.unique(group, return_index=True, return_inverse=True)
-    graph = _quotient(A, group, len(member))
-    ptr, neighbours = graph.indptr.astype(np.int64), graph.indices.astype(np.int64)
-    sequence, start, parent = _dissect(
-        ptr, neighbours, np.ascontiguousarray(points[member], dtype=float), ending[member], LEAF
-    )
+    links = _links(A, group, len(member))
+    sequence, start, parent = _dissect(links, points[member].astype(float), ending[member])
     by = np.argsort(start, kind="stable")
     renumbered = np.full(len(by) + 1, -1, np.int64)
     renumbered[by] = np.arange(len(by))
@@ -71,173 +70,174 @@ def dissection(A: sp.csr_array, points: FloatArray, last: IntArray) -> Tree:
     return Tree(np.argsort(place[group], kind="stable"), first, renumbered[parent[by]])
 
 
-def _quotient(A: sp.csr_array, group: IntArray, count: int) -> sp.csr_array:
-    """Graph (count, count) of groups of unknowns."""
+Links = tuple[IntArray, IntArray]
+"""Both ends of each link."""
+
+
+def _links(A: sp.csr_array, group: IntArray, count: int) -> Links:
+    """Groups of unknowns that A links, each pair once."""
     n = A.shape[0]
     members = sp.csr_array((np.ones(n, np.float32), (np.arange(n), group)), shape=(n, count))
     pattern = sp.csr_array((np.ones(A.nnz, np.float32), A.indices, A.indptr), shape=A.shape)
-    return sp.csr_array(members.T @ pattern @ members)
+    graph = sp.csr_array(members.T @ pattern @ members)
+    ends = sp.triu(graph + graph.T, 1, format="coo").coords
+    return ends[0].astype(np.int64), ends[1].astype(np.int64)
 
 
-@compiled
-def _sides(
-    ptr: IntArray, neighbours: IntArray, order: IntArray, lo: int, hi: int, keys: FloatArray,
-    cut: float, side: IntArray,
-) -> tuple[int, int, int]:  # fmt: skip
-    """Sides of a cut: 0 below it, 1 above; 3 and 2 are those of each that touch the other side.
+class _Parts(NamedTuple):
+    """Parts of one level: first place, number of points, supernode that separated it from others.
 
-    Returns how many are below, marked 2, marked 3; `side` is -1 elsewhere.
+    All are arrays (m,).
     """
-    below, above_touching, below_touching = 0, 0, 0
-    for i in range(lo, hi):
-        side[order[i]] = 0 if keys[i - lo] < cut else 1
-    for i in range(lo, hi):
-        v = order[i]
-        mine = side[v]
-        below += 1 - mine
-        for k in range(ptr[v], ptr[v + 1]):
-            s = side[neighbours[k]]
-            if s >= 0 and (s if s < 2 else 3 - s) != mine:
-                if mine == 1:
-                    side[v] = 2
-                    above_touching += 1
-                else:
-                    side[v] = 3
-                    below_touching += 1
-                break
-    return below, above_touching, below_touching
+
+    start: IntArray
+    size: IntArray
+    above: IntArray
+
+    def only(self, chosen: BoolArray) -> _Parts:
+        return _Parts(*(x[chosen] for x in self))
+
+    def and_these(self, others: _Parts) -> _Parts:
+        return _Parts(*map(np.append, self, others))
 
 
-@compiled
-def _middle(keys: FloatArray, size: int) -> float:
-    """Value that has size // 2 of the first keys before it in their order (Hoare's selection).
+class _Points(NamedTuple):
+    """Points of the parts of one level, part after part.
 
-    The keys change places. NumPy's `partition` takes seconds to compile.
+    Attributes
+    ----------
+    of : array (n,)
+        Their numbers.
+    first : array (m,)
+        Place of the first point of each part.
+    part : array (n,)
+    links : Links
+        Numbers of points that are linked, both of one part.
     """
-    low, high, wanted = 0, size - 1, size // 2
-    while low < high:
-        i, j, pivot = low, high, keys[(low + high) // 2]
-        while i <= j:
-            while keys[i] < pivot:
-                i += 1
-            while keys[j] > pivot:
-                j -= 1
-            if i <= j:
-                keys[i], keys[j] = keys[j], keys[i]
-                i += 1
-                j -= 1
-        if wanted <= j:
-            high = j
-        elif wanted >= i:
-            low = i
-        else:
-            break
-    return float(keys[wanted])
+
+    of: IntArray
+    first: IntArray
+    part: IntArray
+    links: Links
+
+    def numbers(self, chosen: BoolArray) -> IntArray:
+        """How many chosen points are in each part."""
+        return np.bincount(self.part[chosen], minlength=len(self.first))
 
 
-@compiled
-def _best_cut(
-    ptr: IntArray, neighbours: IntArray, points: FloatArray, order: IntArray, lo: int, hi: int,
-    keys: FloatArray, side: IntArray,
-) -> tuple[int, float]:  # fmt: skip
-    """Axis and position of the cut with the fewest separating points, axis -1 if none cuts."""
-    size, d = hi - lo, points.shape[1]
-    spans, widest = np.empty(d), 0.0
-    for a in range(d):
-        low, high = points[order[lo], a], points[order[lo], a]
-        for i in range(lo, hi):
-            low, high = min(low, points[order[i], a]), max(high, points[order[i], a])
-        spans[a] = high - low
-        widest = max(widest, spans[a])
-    best, axis, position = -1, -1, 0.0
-    for a in range(d):
-        if spans[a] == 0.0 or spans[a] < THIN * widest:
-            continue
-        for i in range(lo, hi):
-            keys[i - lo] = points[order[i], a]
-        cut = _middle(keys, size) - 1e-9 * widest
-        for i in range(lo, hi):
-            keys[i - lo] = points[order[i], a]
-        below, above_touching, below_touching = _sides(
-            ptr, neighbours, order, lo, hi, keys, cut, side
-        )
-        if below == 0 or below == size:
-            continue
-        score = min(above_touching, below_touching)
-        if min(below, size - below) < 0.3 * size:
-            score *= 2
-        if best < 0 or score < best:
-            best, axis, position = score, a, cut
-    return axis, position
+BELOW, ABOVE, BETWEEN = range(3)
+"""Kinds of points at a cut."""
 
 
-@compiled
+class _Coordinate(NamedTuple):
+    """One coordinate of all points: values that differ, and the place of each point's among them.
+
+    `x` are those of the points, in their order.
+    """
+
+    x: FloatArray
+    values: FloatArray
+    ranks: IntArray
+
+
 def _dissect(
-    ptr: IntArray, neighbours: IntArray, points: FloatArray, ending: np.ndarray, leaf: int
+    links: Links, points: FloatArray, ending: BoolArray
 ) -> tuple[IntArray, IntArray, IntArray]:
     """Points in their order; first place and parent of each supernode, not yet sorted."""
-    n = len(ending)
-    order, side, keys = np.empty(n, np.int64), np.full(n, -1, np.int64), np.empty(n)
-    upper = np.empty(n, np.int64)
-    start, parent = np.empty(2 * n + 2, np.int64), np.empty(2 * n + 2, np.int64)
-    stack = np.empty((2 * n + 2, 3), np.int64)
-    count, depth, m, end = 0, 1, 0, n
+    n, m = len(ending), int(np.count_nonzero(~ending))
     # those that shall come last make the root
-    for i in range(n):
-        if ending[i]:
-            end -= 1
-            order[end] = i
-        else:
-            order[m] = i
-            m += 1
-    if m < n:
-        start[0], parent[0], count = m, -1, 1
-    stack[0, 0], stack[0, 1], stack[0, 2] = 0, m, count - 1
-    while depth > 0:
-        depth -= 1
-        lo, hi, above = stack[depth, 0], stack[depth, 1], stack[depth, 2]
-        if hi <= lo:
-            continue
-        axis, cut = -1, 0.0
-        if hi - lo > leaf:
-            axis, cut = _best_cut(ptr, neighbours, points, order, lo, hi, keys, side)
-        # few points, or none that a cut would part: a leaf
-        if axis < 0:
-            for i in range(lo, hi):
-                side[order[i]] = -1
-            start[count], parent[count] = lo, above
-            count += 1
-            continue
+    order = np.concatenate([np.flatnonzero(~ending), np.flatnonzero(ending)[::-1]])
+    root = [m] if m < n else []
+    start, parent = np.array(root, np.int64), np.full(len(root), -1)
+    parts = _Parts(*(np.array([x]) for x in (0, m, len(root) - 1))).only(np.array([m > 0]))
+    axes = [_Coordinate(x, *np.unique(x, return_inverse=True)) for x in points.T.copy()]
+    part_of = np.empty(n, np.int64)
+    while len(parts.start):
+        # parts of few points are leaves
+        leaves, parts = parts.only(parts.size <= LEAF), parts.only(parts.size > LEAF)
+        part = np.repeat(np.arange(len(parts.start)), parts.size)
+        first = np.cumsum(parts.size) - parts.size
+        place = np.arange(len(part)) + (parts.start - first)[part]
+        here = order[place]
+        part_of[:] = -1
+        part_of[here] = part
+        links = _inside(links, part_of)
+        known = _Points(here, first, part, links)
+        kind, cut = _best_cuts(known, parts.size, axes)
+        # and those that no cut would part
+        leaves, kept = leaves.and_these(parts.only(~cut)), cut[part]
+        below, above, between = (known.numbers(kept & (kind == k)) for k in range(3))
+        order[place[kept]] = here[_sorted(known, kind)][kept]
+        start, parent = np.append(start, leaves.start), np.append(parent, leaves.above)
+        # a supernode of the points between, then both sides
+        made, upper, end = between > 0, parts.start + below, parts.start + below + above
+        separated = np.where(made, len(start) - 1 + np.cumsum(made), parts.above)
+        start, parent = np.append(start, end[made]), np.append(parent, parts.above[made])
+        parts = _Parts(parts.start, below, separated).and_these(_Parts(upper, above, separated))
+        parts = parts.only(parts.size > 0)
+    return order, start, parent
+
+
+def _inside(links: Links, part_of: IntArray) -> Links:
+    """Links whose ends are of one part."""
+    one, other = part_of[links[0]], part_of[links[1]]
+    kept = (one == other) & (one >= 0)
+    return links[0][kept], links[1][kept]
+
+
+def _best_cuts(
+    points: _Points, size: IntArray, axes: list[_Coordinate]
+) -> tuple[IntArray, BoolArray]:
+    """Kind of each point at the cut of its part that the fewest separate; which parts are cut."""
+    best, kinds = np.full(len(size), -1), np.zeros(len(points.of), np.int64)
+    if not len(size):
+        return kinds, best >= 0
+    spans = np.array([_spans(axis.x[points.of], points.first) for axis in axes])
+    widest = spans.max(axis=0)
+    for axis, span in zip(axes, spans, strict=True):
+        cut = _middles(points, axis, size) - 1e-9 * widest
+        upper = axis.x[points.of] >= cut[points.part]
+        touching = _touching(points, upper, len(axis.x))
+        below = points.numbers(~upper)
+        above_touching, below_touching = (points.numbers(touching & u) for u in (upper, ~upper))
+        score = np.minimum(above_touching, below_touching)
+        score[np.minimum(below, size - below) < 0.3 * size] *= 2
         # the smaller of both borders of the cut separates its sides
-        for i in range(lo, hi):
-            keys[i - lo] = points[order[i], axis]
-        _, high, low = _sides(ptr, neighbours, order, lo, hi, keys, cut, side)
-        separating = 2 if high <= low else 3
-        # order: lower side, upper side, what separates them
-        a, b, c = lo, 0, 0
-        for i in range(lo, hi):
-            v = order[i]
-            s = side[v]
-            side[v] = -1
-            if s == separating:
-                c += 1
-                upper[hi - lo - c] = v
-            elif s == 0 or s == 3:
-                order[a] = v
-                a += 1
-            else:
-                upper[b] = v
-                b += 1
-        for i in range(b):
-            order[a + i] = upper[i]
-        for i in range(c):
-            order[hi - c + i] = upper[hi - lo - c + i]
-        # a supernode of it, then both sides by turns
-        if c > 0:
-            start[count], parent[count] = hi - c, above
-            above = count
-            count += 1
-        stack[depth, 0], stack[depth, 1], stack[depth, 2] = lo, a, above
-        stack[depth + 1, 0], stack[depth + 1, 1], stack[depth + 1, 2] = a, hi - c, above
-        depth += 2
-    return order, start[:count], parent[:count]
+        border = touching & (upper == (above_touching <= below_touching)[points.part])
+        better = (span > 0.0) & (span >= THIN * widest) & (below > 0) & (below < size)
+        better &= (best < 0) | (score < best)
+        best[better] = score[better]
+        kind = np.where(border, BETWEEN, np.where(upper, ABOVE, BELOW))
+        kinds = np.where(better[points.part], kind, kinds)
+    return kinds, best >= 0
+
+
+def _spans(x: FloatArray, first: IntArray) -> FloatArray:
+    span: FloatArray = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
+    return span
+
+
+def _middles(points: _Points, axis: _Coordinate, size: IntArray) -> FloatArray:
+    """Coordinate of each part that half of its points have before it."""
+    many = len(axis.values)
+    ordered = np.sort(points.part * many + axis.ranks[points.of])
+    middles: FloatArray = axis.values[ordered[points.first + size // 2] % many]
+    return middles
+
+
+def _touching(points: _Points, upper: BoolArray, n: int) -> BoolArray:
+    """Which points of a side are linked to the other; n is the number of all points."""
+    side, touching = np.empty(n, bool), np.zeros(n, bool)
+    side[points.of] = upper
+    one, other = points.links
+    crossing = np.flatnonzero(side[one] != side[other])
+    touching[one[crossing]] = touching[other[crossing]] = True
+    return touching[points.of]
+
+
+def _sorted(points: _Points, kind: IntArray) -> IntArray:
+    """Points below the cut of each part, those above, then those between, from their end."""
+    n = len(kind)
+    number = np.arange(n)
+    number[kind == BETWEEN] = n - 1 - number[kind == BETWEEN]
+    return np.argsort((3 * points.part + kind) * n + number)

@@ -57,6 +57,24 @@ class Panels(NamedTuple):
     values: FloatArray
 
 
+class Updates(NamedTuple):
+    """What supernodes leave to those of their first rows below, -1 for none.
+
+    Attributes
+    ----------
+    child : array (n_supernodes,)
+        The last one whose update each takes.
+    sibling : array (n_supernodes,)
+        The one that is taken after each.
+    spot : array (n_supernodes,)
+        Where the update of each waits on the stack.
+    """
+
+    child: IntArray
+    sibling: IntArray
+    spot: IntArray
+
+
 class Columns(NamedTuple):
     """The lower triangle of a matrix, column after column."""
 
@@ -81,8 +99,8 @@ def factorise_panels(A: sp.csr_array, tree: Tree, most: float = np.inf) -> Panel
     if plan.n_bytes > most or not held:
         raise TooLargeError(plan.n_bytes, held)
     panels = Panels(tree.first, plan.ptr, plan.rows, plan.at, np.zeros(plan.at[-1]))
-    room = np.zeros(plan.waiting), np.zeros(plan.front)
-    bad = _factorise(plan.columns, panels, plan.above, *room)
+    room = np.zeros(plan.waiting), np.zeros(plan.front), np.zeros((2, A.shape[0]), np.int64)
+    bad = _factorise(plan.columns, panels, plan.updates, *room)
     if bad >= 0 or not np.isfinite(panels.values[-1:]).all():
         raise NotPositiveError(f"pivot {bad} is not positive")
     return panels
@@ -92,7 +110,7 @@ class _Plan(NamedTuple):
     """Where the numbers of a factor stand, and what it takes to make it."""
 
     columns: Columns
-    above: IntArray
+    updates: Updates
     ptr: IntArray
     rows: IntArray
     at: IntArray
@@ -110,131 +128,88 @@ def factor_bytes(A: sp.csr_array, tree: Tree) -> float:
 
 
 def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
-    n = A.shape[0]
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
-    above = np.full(len(tree.first) - 1, -1, np.int64)
-    ptr, rows = _rows_below(n, indptr, indices, tree.first, above)
+    ptr, rows, above = _rows_below(tree, indptr, indices)
     rows, at = rows.astype(np.int32), _places(tree.first, ptr)
-    waiting, front = _room(tree.first, ptr, above)
-    return _Plan(Columns(indptr, indices, lower.data), above, ptr, rows, at, waiting, front)
+    updates, waiting, front = _updates(tree.first, ptr, above)
+    return _Plan(Columns(indptr, indices, lower.data), updates, ptr, rows, at, waiting, front)
 
 
-@compiled
-def _longer(rows: IntArray, size: int) -> IntArray:
-    more = np.empty(2 * size, np.int64)
-    for i in range(size):
-        more[i] = rows[i]
-    return more
-
-
-@apart
-@compiled
-def _sort(rows: IntArray, start: int, end: int) -> None:
-    """Sort a part in place (Shell's method; NumPy's takes numba seconds to compile)."""
-    gap = 1
-    while gap < (end - start) // 3:
-        gap = 3 * gap + 1
-    while gap > 0:
-        for i in range(start + gap, end):
-            row, j = rows[i], i
-            while j >= start + gap and rows[j - gap] > row:
-                rows[j] = rows[j - gap]
-                j -= gap
-            rows[j] = row
-        gap //= 3
-
-
-@compiled
 def _rows_below(
-    n: int, indptr: IntArray, indices: IntArray, first: IntArray, above: IntArray
-) -> tuple[IntArray, IntArray]:
-    """`ptr` and `rows` of the panels; `above` becomes the supernode of each one's first row."""
-    count = len(first) - 1
-    owner, seen = np.empty(n, np.int64), np.full(n, -1, np.int64)
-    for s in range(count):
-        for i in range(first[s], first[s + 1]):
-            owner[i] = s
-    ptr, rows = np.zeros(count + 1, np.int64), np.empty(max(len(indices), 16), np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    size = 0
-    for s in range(count):
-        # rows of the matrix's own columns, then those of the supernodes just below
-        end, start = first[s + 1], size
-        for k in range(indptr[first[s]], indptr[end]):
-            i = indices[k]
-            if i >= end and seen[i] != s:
-                seen[i] = s
-                if size == len(rows):
-                    rows = _longer(rows, size)
-                rows[size] = i
-                size += 1
-        c = child[s]
-        while c >= 0:
-            for k in range(ptr[c], ptr[c + 1]):
-                i = rows[k]
-                if i >= end and seen[i] != s:
-                    seen[i] = s
-                    if size == len(rows):
-                        rows = _longer(rows, size)
-                    rows[size] = i
-                    size += 1
-            c = sibling[c]
-        _sort(rows, start, size)
-        ptr[s + 1] = size
-        if size > start:
-            above[s] = owner[rows[start]]
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
-    return ptr, rows[:size]
+    tree: Tree, indptr: IntArray, indices: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """`ptr` and `rows` of the panels, and the supernode of each one's first row, -1 without rows.
+
+    Rows of a supernode are those of its columns and of the supernodes just below it; it stands in
+    one of the levels of the tree, those below it in deeper ones.
+    """
+    first, n, count = tree.first, len(indptr) - 1, len(tree.first) - 1
+    owner, depth = np.repeat(np.arange(count), np.diff(first)), _depths(tree.parent)
+    columns = sp.csr_array((np.ones(n, np.float32), np.arange(n), first), shape=(count, n))
+    pattern = sp.csr_array((np.ones(len(indices), np.float32), indices, indptr), shape=(n, n))
+    own = sp.csr_array(columns @ pattern)
+    node, row = np.repeat(np.arange(count), np.diff(own.indptr)), own.indices.astype(np.int64)
+    waiting = [np.zeros(0, np.int64)] * (depth.max(initial=-1) + 1)
+    above, found = np.full(count, -1), [np.zeros(0, np.int64)]
+    for level in reversed(range(len(waiting) + 1)):
+        # those above are given what stands below them too: a number tells a supernode and a row
+        below = row >= first[node + 1]
+        given, to = node[below] * n + row[below], depth[node[below]]
+        for one in np.flatnonzero(np.bincount(to)):
+            waiting[one] = np.append(waiting[one], given[to == one])
+        if level == 0:
+            break
+        ordered = np.sort(waiting[level - 1])  # np.unique takes ten times as long
+        found.append(ordered[np.diff(ordered, prepend=-1) > 0])
+        node, row = np.divmod(found[-1], n)
+        is_first = np.diff(node, prepend=-1) > 0
+        above[node[is_first]] = owner[row[is_first]]
+        node = above[node]
+    node, rows = np.divmod(np.sort(np.concatenate(found)), n)
+    return np.searchsorted(node, np.arange(count + 1)), rows, above
 
 
-@compiled
+def _depths(parent: IntArray) -> IntArray:
+    """Number of supernodes above each."""
+    depth, at = np.zeros(len(parent), np.int64), parent
+    while (at >= 0).any():
+        depth += at >= 0
+        at = np.where(at >= 0, parent[at], -1)
+    return depth
+
+
 def _places(first: IntArray, ptr: IntArray) -> IntArray:
     """`at` of the panels."""
-    at = np.zeros(len(first), np.int64)
-    for s in range(len(first) - 1):
-        k = first[s + 1] - first[s]
-        m = k + ptr[s + 1] - ptr[s]
-        at[s + 1] = at[s]
-        for j in range(0, k, WIDTH):
-            w = min(WIDTH, k - j)
-            at[s + 1] += w * (m - j)
-    return at
+    k, below = np.diff(first), np.diff(ptr)
+    whole, rest = np.divmod(k, WIDTH)
+    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
+    sizes += rest * (rest + below)
+    return np.append(0, np.cumsum(sizes))
 
 
-@compiled
-def _free(alive: int, live: IntArray, used: np.ndarray) -> int:
-    """Number of updates left on the stack when the used ones on its top are gone."""
-    while alive > 0 and used[live[alive - 1]]:
-        alive -= 1
-    return alive
-
-
-@compiled
-def _room(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[int, int]:
-    """Numbers that wait on the stack of updates at most, and of the largest front."""
-    count = len(first) - 1
-    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
-    spot = np.zeros(count + 1, np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    alive, most, front = 0, 0, 0
-    for s in range(count):
-        below = ptr[s + 1] - ptr[s]
-        front = max(front, (first[s + 1] - first[s] + below) ** 2)
-        c = child[s]
-        while c >= 0:
-            used[c] = True
-            c = sibling[c]
-        alive = _free(alive, live, used)
-        if below > 0:
-            live[alive] = s
-            spot[alive + 1] = spot[alive] + below * below
-            alive += 1
-            most = max(most, spot[alive])
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
-    return most, front
+def _updates(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[Updates, int, int]:
+    """Where updates wait, the numbers that do so at most, and those of the largest front."""
+    below = np.diff(ptr)
+    stack, waiting, most, spot = list[int](), 0, 0, np.zeros(len(below), np.int64)
+    size, taker = (below**2).tolist(), above.tolist()
+    for s in range(len(size)):
+        # what lies on top is free when it was taken
+        while stack and taker[stack[-1]] <= s:
+            waiting -= size[stack.pop()]
+        if size[s]:
+            stack.append(s)
+            spot[s] = waiting
+            waiting += size[s]
+            most = max(most, waiting)
+    order = np.argsort(above, kind="stable")
+    order = order[above[order] >= 0]
+    is_last = np.diff(above[order], append=-1) != 0
+    child, sibling = np.full(len(above), -1), np.full(len(above), -1)
+    child[above[order[is_last]]] = order[is_last]
+    sibling[order[1:][~is_last[:-1]]] = order[:-1][~is_last[:-1]]
+    front = int(((np.diff(first) + below) ** 2).max(initial=0))
+    return Updates(child, sibling, spot), most, front
 
 
 @compiled
@@ -247,10 +222,11 @@ def _gather(A: Columns, c0: int, c1: int, where: IntArray, F: FloatArray) -> Non
 
 
 @compiled
-def _extend_add(U: FloatArray, rows: IntArray, where: IntArray, F: FloatArray) -> None:
-    """Add the update of a child."""
+def _extend_add(
+    U: FloatArray, rows: IntArray, where: IntArray, local: IntArray, F: FloatArray
+) -> None:
+    """Add the update of a child; `local` is overwritten."""
     n = len(rows)
-    local = np.empty(n, np.int64)
     for i in range(n):
         local[i] = where[rows[i]]
     for j in range(n):
@@ -368,21 +344,16 @@ def _columns(F: FloatArray, k: int, pos: int, values: FloatArray) -> int:
 
 @compiled
 def _factorise(
-    A: Columns, panels: Panels, above: IntArray, stack: FloatArray, work: FloatArray
-) -> int:
+    A: Columns, panels: Panels, updates: Updates, stack: FloatArray, work: FloatArray,
+    places: IntArray,
+) -> int:  # fmt: skip
     """Fill the panels; the column of a bad pivot or -1.
 
-    `above` is the supernode of each one's first row below it; `stack` holds updates of supernodes
-    until those above take them, `work` one front.
+    `stack` holds updates of supernodes until those above take them, `work` one front, `places`
+    (2, n) a row's place in it.
     """
-    first, ptr, rows = panels.first, panels.ptr, panels.rows
-    count = len(first) - 1
-    where = np.zeros(first[-1], np.int64)
-    live, used = np.empty(count, np.int64), np.zeros(count, np.bool_)
-    spot, mine = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
-    child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
-    alive = 0
-    for s in range(count):
+    first, ptr, rows, where = panels.first, panels.ptr, panels.rows, places[0]
+    for s in range(len(first) - 1):
         # a front of the supernode's columns and the rows below them; `where` is a row's place in it
         c0, k, below = first[s], first[s + 1] - first[s], ptr[s + 1] - ptr[s]
         m = k + below
@@ -394,29 +365,22 @@ def _factorise(
             where[c0 + j] = j
         for i in range(below):
             where[rows[ptr[s] + i]] = k + i
-        # filled by the matrix and by the updates of the supernodes below, which are then free
+        # filled by the matrix and by the updates of the supernodes below
         _gather(A, c0, c0 + k, where, F)
-        c = child[s]
+        c = updates.child[s]
         while c >= 0:
-            size = ptr[c + 1] - ptr[c]
-            U = stack[mine[c] : mine[c] + size * size].reshape((size, size))
-            _extend_add(U, rows[ptr[c] : ptr[c + 1]], where, F)
-            used[c] = True
-            c = sibling[c]
-        alive = _free(alive, live, used)
+            size, spot = ptr[c + 1] - ptr[c], updates.spot[c]
+            U = stack[spot : spot + size * size].reshape((size, size))
+            _extend_add(U, rows[ptr[c] : ptr[c + 1]], where, places[1], F)
+            c = updates.sibling[c]
         bad = _columns(F, k, panels.at[s], panels.values)
         if bad >= 0:
             return int(c0 + bad)
         # what is left of the front waits on the stack
         if below > 0:
-            mine[s] = spot[alive]
-            U = stack[mine[s] : mine[s] + below * below].reshape((below, below))
+            spot = updates.spot[s]
+            U = stack[spot : spot + below * below].reshape((below, below))
             for j in range(below):
                 for i in range(j, below):
                     U[j, i] = F[k + j, k + i]
-            live[alive] = s
-            spot[alive + 1] = mine[s] + below * below
-            alive += 1
-            sibling[s] = child[above[s]]
-            child[above[s]] = s
     return -1

@@ -8,78 +8,12 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.solvers.cholesky.multifrontal import WIDTH, Panels
-
-
-@compiled_fast
-def _times_lower(values: FloatArray, pos: int, b: FloatArray) -> None:
-    """b = I b with the lower triangle of a block of values."""
-    w = len(b)
-    for i in range(w - 1, -1, -1):
-        total = 0.0
-        row = values[pos + i * w : pos + i * w + i + 1]
-        for e in range(i + 1):
-            total += row[e] * b[e]
-        b[i] = total
-
-
-@compiled_fast
-def _times_upper(values: FloatArray, pos: int, b: FloatArray) -> None:
-    """b = I^T b with the lower triangle I of a block of values."""
-    w = len(b)
-    for i in range(w):
-        t = b[i]
-        row = values[pos + i * w : pos + i * w + i + 1]
-        b[i] = 0.0
-        for e in range(i + 1):
-            b[e] += row[e] * t
-
-
-@compiled_fast
-def _subtract(values: FloatArray, pos: int, b: FloatArray, y: FloatArray) -> None:
-    """y -= P^T b."""
-    w, m, j = len(b), len(y), 0
-    while j + 3 < w:
-        a0, a1 = values[pos : pos + m], values[pos + m : pos + 2 * m]
-        a2, a3 = values[pos + 2 * m : pos + 3 * m], values[pos + 3 * m : pos + 4 * m]
-        b0, b1, b2, b3 = b[j], b[j + 1], b[j + 2], b[j + 3]
-        for i in range(m):
-            y[i] -= a0[i] * b0 + a1[i] * b1 + a2[i] * b2 + a3[i] * b3
-        pos += 4 * m
-        j += 4
-    while j < w:
-        a0, b0 = values[pos : pos + m], b[j]
-        for i in range(m):
-            y[i] -= a0[i] * b0
-        pos += m
-        j += 1
-
-
-@compiled_fast
-def _subtract_transposed(values: FloatArray, pos: int, y: FloatArray, b: FloatArray) -> None:
-    """b -= P y."""
-    w, m, j = len(b), len(y), 0
-    while j + 3 < w:
-        a0, a1 = values[pos : pos + m], values[pos + m : pos + 2 * m]
-        a2, a3 = values[pos + 2 * m : pos + 3 * m], values[pos + 3 * m : pos + 4 * m]
-        t0, t1, t2, t3 = 0.0, 0.0, 0.0, 0.0
-        for i in range(m):
-            t0 += a0[i] * y[i]
-            t1 += a1[i] * y[i]
-            t2 += a2[i] * y[i]
-            t3 += a3[i] * y[i]
-        b[j] -= t0
-        b[j + 1] -= t1
-        b[j + 2] -= t2
-        b[j + 3] -= t3
-        pos += 4 * m
-        j += 4
-    while j < w:
-        a0, t0 = values[pos : pos + m], 0.0
-        for i in range(m):
-            t0 += a0[i] * y[i]
-        b[j] -= t0
-        pos += m
-        j += 1
+from ssilang.kernel.solvers.cholesky.panel_products import (
+    subtract,
+    subtract_transposed,
+    times_lower,
+    times_upper,
+)
 
 
 @apart
@@ -103,8 +37,8 @@ def forward(
         for k0 in range(0, k, WIDTH):
             k1 = min(k0 + WIDTH, k)
             w = k1 - k0
-            _times_lower(L.values, pos, local[k0:k1])
-            _subtract(L.values, pos + w * w, local[k0:k1], local[k1:m])
+            times_lower(L.values, pos, w, local, k0)
+            subtract(L.values, pos + w * w, w, m - k1, local, k0, k1)
             pos += w * (m - k0)
         for i in range(k):
             x[c0 + i] = local[i]
@@ -137,8 +71,8 @@ def backward(
                 w = WIDTH
             k0 = k1 - w
             pos -= w * (m - k0)
-            _subtract_transposed(L.values, pos + w * w, local[k1:m], local[k0:k1])
-            _times_upper(L.values, pos, local[k0:k1])
+            subtract_transposed(L.values, pos + w * w, w, m - k1, local, k0, k1)
+            times_upper(L.values, pos, w, local, k0)
             k1 = k0
         for i in range(k):
             x[c0 + i] = local[i]

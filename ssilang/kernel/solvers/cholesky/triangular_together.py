@@ -12,7 +12,7 @@ FOUR = 4
 
 @compiled_fast
 def _times_lower(values: FloatArray, pos: int, b: FloatArray, k0: int, k1: int) -> None:
-    """As `triangular._times_lower`, on the columns k0 to k1 of four vectors."""
+    """As `panel_products.times_lower`, on the columns k0 to k1 of four vectors."""
     w = k1 - k0
     b0, b1, b2, b3 = b[0, k0:k1], b[1, k0:k1], b[2, k0:k1], b[3, k0:k1]
     for i in range(w - 1, -1, -1):
@@ -28,7 +28,7 @@ def _times_lower(values: FloatArray, pos: int, b: FloatArray, k0: int, k1: int) 
 
 @compiled_fast
 def _times_upper(values: FloatArray, pos: int, b: FloatArray, k0: int, k1: int) -> None:
-    """As `triangular._times_upper`, on the columns k0 to k1 of four vectors."""
+    """As `panel_products.times_upper`, on the columns k0 to k1 of four vectors."""
     w = k1 - k0
     b0, b1, b2, b3 = b[0, k0:k1], b[1, k0:k1], b[2, k0:k1], b[3, k0:k1]
     for i in range(w):

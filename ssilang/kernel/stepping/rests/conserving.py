@@ -16,7 +16,6 @@ from ssilang.kernel.contact.conserving import ConservingContact
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.mean_traction import mean_response
 from ssilang.kernel.interface.response import (
-    InterfaceState,
     interface_energies,
     interface_forces,
     interface_stiffness,
@@ -53,7 +52,7 @@ class ConservingLoop:
         if joints is not None:
             self._end = new_trial(motion.w.shape, joints.size)
             self._mean = np.zeros_like(motion.t)
-            self._now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+            self._now = motion.joints
             self._K = np.zeros((joints.size, joints.size))
         self._contact: ConservingContact | None = None
         if problem.contact is not None:

@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.mathtext import MathTextParser
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures, slug
@@ -229,3 +230,15 @@ def test_pictures_are_numbered_and_svg_keeps_its_words(tmp_path: Path) -> None:
 
 def test_names_of_files_are_plain() -> None:
     assert slug("a/../b  ç%") == "a-b-c"
+
+
+def test_the_numbers_of_axes_are_read_once_for_all_pictures(tmp_path: Path) -> None:
+    read, misses = MathTextParser._parse_cached, []
+    read.cache_clear()
+    for name in "01":
+        pictures = Pictures(tmp_path / name)
+        pictures.save(draw_curves(curve(0)), "u", ("png", "svg"))
+        misses.append(read.cache_info().misses)
+    assert misses[0] == misses[1] > 10
+    one, two = (sorted((tmp_path / name).iterdir()) for name in "01")
+    assert [p.read_bytes() for p in one] == [p.read_bytes() for p in two]

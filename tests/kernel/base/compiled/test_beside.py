@@ -12,17 +12,16 @@ import time
 
 import pytest
 from numba.core import types
-from numba.core.caching import NullCache
 
-from ssilang.kernel.base.compiled import PLAIN, beside, linked
-from ssilang.kernel.base.compiled import apart as apart_module
+from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.factors.kept import new_factors
 from ssilang.kernel.stepping.run import integrate
 from tests.references.soil_block import soil_block
 
-ROOMS = ("interface", "solvers", "sparse")
+ROOMS = ("interface", "inverse", "iterated", "changed", "solvers", "sparse")
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
 
@@ -65,8 +64,8 @@ def chosen(x: float, often: bool) -> float:
 @pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_what_few_runs_enter_is_not_compiled_beside_them(monkeypatch):
     told = []
-    monkeypatch.setattr(apart_module.BESIDE, "tell", lambda name, task: told.append(name))
-    monkeypatch.setattr(chosen, "_cache", NullCache())
+    monkeypatch.setattr(calls.BESIDE, "tell", lambda name, task: told.append(name))
+    monkeypatch.setattr(chosen, "name", None)  # nothing is kept
     assert chosen(3.0, False) == 6.0
     assert [name for name in told if "half" in name]
     assert not [name for name in told if "twice" in name]
@@ -128,7 +127,7 @@ def quarter(x: float) -> float:
     return half(half(x))
 """
 RUN = """
-import os, pickle, time
+import os, time
 from numba.core import types
 from ssilang.kernel.base import compiled
 from ssilang.kernel.base.compiled import beside
@@ -136,12 +135,12 @@ import program
 
 beside.free_cores = lambda: 2
 compiled.ALLOWED.add("beside")
-task = "program", "half", (types.float64,)
-beside.BESIDE.tell(beside.title(*task), pickle.dumps(task))
+task = "program", "half", "float64"
+beside.BESIDE.tell(beside.title(*task), beside.task_of(*task, (types.float64,)))
 claims, limit = beside.BESIDE._claims, time.monotonic() + 120
 while not any(claims.glob("*.done")) and time.monotonic() < limit:
     time.sleep(0.01)
-print(program.quarter(8.0), len(program.half.dispatcher.stats.cache_hits))
+print(program.quarter(8.0), program.half.function.loaded)
 print(beside.BESIDE._process.pid, flush=True)
 if {killed}:
     os.kill(os.getpid(), 9)
@@ -185,12 +184,12 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
     tasks = [pickle.loads(task) for room in ROOMS for _, task in tasks_ahead(room)]
     assert len(tasks) > 20
     called = 0
-    for module, name, args in tasks:
+    for module, name, words, args in tasks:
         function = getattr(importlib.import_module(module), name)
-        function = getattr(function, "dispatcher", function)
-        assert len(args) == len(inspect.signature(function.py_func).parameters), name
-        called += bool(function.overloads)
-        assert not function.overloads or args in function.overloads, name
+        function = getattr(function, "function", function)
+        assert len(pickle.loads(args)) == len(inspect.signature(function.py_func).parameters), name
+        called += bool(function._ready)
+        assert not function._ready or function.has(words), name
     assert called > 20  # of them all but what only static problems and many jumps enter
 
 
@@ -208,10 +207,25 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     assert len(told) == len(tasks_ahead("solvers"))
 
 
+@pytest.mark.parametrize(
+    ("jumps", "rooms"),
+    [(100, ["inverse"]), (200, ["iterated"]), (400, ["iterated", "changed"])],
+)
+def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatch, jumps, rooms):
+    entered = []
+    monkeypatch.setattr(beside.BESIDE, "enter", entered.append)
+    new_factors((jumps // 2, 2), jumps)
+    assert not entered
+    monkeypatch.setattr(beside.BESIDE, "_process", Living(9))
+    new_factors((jumps // 2, 2), jumps)
+    assert entered == rooms
+
+
 def test_the_other_process_leaves_what_the_run_has_begun(tmp_path, monkeypatch):
     run, other = pair(tmp_path)
-    with run.taking(title(__name__, "half", (types.float64,))):
-        monkeypatch.setattr(linked, "BESIDE", other)
-        assert half.dispatcher.compile((types.int64,)) is not None
-        monkeypatch.setattr(half.dispatcher, "overloads", {})
-        assert half.dispatcher.compile((types.float64,)) is None
+    monkeypatch.setattr(half.function, "name", None)  # nothing is kept
+    monkeypatch.setattr(half.function, "_ready", {})
+    with run.taking(title(__name__, "half", "float64")):
+        monkeypatch.setattr(compiler, "BESIDE", other)
+        assert half.function.ready("int64", lambda: (types.int64,)) is not None
+        assert half.function.ready("float64", lambda: (types.float64,)) is None

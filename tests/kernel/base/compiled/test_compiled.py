@@ -78,7 +78,7 @@ for times in (-1, 5, 6):
         print(type(error).__name__, error)
 
 
-def interrupted(args):
+def interrupted(words, types):
     os.kill(os.getpid(), signal.SIGINT)
     time.sleep(10.0)
 
@@ -90,7 +90,7 @@ except KeyboardInterrupt:
     print("stopped")
 program.late.address = address
 print(program.caller(x, 7))
-print(sum(program.caller.stats.cache_hits.values()))
+print(program.caller.loaded)
 """
 
 

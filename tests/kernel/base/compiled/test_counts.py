@@ -8,12 +8,11 @@ import sys
 
 import numpy as np
 import pytest
-from numba.core.dispatcher import Dispatcher
 
 import ssilang.kernel
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled import PLAIN
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import Compiled, compiled
 
 OF_SCALARS = {
     "ceil", "cos", "inf", "isfinite", "isnan", "nan", "pi", "sign", "sin", "sqrt", "int32", "int64",
@@ -27,9 +26,9 @@ def dispatchers():
     found = {}
     for module in pkgutil.walk_packages(ssilang.kernel.__path__, "ssilang.kernel."):
         for value in vars(importlib.import_module(module.name)).values():
-            made = getattr(value, "dispatcher", value)
-            if isinstance(made, Dispatcher):
-                found[made.py_func] = made
+            made = getattr(value, "function", value)
+            if isinstance(made, Compiled):
+                found[made.py_func] = made.dispatcher
     return found
 
 

@@ -4,9 +4,25 @@ import os
 import pickle
 import subprocess
 import sys
+from typing import Any, NamedTuple
 
-from ssilang.kernel.base.compiled import cache
-from ssilang.kernel.base.compiled.kept import KeptFiles
+import numba
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from ssilang.kernel.base.compiled import cache, kept, kinds
+from ssilang.kernel.base.compiled.machine import Code
+
+
+class Law(NamedTuple):
+    """A record of a number and something else."""
+
+    stiffness: Any
+    rest: Any
+
 
 PROGRAM = """
 from __future__ import annotations
@@ -36,7 +52,7 @@ import program
 
 x, y = np.array([1.0, 2.0]), np.array([3.0, 4.0])
 print(program.spread(x, y))
-print("numba.np.arrayobj" in sys.modules, len(program.spread.stats.cache_hits))
+print("numba" in sys.modules, program.spread.loaded)
 if sys.argv[1:]:  # code that is not kept yet, with kept code in it
     print(program.total(x, y))
 """
@@ -73,37 +89,45 @@ def test_code_of_older_states_goes_when_nobody_has_used_it_for_long(tmp_path):
     )
 
 
-def test_processes_that_fill_a_function_s_files_at_a_time_keep_their_code_apart(
-    tmp_path, monkeypatch
-):
-    """One compiles for floats, one for integers; both have read an empty index before."""
-    floats, integers = (KeptFiles(str(tmp_path), "spread-7.py311", (1.0, 9)) for _ in range(2))
-    monkeypatch.setattr(integers, "_load_index", dict)
-    write = floats._save_data
-
-    def meanwhile(*arguments):
-        integers.save("integers", "code for integers")
-        write(*arguments)
-
-    monkeypatch.setattr(floats, "_save_data", meanwhile)
-    floats.save("floats", "code for floats")
-    late = KeptFiles(str(tmp_path), "spread-7.py311", (1.0, 9))
-    found = {late.load("floats"): "floats", late.load("integers"): "integers"}
-    assert found.items() <= {
-        ("code for floats", "floats"), ("code for integers", "integers"),
-        (None, "floats"), (None, "integers"),  # not found: compiled again
-    }  # fmt: skip
-    assert set(found) - {None}
+def test_kinds_of_values_are_those_of_numba_s_types():
+    """Else a function would be kept twice, or the other process would compile in vain."""
+    A = np.arange(12.0).reshape(3, 4)
+    fixed = A.copy()
+    fixed.flags.writeable = False
+    values = [
+        A, A.T, A[:, ::2], fixed, A[0], np.zeros((2, 2, 2), np.int32), np.zeros(1, bool),
+        np.zeros(2, complex), 1.0, 2, True, 1j, None, np.float64(1.0), np.int32(3), np.bool_(True),
+        (1.0, 2), (1.0, 2.0), (A, (A, 1)), Law(1.0, A), Law(2.0, Law(A, 1)),
+    ]  # fmt: skip
+    words = kinds.words_of(kinds.key_of((*values,)))
+    assert words == kinds.words_of_types(tuple(numba.typeof(value) for value in values))
+    assert kinds.words_of(kinds.key_of(([1.0],))) is None  # a list: numba tells
+    assert kinds.words_of(kinds.key_of((np.zeros(2, "i4, f8"),))) is None
 
 
-def test_code_kept_under_a_class_that_is_gone_counts_as_none(tmp_path, monkeypatch):
-    """A release may move a record to another module: what was kept with it must not end a run."""
-    files = KeptFiles(str(tmp_path), "program.spread", "stamp")
-    key = type("Record", (), {"__module__": "program"})
-    monkeypatch.setitem(sys.modules, "program", type(sys)("program"))
-    sys.modules["program"].Record = key
-    monkeypatch.setattr(files, "_dump", pickle.dumps)
-    files.save(key, b"code")
-    assert list(files._load_index()) == [key]
-    monkeypatch.delitem(sys.modules, "program")
-    assert files._load_index() == {}
+@given(hnp.arrays(np.float64, hnp.array_shapes(max_dims=3)), st.data())
+def test_kinds_of_parts_of_arrays_are_those_of_numba_s_types(whole, data):
+    part = whole[data.draw(hnp.basic_indices(whole.shape, allow_ellipsis=False))]
+    if isinstance(part, np.ndarray) and part.ndim:
+        assert kinds.words_of(kinds.key_of((part,))) == kinds.words_of_types((numba.typeof(part),))
+
+
+@pytest.mark.parametrize("text", [b"", b"nonsense", pickle.dumps((1, 2)), pickle.dumps("x")])
+def test_a_file_that_is_no_code_counts_as_none(tmp_path, monkeypatch, text):
+    monkeypatch.setattr(kept, "folder_of", lambda module: tmp_path)
+    code = Code(b"machine code", "native", "wrapper", ["sin"], [], "own", "float64")
+    kept.save(__name__, "spread", "float64[1C]", code)
+    assert kept.load(__name__, "spread", "float64[1C]") == code
+    assert kept.load(__name__, "spread", "float64[2C]") is None
+    (file,) = tmp_path.iterdir()
+    file.write_bytes(text)
+    assert kept.load(__name__, "spread", "float64[1C]") is None
+
+
+def test_code_that_cannot_be_written_is_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr(kept, "folder_of", lambda module: tmp_path / "gone")
+    kept.save(__name__, "spread", "none", Code(b"", "", "", [], [], "", ""))
+    assert kept.load(__name__, "spread", "none") is None
+    monkeypatch.setattr(kept, "folder_of", lambda module: None)
+    kept.save(__name__, "spread", "none", Code(b"", "", "", [], [], "", ""))
+    assert kept.load(__name__, "spread", "none") is None

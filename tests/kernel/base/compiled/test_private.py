@@ -25,7 +25,7 @@ def double(x):
     return 2.0 * x
 
 
-print(double(4.0), sum(double.stats.cache_hits.values()))
+print(double(4.0), double.loaded)
 """
 
 
@@ -171,9 +171,8 @@ def test_code_of_a_package_of_the_kernel_is_found(home, monkeypatch):
     monkeypatch.setattr(cache, "_base", lambda: home)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     assert not cache.is_compiled("stepping")  # the package that DYNAMIC asks for
-    made = cache.folder_of.__wrapped__("ssilang.kernel.stepping.newmark") / "stepping_1"
-    made.mkdir()
-    (made / "newmark.nbi").write_text("")
+    made = cache.folder_of.__wrapped__("ssilang.kernel.stepping.newmark")
+    (made / "newmark.code").write_text("")
     assert cache.is_compiled("stepping")
 
 

@@ -8,11 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from references.keeper import Ending
-from references.recorder import Recorder
-from references.tower_on_clay import tower_on_clay
+from references.tower_on_clay import stepped_tower
 
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.plasticity.solving import accelerated, part
 from ssilang.kernel.plasticity.solving.accelerated import Acceleration
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
@@ -23,10 +21,7 @@ STEPS = 56
 
 def stepped(law: str = "J2", keeper=None, steps: int = STEPS, full: bool = False):
     """History, and displacements and last plastic strains, of a run."""
-    problem, bulk = tower_on_clay(law, steps)
-    seen = Recorder(steps + 1)
-    history = run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, keeper, full)
-    strain = seen.snapshots[-1].bulk_state[0].variables[:, 0]
+    history, seen, strain = stepped_tower(law, steps, keeper=keeper, full=full)
     return history, seen.of("u"), strain, seen.of("w")[..., -1]
 
 

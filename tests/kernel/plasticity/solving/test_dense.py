@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from references.keeper import Ending
-from references.recorder import Recorder
-from references.tower_on_clay import tower_on_clay
+from references.tower_on_clay import stepped_tower
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import run
@@ -21,10 +20,7 @@ STEPS = 40
 
 def stepped(law: str = "J2", keeper=None):
     """History, displacements and energies of a tower of one cell's width on clay."""
-    problem, bulk = tower_on_clay(law, STEPS, wide=1)
-    seen = Recorder(len(problem.times))
-    history = run.run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, keeper)
-    strain = seen.snapshots[-1].bulk_state[0].variables[:, 0]
+    history, seen, strain = stepped_tower(law, STEPS, 1, keeper)
     return history, seen.of("u"), strain
 
 

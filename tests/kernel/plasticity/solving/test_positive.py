@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from references.recorder import Recorder
-from references.tower_on_clay import tower_on_clay
+from references.tower_on_clay import stepped_tower, tower_on_clay
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import newton
-from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.plasticity.solving import positive
 from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
@@ -31,11 +29,9 @@ def stepped(solved: list[bool], monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
     """Displacements; whether Cholesky factors solved, each time that they were asked."""
     Listening.solved = solved
     monkeypatch.setattr(positive, "PositiveFactors", Listening)
-    problem, bulk = tower_on_clay("J2", STEPS)
-    seen = Recorder(STEPS + 1)
-    history = run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, None, True)
+    history, seen, strain = stepped_tower("J2", STEPS, full=True)
     assert history.solver == ("nested dissection" if solved else "SuperLU")
-    assert (seen.snapshots[-1].bulk_state[0].variables[:, 0] > 0).any()
+    assert (strain > 0).any()
     return seen.of("u")
 
 

@@ -1,5 +1,7 @@
 """Nested dissection and its Cholesky factors, against dense solves and SuperLU."""
 
+import itertools
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -46,6 +48,26 @@ def test_solves(shape, unknowns, ending):
     for columns in ((), (3,), (20,)):
         b = random.standard_normal((n, *columns))
         np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-11)
+
+
+def test_terms_stored_on_one_side_alone_are_links_all_the_same():
+    A, points = grid(40, 23)
+    tiny, far = 1e-300, A.shape[0] - 1
+    for row, column in ((0, far), (far, 0)):
+        one = sp.coo_array(([tiny], ([row], [column])), shape=A.shape)
+        factor = DissectedFactor(sp.csr_array(A + one), points)
+        b = np.arange(A.shape[0], dtype=float)
+        np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-9)
+
+
+def test_rows_of_the_panels_are_those_of_a_dense_factor():
+    A, points = grid(15, 14, unknowns=2)
+    factor = DissectedFactor(A, points, np.arange(9))
+    L = np.linalg.cholesky(A.toarray()[np.ix_(factor.tree.order, factor.tree.order)])
+    first, ptr, rows = factor.panels.first, factor.panels.ptr, factor.panels.rows
+    for s, (begin, end) in enumerate(itertools.pairwise(first)):
+        found = np.flatnonzero((L[end:, begin:end] != 0.0).any(axis=1)) + end
+        np.testing.assert_array_equal(rows[ptr[s] : ptr[s + 1]], found)
 
 
 def test_large_fronts_take_blas():

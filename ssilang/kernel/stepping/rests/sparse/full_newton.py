@@ -9,7 +9,6 @@ from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.solver import ContactForces, stopped_motions
 from ssilang.kernel.interface.response import (
-    InterfaceState,
     Trial,
     accept,
     interface_response,
@@ -128,5 +127,5 @@ class FullNewtonSolver:
 
     def _commit(self, motion: Motion, trial: Trial) -> None:
         if self.interface is not None:
-            now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+            now = motion.joints
             accept(trial, now)

@@ -9,6 +9,7 @@ where the last steps lead.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,13 +29,14 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.solvers.backends import MULTIGRID, factor_pays
 from ssilang.kernel.solvers.cholesky.inverse import unit_diagonal
-from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients, minimal_residuals
-from ssilang.kernel.solvers.multigrid.multigrid import MOST_TURNS, MultigridFactor
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import ordering_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
+
+if TYPE_CHECKING:
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
 TURNS = 60  # of Newton's method
 PLAIN_TURNS = 12  # turns without line search
@@ -81,6 +83,8 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
     SingularMatrixError
         If all bodies together are free with all joints closed; it names the motions.
     """
+    from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
+
     T, joints = problem.constraints.T, problem.interface
     whole, closed = A, np.zeros((0, 1, 1))
     if joints is not None:
@@ -135,7 +139,7 @@ class IteratedSolver:
         """Newton from where the last steps lead, else all but what supports impose at rest."""
         start = self.constraints.particular(dd) if dd.any() else np.zeros_like(r)
         trial = new_trial(motion.w.shape, len(motion.f))
-        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        now = motion.joints
         du, outcome = self._newton(now, trial, r, start)
         release_shear(motion.state, trial.state)
         if outcome.turns > 0:
@@ -206,6 +210,9 @@ class IteratedSolver:
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
+        from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients, minimal_residuals
+        from ssilang.kernel.solvers.multigrid.multigrid import MOST_TURNS
+
         s, joints = self.system, self.interface
         change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
         if not change.any():

@@ -6,16 +6,15 @@ Same steps as the compiled loops, which tests hold against this one.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
-from ssilang.kernel.interface.response import InterfaceState, accept, interface_energies
+from ssilang.kernel.interface.response import accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import Newmark, advanced, from_past
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -33,6 +32,9 @@ from ssilang.kernel.stepping.state import (
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
+
+if TYPE_CHECKING:
+    from ssilang.kernel.contact.impact import ImpactRule
 
 NOTHING = np.zeros(0)
 
@@ -81,7 +83,7 @@ class CondensedSolver:
         trial = self._newton.trial
         trial.y0[:] = self.interface.J @ du
         trial.y[:] = trial.y0
-        now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
+        now = motion.joints
         turns, residual = solve_interface(self.interface.points, self._condensed, now, self._newton)
         if turns > 0:
             du = du - self.effective.Y @ trial.h
@@ -145,14 +147,17 @@ class SparseLoop:
             outcome = solver.solve(self.motion, rest, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
-            worst = max(worst, outcome.turns)
+            worst, work = max(worst, outcome.turns), None
             self._advance(n, outcome.du)
             if impact is not None and contact is not None:
                 rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
-                impact.correct(self.motion, rate)
+                work = impact.correct(self.motion, rate)
+            before = balance(self.motion.energies)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
             self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            if work is not None:
+                lose(self.motion, work, before)
             r.energies[k] = self.motion.energies
             keep_whole(self.motion, r, k)
         return len(r.row), worst, 0.0
@@ -167,7 +172,7 @@ class SparseLoop:
         self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
         self._Cv = p.C @ m.v if self._damped else NOTHING
         self._joints_lost = 0.0
-        if p.contact is not None and p.contact.friction is not None:
+        if p.contact is not None:
             self._joints_lost = self._of_joints()[1]
 
     def _of_joints(self) -> tuple[float, float]:
@@ -223,9 +228,25 @@ class SparseLoop:
             )
         if p.interface is not None:
             m.energies[STORED], m.energies[LOST] = self._of_joints()
-        if p.contact is not None and p.contact.friction is not None:
+        if p.contact is not None:
             rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
             m.energies[LOST] = self._joints_lost + before + rubbed
+
+
+def balance(energies: FloatArray) -> float:
+    """What a motion keeps."""
+    return float(energies[:EXTERNAL].sum() - energies[EXTERNAL])
+
+
+def lose(m: Motion, work: float, before: float) -> float:
+    """What the balance of a step with an impact lacks of that `before` it, as lost; how much.
+
+    `work` is that of moving stops on what was struck.
+    """
+    m.energies[EXTERNAL] += work
+    lost = max(before - balance(m.energies), 0.0)
+    m.energies[LOST] += lost
+    return lost
 
 
 def keep_whole(m: Motion, to: Recorder, k: int) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
@@ -16,7 +17,6 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray, IntArray
     from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.matrices.assembly import Numbering
     from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
 _MOTION = ("DEPL", "VITE", "ACCE")
@@ -176,17 +176,10 @@ def _is_instant(of: Any) -> bool:
 
 def _spread(entries: Entries, numbering: Numbering) -> Any:
     """The function that takes a field to the unknowns, along the heights of a column if given."""
-    places = [(n, numbering.where(n)) for n in numbering.unknowns]
     column = entries.get("COLONNE")
     if column is None:
-
-        def as_it_is(field: NodeField) -> FloatArray:
-            found = np.empty(numbering.size)
-            for name, place in places:
-                found[place] = field.values_at(name, numbering.nodes[place], np.nan)
-            return found
-
-        return as_it_is
+        return lambda field: field_to_vector(field, numbering, dual=False, absent=np.nan)
+    places = [(n, numbering.where(n)) for n in numbering.unknowns]
     nodes, weights = _column(numbering, column.sorted_node_ids)
 
     def by_height(field: NodeField) -> FloatArray:

@@ -1,0 +1,210 @@
+"""Writes the code of `panel_products` in LLVM's form.
+
+A vector holds eight numbers: LLVM takes as many registers for it as the processor needs. What is
+left of a row is read and written under a mask. The rows of a panel that one pass takes together
+share what they have in common: four vectors of one sum, or four sums of one vector.
+"""
+
+# mypy: allow-untyped-calls
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from llvmlite import ir
+from numba.core import cgutils
+
+WIDTH = 8  # numbers in a vector
+TOGETHER = 4  # vectors, or rows
+
+_INT, _INT32, _FLOAT = ir.IntType(64), ir.IntType(32), ir.DoubleType()
+_VECTOR, _MASK = ir.VectorType(_FLOAT, WIDTH), ir.VectorType(ir.IntType(1), WIDTH)
+_NUMBERS = ir.VectorType(_INT, WIDTH)
+_ZERO = ir.Constant(_VECTOR, [0.0] * WIDTH)
+_KIND = f"v{WIDTH}f64"
+_FUSED = ("contract",)
+
+Value = Any  # of LLVM
+
+
+class _Writer:
+    """Statements on vectors, at the place of a builder."""
+
+    def __init__(self, builder: Any) -> None:
+        self.b = builder
+
+    def place(self, of: Value, *offsets: Value) -> Value:
+        """The address some numbers further on."""
+        for offset in offsets:
+            of = self.b.gep(of, [offset])
+        return of
+
+    def loop(self, start: Value, stop: Value, step: int) -> Any:
+        """Statements for each number from start on below stop."""
+        return cgutils.for_range_slice(self.b, start, stop, _i(step), _INT)
+
+    def whole(self, count: Value, size: int) -> Value:
+        """The largest multiple of a power of two that is not above."""
+        return self.b.and_(count, _i(-size))
+
+    def spread(self, value: Value, kind: Any) -> Value:
+        """A vector of one number."""
+        nothing = ir.Constant(kind, ir.Undefined)
+        first = self.b.insert_element(nothing, value, ir.Constant(_INT32, 0))
+        zeros = ir.Constant(ir.VectorType(_INT32, WIDTH), [0] * WIDTH)
+        return self.b.shuffle_vector(first, nothing, zeros)
+
+    def mask(self, count: Value) -> Value:
+        """The first ones of a vector."""
+        places = ir.Constant(_NUMBERS, list(range(WIDTH)))
+        return self.b.icmp_signed("<", places, self.spread(count, _NUMBERS))
+
+    def _call(self, name: str, result: Any, *args: Value) -> Value:
+        kind = ir.FunctionType(result, [a.type for a in args])
+        made = cgutils.get_or_insert_function(self.b.module, kind, f"llvm.{name}")
+        return self.b.call(made, args)
+
+    def read(self, at: Value, mask: Value | None = None) -> Value:
+        """A vector from an address."""
+        at = self.b.bitcast(at, _VECTOR.as_pointer())
+        if mask is None:
+            found = self.b.load(at)
+            found.align = 8
+            return found
+        return self._call(f"masked.load.{_KIND}.p0", _VECTOR, at, _i32(8), mask, _ZERO)
+
+    def write(self, value: Value, at: Value, mask: Value | None = None) -> None:
+        """A vector to an address."""
+        at = self.b.bitcast(at, _VECTOR.as_pointer())
+        if mask is None:
+            self.b.store(value, at).align = 8
+        else:
+            self._call(f"masked.store.{_KIND}.p0", ir.VoidType(), value, at, _i32(8), mask)
+
+    def add(self, sums: Value, x: Value, y: Value) -> None:
+        """A place of sums += x y."""
+        product = self.b.fmul(x, y, flags=_FUSED)
+        self.b.store(self.b.fadd(self.b.load(sums), product, flags=_FUSED), sums)
+
+    def room(self) -> Value:
+        """A place for a vector."""
+        return cgutils.alloca_once(self.b, _VECTOR)
+
+    def total(self, vector: Value) -> Value:
+        """The sum of a vector's numbers."""
+        kind = ir.FunctionType(_FLOAT, [_FLOAT, _VECTOR])
+        name = f"llvm.vector.reduce.fadd.{_KIND}"
+        made = cgutils.get_or_insert_function(self.b.module, kind, name)
+        start = ir.Constant(_FLOAT, -0.0)
+        return self.b.call(made, [start, vector], fastmath=("reassoc",))
+
+    def in_pieces(self, count: Value, together: int) -> Any:
+        """Vectors that cover a count: (first, how many together, mask) with statements to follow.
+
+        Statements are written for each kind of piece.
+        """
+        many, ones = self.whole(count, WIDTH * together), self.whole(count, WIDTH)
+        if together > 1:
+            with self.loop(_i(0), many, WIDTH * together) as (first, _):
+                yield first, together, None
+        else:
+            many = _i(0)
+        with self.loop(many, ones, WIDTH) as (first, _):
+            yield first, 1, None
+        with self.b.if_then(self.b.icmp_signed("<", ones, count)):
+            yield ones, 1, self.mask(self.b.sub(count, ones))
+
+
+def _i(value: int) -> Value:
+    return ir.Constant(_INT, value)
+
+
+def _i32(value: int) -> Value:
+    return ir.Constant(_INT32, value)
+
+
+def _combine_rows(
+    w: _Writer, rows: Value, stride: Value, span: tuple[Value, Value], factors: Value,
+    piece: tuple[Value, int, Value | None], out: Value, keep: bool,
+) -> None:  # fmt: skip
+    """out -= or = the sum of rows, each by its factor, on one piece of the columns.
+
+    `span` are the first row and the one behind the last; `keep` says that out is subtracted from.
+    """
+    first, together, mask = piece
+    columns = [w.b.add(first, _i(WIDTH * c)) for c in range(together)]
+    sums = [w.room() for _ in columns]
+    for place, column in zip(sums, columns, strict=True):
+        w.b.store(w.read(w.place(out, column), mask) if keep else _ZERO, place)
+    with w.loop(*span, 1) as (j, _):
+        factor = w.b.load(w.place(factors, j))
+        spread = w.spread(w.b.fneg(factor) if keep else factor, _VECTOR)
+        row = w.place(rows, w.b.mul(j, stride))
+        for place, column in zip(sums, columns, strict=True):
+            w.add(place, w.read(w.place(row, column), mask), spread)
+    for place, column in zip(sums, columns, strict=True):
+        w.write(w.b.load(place), w.place(out, column), mask)
+
+
+def _row_products(
+    w: _Writer, rows: Value, stride: Value, first: Value, together: int, vector: Value, count: Value
+) -> Sequence[Value]:
+    """Scalar products of rows that follow one another with a vector of a count of numbers."""
+    sums = [w.room() for _ in range(together)]
+    for place in sums:
+        w.b.store(_ZERO, place)
+    begin = w.place(rows, w.b.mul(first, stride))
+    for column, _, mask in w.in_pieces(count, 1):
+        part = w.read(w.place(vector, column), mask)
+        for c, place in enumerate(sums):
+            row = w.place(begin, w.b.mul(stride, _i(c)), column)
+            w.add(place, w.read(row, mask), part)
+    return [w.total(w.b.load(place)) for place in sums]
+
+
+def subtract(
+    builder: Any, values: Value, pos: Value, w: Value, m: Value, x: Value, at: Value, to: Value
+) -> None:
+    """y -= P^T b."""
+    writer = _Writer(builder)
+    rows, b, y = writer.place(values, pos), writer.place(x, at), writer.place(x, to)
+    for piece in writer.in_pieces(m, TOGETHER):
+        _combine_rows(writer, rows, m, (_i(0), w), b, piece, y, True)
+
+
+def subtract_transposed(
+    builder: Any, values: Value, pos: Value, w: Value, m: Value, x: Value, at: Value, to: Value
+) -> None:
+    """b -= P y."""
+    writer = _Writer(builder)
+    rows, b, y = writer.place(values, pos), writer.place(x, at), writer.place(x, to)
+    many = writer.whole(w, TOGETHER)
+    for start, stop, together in ((_i(0), many, TOGETHER), (many, w, 1)):
+        with writer.loop(start, stop, together) as (j, _):
+            found = _row_products(writer, rows, m, j, together, y, m)
+            for c, total in enumerate(found):
+                place = writer.place(b, j, _i(c))
+                builder.store(builder.fsub(builder.load(place), total), place)
+
+
+def times_lower(builder: Any, values: Value, pos: Value, w: Value, x: Value, at: Value) -> None:
+    """b = I b, the last rows first: those above need what is replaced."""
+    writer = _Writer(builder)
+    rows, b = writer.place(values, pos), writer.place(x, at)
+    rest = builder.and_(w, _i(TOGETHER - 1))
+    for above, count, together in ((rest, builder.sub(w, rest), TOGETHER), (_i(0), rest, 1)):
+        with writer.loop(_i(0), count, together) as (done, _):
+            left = builder.sub(builder.add(above, count), done)
+            first = builder.sub(left, _i(together))
+            found = _row_products(writer, rows, w, first, together, b, left)
+            for c, total in enumerate(found):
+                builder.store(total, writer.place(b, first, _i(c)))
+
+
+def times_upper(builder: Any, values: Value, pos: Value, w: Value, x: Value, at: Value) -> None:
+    """b = I^T b, the first columns first: those behind need none of what is replaced."""
+    writer = _Writer(builder)
+    rows, b = writer.place(values, pos), writer.place(x, at)
+    for piece in writer.in_pieces(w, 1):
+        _combine_rows(writer, rows, w, (piece[0], w), b, piece, b, False)

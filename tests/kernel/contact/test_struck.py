@@ -1,0 +1,212 @@
+"""Bodies that are struck while other relations hold them: Housner's rocking block."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+from references.recorder import Recorder
+from references.rocking import HousnerBlock
+
+from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.stepping.choose import only
+from ssilang.kernel.stepping.newmark import Scheme
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST
+
+M, G, R, TILT = 1e5, 9.81, 3.0, 0.5
+CORNERS = (-1.0, 1.0)
+SAME = 1e-9  # of a swing or a reaction: two loops, or relations said twice
+
+
+@dataclass
+class Rocking:
+    """A rigid block from corner to corner: base's height and rotation at all times."""
+
+    alpha: float
+    times: np.ndarray
+    y: np.ndarray
+    theta: np.ndarray
+    record: Recorder
+    history: object
+
+    @property
+    def upright(self):
+        """Steps before which the rotation changes its sign."""
+        return np.flatnonzero(self.theta[:-1] * self.theta[1:] < 0.0)
+
+    @property
+    def available(self):
+        """Kinetic energy with which the block comes upright the first time."""
+        b, h = R * np.sin(self.alpha), R * np.cos(self.alpha)
+        theta = TILT * np.tan(self.alpha)
+        return M * G * (b * theta - 0.5 * h * theta**2)
+
+
+def rock(
+    dt, end=4.0, alpha=0.2, feet=CORNERS, options=None, damping=0.0, lift=None, scheme=None
+) -> Rocking:
+    """Let a homogeneous block go, tilted by TILT tan(alpha) about its left corner.
+
+    Rotations are small; `feet` are stops by their places, in half widths; `damping` is that of the
+    mass; `lift` moves them up at that speed.
+    """
+    b, h = R * np.sin(alpha), R * np.cos(alpha)
+    J, theta = M * (R**2 / 3 + h**2), TILT * np.tan(alpha)
+    bench = Bench()
+    base = bench.node(0.0, 0.0)
+    bench.spring(-M * G * h, base, unknown="RZ")
+    bench.mass(M, base)
+    bench.mass(J, base, ("RZ",))
+    bench.fix(base, "UX")
+    stops = [bench.relate([(1.0, "UY", base), (s * b, "RZ", base)], sense=1) for s in feet]
+    times = np.arange(round(end / dt) + 1) * dt
+    load = bench.load(bench.field((base, "FY", -M * G)))
+    velocity = None
+    if lift is not None:
+        n = np.array(stops)
+        imposed = NodeField.of(bench.table, n, {"FLX": np.full(len(n), 1.0)})
+        moved = bench.load(imposed, [0.0, end], [0.0, lift * end])
+        load = type(load)(load.parts + moved.parts)
+        velocity = bench.field((base, "UY", lift))
+    if damping:
+        bench.dashpot(damping * M, base)
+        bench.dashpot(damping * J, base, "RZ")
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, times, bench.mass_matrix, bench.damping, load,
+            displacement=bench.field((base, "UY", b * theta), (base, "RZ", theta)),
+            velocity=velocity, scheme=scheme or Scheme(),
+            contact_options=options or ContactOptions(correction="MASSE"),
+        )
+    )  # fmt: skip
+    record = Recorder(len(times))
+    history = integrate(problem, [record])
+    y, z = (record.of("u")[:, problem.numbering.index_of(base, u)] for u in ("UY", "RZ"))
+    return Rocking(alpha, times, y, z, record, history)
+
+
+def restitution(motion: Rocking):
+    """Ratios of the angular velocities after and before each impact, from what it took."""
+    lost = motion.history.energies[:, LOST]
+    at = [np.flatnonzero(np.diff(lost) > 1e-9 * motion.available)]
+    left = motion.available - np.concatenate([[0.0], lost[at[0] + 1]])
+    return np.sqrt(left[1:] / left[:-1])
+
+
+@pytest.mark.parametrize("alpha", [0.15, 0.3])
+def test_each_impact_keeps_the_momentum_about_the_corner_that_lands(alpha):
+    """Housner's r, to which steps converge: an impact comes half a step early or late."""
+    r = HousnerBlock(R, alpha).restitution
+    worst = []
+    for dt in (1e-3, 5e-4, 2.5e-4):
+        found = restitution(rock(dt, 3.0, alpha))
+        assert len(found) >= 2
+        worst.append(np.abs(found - r).max())
+        assert worst[-1] < 4.0 * dt
+    assert worst[-1] < 1e-3
+
+
+def test_swings_and_half_periods_are_those_of_housner():
+    """Piecewise cosh between impacts; p^2 and the angle of small rotations about the corners."""
+    alpha, motion = 0.2, rock(2.5e-4)
+    r, a = HousnerBlock(R, alpha).restitution, np.tan(alpha)
+    p = HousnerBlock(R, alpha).p * np.sqrt(np.cos(alpha))
+    k = motion.upright
+    t = motion.times[k] + 2.5e-4 * motion.theta[k] / (motion.theta[k] - motion.theta[k + 1])
+    swings = [np.abs(motion.theta[i:j]).max() for i, j in zip([0, *k[:-1]], k, strict=True)]
+    exact = a * (1 - np.sqrt(1 - r ** (2 * np.arange(len(k))) * (1 - (1 - TILT) ** 2)))
+    np.testing.assert_allclose(swings, exact, rtol=3e-3)
+    halves = 2.0 / p * np.arccosh(1.0 / (1.0 - exact / a))
+    halves[0] *= 0.5
+    np.testing.assert_allclose(np.diff(t, prepend=0.0), halves, rtol=2e-3)
+
+
+def test_what_impacts_take_is_told_as_lost():
+    history = rock(1e-3).history
+    assert history.energies[-1, LOST] > 0.3 * rock(1e-3, 0.01).available
+    assert history.worst_imbalance < 1e-10 * history.largest_energy
+    assert (np.diff(history.energies[:, LOST]) >= 0.0).all()
+
+
+def test_the_block_comes_to_rest():
+    """A stocky one: its impacts take most, the last of them fall in one step."""
+    motion = rock(1e-3, 6.0, 0.6)
+    assert np.abs(motion.theta[-100:]).max() < 1e-12
+    assert motion.record.of("contact")[-1] == pytest.approx([0.5 * M * G] * 2, rel=1e-6)
+    assert motion.history.energies[-1, LOST] == pytest.approx(motion.available, rel=1e-4)
+
+
+FEET = [(-1.0, 0.0, 1.0), (-1.0, -0.5, 0.0, 0.5, 1.0), (-1.0, -1.0, 1.0, 1.0)]
+
+
+@pytest.mark.parametrize("feet", [CORNERS, *FEET])
+def test_loops_agree_and_stops_between_the_corners_change_nothing(feet, monkeypatch):
+    exact = rock(2e-3, 2.5)
+    assert exact.history.loop == "compiled"
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
+    motion = rock(2e-3, 2.5, feet=feet)
+    assert motion.history.loop == "condensed"
+    assert np.abs(motion.theta - exact.theta).max() < SAME * TILT
+    assert motion.history.energies[-1, LOST] == pytest.approx(
+        exact.history.energies[-1, LOST], rel=1e-6
+    )
+    for sums in (motion, exact):
+        assert np.abs(sums.history.imbalance).max() < 1e-9 * sums.available
+
+
+def test_damped_loops_agree(monkeypatch):
+    one = rock(2e-3, 2.0, damping=0.4)
+    monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
+    two = rock(2e-3, 2.0, damping=0.4)
+    assert (one.history.loop, two.history.loop) == ("compiled", "condensed")
+    for part, same in {"u": SAME, "v": SAME, "a": 1e-5, "contact": 1e-5}.items():
+        size = np.abs(two.record.of(part)).max()
+        assert np.abs(one.record.of(part) - two.record.of(part)).max() < same * size, part
+    np.testing.assert_allclose(one.history.energies, two.history.energies, atol=1e-6)
+    assert two.history.worst_imbalance < 1e-9 * one.available
+
+
+def test_stops_that_rise_steadily_change_nothing():
+    """The same motion seen from a lift: what the stops do is accounted for."""
+    still, lifted = rock(1e-3, 2.0), rock(1e-3, 2.0, lift=0.7)
+    assert np.abs(lifted.theta - still.theta).max() < 1e-8
+    np.testing.assert_allclose(lifted.y - 0.7 * lifted.times, still.y, atol=1e-8)
+    assert lifted.history.energies[-1, LOST] == pytest.approx(
+        still.history.energies[-1, LOST], rel=1e-6
+    )
+    assert lifted.history.worst_imbalance < 1e-9 * lifted.history.largest_energy
+
+
+def test_adapted_steps_take_the_same_impacts():
+    r = HousnerBlock(R, 0.2).restitution
+    found = restitution(rock(4e-3, 2.5, scheme=Scheme(adaptive=True)))
+    np.testing.assert_allclose(found, r, atol=2e-3)
+
+
+def test_a_flat_fall_rebounds_as_one_stop_would():
+    """Nothing holds the block: both corners turn round, energy is kept."""
+    bench = Bench()
+    base = bench.node(0.0, 0.0)
+    bench.mass(M, base)
+    bench.mass(4.0 * M, base, ("RZ",))
+    bench.fix(base, "UX")
+    for side in CORNERS:
+        bench.relate([(1.0, "UY", base), (side, "RZ", base)], sense=1)
+    bench.spring(1e-6 * M, base, unknown="RZ")
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, np.arange(401) * 1e-3, bench.mass_matrix, None,
+            bench.load(bench.field((base, "FY", -M * G))),
+            displacement=bench.field((base, "UY", 0.2)),
+            contact_options=ContactOptions(correction="MASSE"),
+        )
+    )  # fmt: skip
+    record = Recorder(401)
+    energies = integrate(problem, [record]).energies[-1]
+    assert energies[LOST] == 0.0
+    kept = energies[KINETIC] + energies[ELASTIC] + energies[DAMPED] - energies[EXTERNAL]
+    assert kept == pytest.approx(0.0, abs=2e-2 * M * G * 0.2)
+    assert record.of("u")[-1].max() > 0.19
