@@ -465,7 +465,8 @@ def write_report(folder: Path, language: str) -> str:
 def _tell_imbalance(session: Session) -> None:
     """Warn of the motion whose energies are out of balance most, if any is beyond the limit."""
     calculations: list[dict[str, Any]] = session.statistics.get("calculations", [])
-    found = [c for c in calculations if "energy_imbalance_from" in c and not c["static"]]
+    off = [c for c in calculations if "energy_imbalance_from" in c]
+    found = [c for c in off if not c["static"] and not c["energy_imbalance_told"]]
     if not found:
         return
     worst = max(found, key=_imbalance)

@@ -495,4 +495,8 @@ HINTS: dict[str, tuple[str, str]] = {
         "give 'FREQ'",
         "donnez 'FREQ'",
     ),
+    "kernel.waves.nothing-beyond-box": (
+        "TAB1 . 'INTERIEUR' is the ground inside, TAB1 . 'MODELE' that of the layer around it",
+        "TAB1 . 'INTERIEUR' est le sol à l'intérieur, TAB1 . 'MODELE' celui de la couche autour",
+    ),
 }

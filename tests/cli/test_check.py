@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ssilang.cli.check import check_source
+from ssilang.cli.run import run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.say.diagnostics import render
 from ssilang.language.text.source import Source
@@ -180,6 +181,32 @@ def test_examples_of_the_help_pass(name):
 def test_entries_that_the_procedure_does_not_have_are_shown_where_they_are_written(entry, near):
     source = Source("script", f"T1 = TABL ; {entry} T2 = DYNAMIC T1 ; LIST T2 ;")
     problems, _ = check_source(source)
-    found = [p for p in problems if p.code.startswith("entry")]
+    found = [p for p in problems if p.code in ("entry-unknown", "entry-of-another")]
     assert [p.data["near"] for p in found] == ([near] if near else [])
     assert [p.span.text for p in found] == (["T1 . 'CHARGEMENT'"] if near else [])
+
+
+@pytest.mark.parametrize(
+    ("script", "code", "place"),
+    [
+        ("T1 . 'RIGI' = 1 ; T2 = DYNAMIC T1 ; LIST T2 ;", "entry-type", "T1 . 'RIGI'"),
+        ("T1 . 'TEMPS_CALCULES' = 3. ; T2 = DYNAMIC T1 ; LIST T2 ;", "entry-type",
+         "T1 . 'TEMPS_CALCULES'"),
+        ("T1 . 'FORME' = 'RECTANGEL' ; T3 = COPI T1 ; T2 = @PASSAGE T3 ; LIST T2 ;",
+         "entry-value-near", "T1 . 'FORME'"),
+        ("T1 . 'DEMI_LONGEUR' = 3. ; T3 = COPI T1 ; LIST (@PASSAGE T3) ;", "entry-unknown",
+         "T1 . 'DEMI_LONGEUR'"),
+    ],
+)  # fmt: skip
+def test_values_that_a_procedure_refuses_are_shown_where_they_are_given(script, code, place):
+    problems, _ = check_source(Source("script", "T1 = TABL ; " + script))
+    assert [(p.code, p.span.text) for p in problems] == [(code, place)]
+    if problems[0].severity == "error":
+        assert [e.code for e in run_text("T1 = TABL ; " + script).errors] == [code]
+
+
+@pytest.mark.parametrize("value", ["1", "(1 + 1)", "2.5", "X0"])
+def test_values_that_fit_an_entry_are_not_refused(value):
+    script = f"X0 = EXTR (PROG 1.) 1 ; T1 = TABL ; T1 . 'ALPHA_F' = {value} ; T2 = DYNAMIC T1 ;"
+    problems, _ = check_source(Source("script", script + " LIST T2 X0 ;"))
+    assert problems == []

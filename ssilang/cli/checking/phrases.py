@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 from ssilang.cli.checking.kinds import (
@@ -17,7 +18,15 @@ from ssilang.cli.checking.kinds import (
     typed,
 )
 from ssilang.cli.checking.scope import Scope
-from ssilang.language.registry import SCALAR_RULES, Operator, When, find_operator
+from ssilang.language import vocabulary
+from ssilang.language.registry import (
+    OPERATORS,
+    SCALAR_RULES,
+    Operator,
+    When,
+    find_operator,
+    keywords_of,
+)
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call
@@ -145,6 +154,8 @@ class PhraseReader:
         if found.name in SIGNS.split() or found.name in _COMPARISONS:
             self._sign(found.name, operand, call)
             return
+        if found.name in _GUESSED:
+            _GUESSED[found.name](call)
         bound = self._bound(found, call)
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
@@ -373,6 +384,29 @@ class PhraseReader:
             if isinstance(index, tree.Paren):
                 self._paren(index, scope)
 
+
+def _only_unknown_is_mesh(call: AbstractCall) -> None:
+    """MODE cannot do without a mesh: where none is known, the one unknown operand is it."""
+    unknown = [o for o in call.operands if o.value is UNKNOWN]
+    meshes = [o for o in call.operands if kind_word(o.value) in ("MAILLAGE", "POINT")]
+    if len(unknown) == 1 and not meshes:
+        unknown[0].value = typed("MAILLAGE")
+
+
+def _unknown_is_value(call: AbstractCall) -> None:
+    """What stands behind a word of MATE that is neither keyword nor operator is a value."""
+    keywords = {word[:4].rstrip() for word in keywords_of(OPERATORS["MATE"])}
+    for name, operand in pairwise(call.operands):
+        if operand.value is not UNKNOWN or not isinstance(name.value, Mot) or name.result:
+            continue
+        word = str(name.value).upper().rstrip()
+        own = word in vocabulary.names("parameter") or find_operator(word) is None
+        if own and name.value is not ANY_WORD and word[:4] not in keywords:
+            operand.value = typed("FLOTTANT")
+
+
+_GUESSED = {"MODE": _only_unknown_is_mesh, "MATE": _unknown_is_value}
+"""What unknown operands of an operator can only be."""
 
 _FORESEEN: Mapping[str, Callable[[PhraseReader, Mapping[str, Any], AbstractCall], None]] = {
     "MODE": PhraseReader._model,

@@ -1,57 +1,106 @@
-"""Entries that a script puts into a table for a procedure which does not have them."""
+"""Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
+from ssilang.cli.checking.kinds import ANY_WORD, kind_word
 from ssilang.cli.checking.usage import statements_of
 from ssilang.language.run.library import Library
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.vocabulary.entries import Declaration
+from ssilang.language.vocabulary.entry_checks import checked
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 Given = dict[str, dict[str, tree.Path]]
 """Of each table by its name, the entries that it was given last, and where."""
 
 
-def unread_entries(script: tree.Script, library: Library) -> Iterator[SsiError]:
-    """A warning at each such entry, in the order of the calls.
+Values = Mapping[int, Any]
+"""What is known of the value of an entry, by where its target stands."""
 
-    A table is known by the name that it has at the call: what stands in it under other names, or
-    at computed indices, is left to the run.
+
+def doubtful_entries(script: tree.Script, session: Session, values: Values) -> Iterator[SsiError]:
+    """A warning at each unknown entry, the run's error at a wrong value, in the order of the calls.
+
+    A table is known by the name that it has at the call, or had before COPI: what stands in it
+    under other names, or at computed indices, is left to the run.
     """
     given: Given = {}
+    library = session.library
     bodies = [n.span for n in script.body if isinstance(n, tree.Definition)]
     procedures = "\n".join(s.source.code[s.start : s.end] for s in bodies)
     for statement in statements_of(script.body):
-        yield from _call(statement, given, library, procedures)
+        for declared, argument, table in _calls(statement, given, library):
+            read = {i for i in given[table] if any(True for _ in reads(procedures, i))}
+            left = {i: target for i, target in given[table].items() if i not in read}
+            yield from _unread(declared, argument, table, left, library)
+            yield from _wrong(declared, argument, given[table], values, session)
         for target in statement.targets:
             if isinstance(target, tree.Name):
-                given[target.text] = {}
+                given[target.text] = _copied(statement, given)
             elif isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
                 index = target.indices[0]
                 if len(target.indices) == 1 and isinstance(index, tree.Quoted):
                     given.setdefault(target.base.text, {})[index.text.rstrip()] = target
 
 
-def _call(
-    statement: tree.Statement, given: Given, library: Library, procedures: str
+def _copied(statement: tree.Statement, given: Given) -> dict[str, tree.Path]:
+    """Entries that a name's table has from the start: those of the table that it is a copy of."""
+    items = statement.items
+    if len(items) == 2 and isinstance(items[0], tree.Name) and isinstance(items[1], tree.Name):
+        return dict(given.get(items[1].text, {})) if items[0].text.startswith("COPI") else {}
+    return {}
+
+
+def _calls(
+    statement: tree.Statement, given: Given, library: Library
+) -> Iterator[tuple[Declaration, str, str]]:
+    """The tables that a statement calls procedures of the library with: argument and name."""
+    for items in _phrases(statement.items):
+        name = items[0].text if isinstance(items[0], tree.Name) else ""
+        procedure = library.find(name) if name in library.standard_names else None
+        declared = library.declared(name) if procedure is not None else None
+        if procedure is None or declared is None:
+            continue
+        taken = [p.name for p in procedure.definition.parameters if p.type == "TABLE"]
+        names = [i.text for i in items[1:] if isinstance(i, tree.Name) and i.text in given]
+        for argument, table in zip(taken, names, strict=False):
+            yield declared, argument, table
+
+
+def _phrases(items: Sequence[tree.Item]) -> Iterator[Sequence[tree.Item]]:
+    """A phrase and those in its parentheses, which run first."""
+    for item in items:
+        if isinstance(item, tree.Paren):
+            yield from _phrases(item.items)
+    if items:
+        yield items
+
+
+def _wrong(
+    declared: Declaration,
+    argument: str,
+    given: dict[str, tree.Path],
+    values: Values,
+    session: Session,
 ) -> Iterator[SsiError]:
-    """Warnings about the tables that a statement calls a procedure of the library with."""
-    if not statement.items or not isinstance(statement.items[0], tree.Name):
-        return
-    name = statement.items[0].text
-    procedure = library.find(name) if name in library.standard_names else None
-    declared = library.declared(name)
-    if procedure is None or declared is None:
-        return
-    taken = [p.name for p in procedure.definition.parameters if p.type == "TABLE"]
-    names = [i.text for i in statement.items[1:] if isinstance(i, tree.Name) and i.text in given]
-    for argument, table in zip(taken, names, strict=False):
-        read = {i for i in given[table] if any(True for _ in reads(procedures, i))}
-        left = {i: target for i, target in given[table].items() if i not in read}
-        yield from _unread(declared, argument, table, left, library)
+    """The refusal of each value that is of another type, or no allowed word."""
+    for index, target in given.items():
+        entry, value = declared.at((argument,), index), values.get(target.span.start)
+        kind = kind_word(value) if value is not None and value is not ANY_WORD else ""
+        if entry is None or not entry.is_read or not kind:
+            continue
+        value = 1 if kind == "ENTIER" else value
+        name = declared.name
+        try:
+            checked(session, entry, value, (argument, index), procedure=name, operator=name)
+        except SsiError as error:
+            error.span = target.span
+            yield error
 
 
 def _unread(

@@ -10,7 +10,7 @@ from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
-from ssilang.cli.checking.tables import unread_entries
+from ssilang.cli.checking.tables import doubtful_entries
 from ssilang.cli.checking.usage import misspelt_names, unused_names
 from ssilang.cli.checking.words import misspelt_words
 from ssilang.language.cast3m import cast3m_words
@@ -41,6 +41,7 @@ class Checker:
         self.sound.begin(session)
         self.problems: list[SsiError] = []
         self.types: dict[int, str] = {}  # of what names are given, by where the name stands
+        self.entries: dict[int, Any] = {}  # what entries of tables are given, in the same way
         self.phrases = PhraseReader(session, self._report)
         self._told = 0  # problems, those that were there already among them
         self._procedures: list[tree.Definition] = []
@@ -62,7 +63,8 @@ class Checker:
         self._walk(script.body, scope)
         for definition in self._procedures:
             self._body(definition, scope, library)
-        for problem in (*unused_names(script), *unread_entries(script, self.session.library)):
+        entries = doubtful_entries(script, self.session, self.entries)
+        for problem in (*unused_names(script), *entries):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         for problem in misspelt_names(script, names, _known_words()):
@@ -281,6 +283,8 @@ class Checker:
                 known = values is not None and i < len(values)
                 scope.values[target.text] = values[i] if known and values else UNKNOWN
                 self.types[target.span.start] = kind_word(scope.values[target.text])
+            elif values is not None and i < len(values):
+                self.entries[target.span.start] = values[i]
 
 
 @cache

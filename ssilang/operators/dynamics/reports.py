@@ -74,9 +74,6 @@ def report(
         "energy_imbalance_joules": history.worst_imbalance * _joules(session),
         "static": in_statics,
     }
-    if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT:
-        causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
-        line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
     if history.reduction is not None:
         line |= {
             "reduced": history.reduction.vectors > 0,
@@ -88,20 +85,26 @@ def report(
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
-    warn_impacts(entries, problem, history)
+    told = warn_impacts(entries, problem, history)
+    # at an impact of relations alone it is off for a step: what lasts is told by itself
+    impacts = problem.contact is not None and problem.interface is None and not in_statics
+    if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT and (told or not impacts):
+        causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
+        line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
+        line["energy_imbalance_told"] = told
 
 
-def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
-    """Warn where impacts on relations alone have changed the energy for good.
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> bool:
+    """Warn where impacts on relations alone have changed the energy for good; whether it did.
 
     At an impact it is off for a step, see `kernel.contact.impact`. Schemes that damp take energy on
     purpose; who asks for no correction, or for a penalty, knows.
     """
     if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
-        return
+        return False
     given, penalty = entries.get("VITEUNIL"), problem.contact_options.method == "PENALITE"
     if penalty or NORMS.get(given) == "FAUX" or not history.energies[:, 0].any():
-        return
+        return False
     damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
     change = history.imbalance if damps else np.abs(history.imbalance)
     windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
@@ -111,6 +114,8 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> None:
         if damps:
             code = "operators.dynamics.impacts-uncorrected"
         entries.warn(code, share=100.0 * share)
+        return True
+    return False
 
 
 def _causes(problem: Problem, added: bool) -> list[str]:

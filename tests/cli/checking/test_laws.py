@@ -92,3 +92,14 @@ def test_a_friction_that_is_an_angle_is_a_warning_before_the_run() -> None:
     assert (warned.code, warned.severity) == ("operators.models.friction-as-angle", "warning")
     assert warned.span is not None
     assert warned.span.text == "35."
+
+
+def test_a_mesh_and_values_that_only_the_run_knows_leave_the_rest_to_be_looked_at() -> None:
+    text = (
+        "T = TABL ; T . 'S' = 1 ; M = MODE (T . 'S') 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;\n"
+        "A = MATE M 'KN' (T . 'KN') 'KS' -1. ; LIST A ;\n"
+        "B = MATE M 'KM' (T . 'KN') 'KS' 1. ; LIST B ;"
+    )
+    first, second = (p for p in found(text) if p.severity == "error")
+    assert (first.code, first.data["name"]) == ("operators.models.parameter-range", "KS")
+    assert (second.code, second.data["near"]) == ("operators.models.parameter-unknown", "KN")
