@@ -9,6 +9,7 @@ from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
+from ssilang.kernel.solvers.multigrid import multigrid
 from ssilang.kernel.stepping import choose
 from ssilang.kernel.stepping.newmark import hht
 from ssilang.kernel.stepping.problem import initial
@@ -148,7 +149,7 @@ def test_multigrid_makes_a_few_steps_of_a_large_model_and_a_factor_many(monkeypa
 
 
 def test_an_iteration_that_ends_nowhere_says_its_residual(monkeypatch):
-    monkeypatch.setattr(iterated, "MOST_TURNS", 1)
+    monkeypatch.setattr(multigrid, "MOST_TURNS", 1)
     monkeypatch.setattr(iterated, "TURNS", 3)
     problem = replace(soil_block(steps=3, size=(16, 8, 4)), solver=BY_MULTIGRID)
     with pytest.raises(ConvergenceError, match="residual") as caught:
