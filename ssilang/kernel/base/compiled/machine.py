@@ -12,6 +12,7 @@ from __future__ import annotations
 import builtins
 import ctypes
 import importlib.util
+import os
 import pickle
 import sys
 from collections.abc import Callable
@@ -149,8 +150,14 @@ def machine() -> Machine:
 
 @cache
 def processor() -> str:
-    """What machine code was made for: system, processor and its abilities."""
-    return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {_abilities()}"
+    """What machine code is made for: system, processor and its abilities.
+
+    Numba makes it for another one where NUMBA_CPU_NAME and NUMBA_CPU_FEATURES say so ('generic',
+    for machines that differ and share a disk).
+    """
+    name = os.environ.get("NUMBA_CPU_NAME") or llvm.get_host_cpu_name()
+    abilities = os.environ.get("NUMBA_CPU_FEATURES")
+    return f"{llvm.get_process_triple()} {name} {_abilities() if abilities is None else abilities}"
 
 
 def _abilities() -> str:

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from ssilang.kernel.base.compiled import cache, kept, kinds
+from ssilang.kernel.base.compiled import cache, kept, kinds, machine
 from ssilang.kernel.base.compiled.machine import Code
 
 
@@ -131,3 +131,12 @@ def test_code_that_cannot_be_written_is_not_kept(tmp_path, monkeypatch):
     monkeypatch.setattr(kept, "folder_of", lambda module: None)
     kept.save(__name__, "spread", "none", Code(b"", "", "", [], [], "", ""))
     assert kept.load(__name__, "spread", "none") is None
+
+
+def test_code_for_another_processor_is_kept_apart(monkeypatch):
+    own = machine.processor.__wrapped__()
+    monkeypatch.setenv("NUMBA_CPU_NAME", "generic")
+    monkeypatch.setenv("NUMBA_CPU_FEATURES", "")
+    other = machine.processor.__wrapped__()
+    assert other != own
+    assert other.split()[1:] == ["generic"]
