@@ -28,7 +28,7 @@ import llvmlite.binding as llvm
 from ssilang.kernel.base.compiled import PLAIN, UNCOMPILED
 from ssilang.kernel.base.compiled.compiler import Compiled, Types, compiled
 from ssilang.kernel.base.compiled.kinds import RESULTS
-from ssilang.kernel.base.compiled.machine import STOPPED, SYMBOL
+from ssilang.kernel.base.compiled.machine import STOPPED, SYMBOL, Ready
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -72,9 +72,9 @@ class Apart:
     def __reduce__(self) -> str:
         return self.name
 
-    def prepare(self, words: str, types: Callable[[], Types]) -> None:
-        """Make or load the code for kinds of arguments."""
-        self.function.prepare(words, types)
+    def ready(self, words: str, types: Callable[[], Types]) -> Ready | None:
+        """As `Compiled.ready`."""
+        return self.function.ready(words, types)
 
     def address(self, words: str, types: Callable[[], Types]) -> int:
         """Address of the code for kinds of arguments, compiled now if it is not yet.
@@ -84,7 +84,7 @@ class Apart:
         TypeError
             If the function does not return what its annotation says.
         """
-        ready = self.function.ready(words, types)
+        ready = self.ready(words, types)
         assert ready is not None
         expected = RESULTS[self.result]
         if ready.result != expected:

@@ -30,7 +30,7 @@ from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from ssilang.kernel.base.compiled import ALLOWED, PLAIN
+from ssilang.kernel.base.compiled import ALLOWED, PLAIN, UNCOMPILED
 from ssilang.kernel.base.compiled.cache import digest
 from ssilang.kernel.base.compiled.kinds import words_of_types
 
@@ -76,8 +76,7 @@ class Beside:
         if self.found is not None:
             self.found.append((name, task))
             return
-        if self._process is None and "beside" in ALLOWED:
-            self._start()
+        self._start()
         process = self._process
         if process is not None and process.stdin is not None:
             try:
@@ -96,11 +95,9 @@ class Beside:
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
         room = module.removeprefix(KERNEL).partition(".")[0]
-        helped = self._process is not None or "beside" in ALLOWED
-        if helped and self.found is None and room not in self._rooms:
+        self._start()  # it gets ready meanwhile
+        if self.helped and self.found is None and room not in self._rooms:
             self._rooms.add(room)
-            if self._process is None:  # it gets ready meanwhile
-                self._start()
             for name, task in tasks_ahead(room):
                 self.tell(name, task)
 
@@ -134,9 +131,11 @@ class Beside:
             time.sleep(POLL)
 
     def _start(self) -> None:
-        """Start the other process, once; without it all goes as before."""
+        """Start the other process, once, where it is allowed; without it all goes as before."""
+        if "beside" not in ALLOWED:
+            return
         ALLOWED.discard("beside")
-        if PLAIN or os.name != "posix" or free_cores() < 2:
+        if PLAIN or UNCOMPILED or os.name != "posix" or free_cores() < 2:
             return
         import subprocess  # few runs have anything to compile
         import tempfile
@@ -182,7 +181,7 @@ class Beside:
             self.found = []
             with suppress(Exception):  # the run will tell
                 function = getattr(importlib.import_module(module), name)
-                function.prepare(words, partial(pickle.loads, types))
+                function.ready(words, partial(pickle.loads, types))
             waiting += [task for task in reversed(self.found) if task[0] not in dict(waiting)]
 
     def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
@@ -235,7 +234,7 @@ def tasks_ahead(room: str) -> list[Task]:
         made: Any = types.BaseTuple  # numba's, untyped
         records[name] = made.from_types([*types_of(text)], kind)
     found = []
-    for path, text in known.get(room, {}).items():
+    for path, text in known[room].items():
         module, _, name = path.rpartition(".")
         args = (*types_of(text),)
         words = words_of_types(args)

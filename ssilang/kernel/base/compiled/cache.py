@@ -14,6 +14,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import sys
 import tempfile
 import time
 from functools import cache
@@ -76,8 +77,7 @@ def digest(text: str) -> str:
 @cache
 def _read(module: str, package: Path) -> tuple[str, tuple[str, ...]]:
     """Digest of a module's name and text, and the modules that it imports from the kernel."""
-    path = package.joinpath(*module.split(".")[1:])
-    path = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    path = _source(module, package)
     try:
         text = path.read_text(encoding="utf-8")
     except OSError:  # a name that is imported and no module
@@ -88,6 +88,14 @@ def _read(module: str, package: Path) -> tuple[str, tuple[str, ...]]:
     ]
     found = [n for m, inside in names for n in (m, *(inside if _is_package(m, package) else ()))]
     return digest(f"{module}\n{text}"), tuple(found)
+
+
+def _source(module: str, package: Path) -> Path:
+    """The file of a module; of somebody else's, that is imported, '.' if it has none."""
+    if not module.startswith("ssilang."):
+        return Path(getattr(sys.modules.get(module), "__file__", None) or "")
+    path = package.joinpath(*module.split(".")[1:])
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
 
 
 def _is_package(module: str, package: Path) -> bool:
@@ -150,10 +158,11 @@ def _first_private(*folders: Path, closed: int = 0o077) -> Path | None:
 def folder_of(module: str) -> Path | None:
     """Where the code of a module in its present state is kept; it counts as used now.
 
-    None: there is no place where nobody else could put his own.
+    None: there is no place where nobody else could put his own, or the module is no file, by whose
+    text its code could be told.
     """
     base = _folder()
-    if base is None:
+    if base is None or not _source(module, PACKAGE).is_file():
         return None
     folder = base / f"{module}-{state_of(module)}"
     try:

@@ -29,28 +29,29 @@ _RESULTS = {
 @functools.cache
 def type_of(function: Any) -> types.Function:
     """What numba sees where compiled code names a function apart."""
-    template = make_intrinsic_template(function, _typing_of(function), function.name)
+    result = _RESULTS[RESULTS[function.result]]
+    return intrinsic(function, result, functools.partial(_call, function))
+
+
+def intrinsic(function: Any, result: types.Type, code: Callable[..., Any]) -> types.Function:
+    """What numba sees of a function whose calls are written by `code`; it gives a `result`.
+
+    `function.py_func` has the arguments; `code` takes what numba gives: context, builder,
+    signature, values.
+    """
+
+    def typed(context: Any, *args: types.Type) -> tuple[Any, Any]:
+        # a literal would be a type, and code, of its own
+        return signature(result, *(types.unliteral(a) for a in args)), code
+
+    names = "context", *inspect.signature(function.py_func).parameters
+    shown = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_ONLY) for name in names]
+    typed.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    template = make_intrinsic_template(function, typed, function.py_func.__name__)
     infer(template)
     made = types.Function(template)
     infer_global(function, made)
     return made
-
-
-def _typing_of(function: Any) -> Callable[..., Any]:
-    """What numba asks of an intrinsic: signature and code of a call, from types of arguments."""
-
-    result = _RESULTS[RESULTS[function.result]]
-
-    def typed(context: Any, *args: types.Type) -> tuple[Any, Any]:
-        # a literal would be a type, and code, of its own
-        plain = signature(result, *(types.unliteral(a) for a in args))
-        return plain, functools.partial(_call, function)
-
-    shown = inspect.signature(function.py_func)
-    first = inspect.Parameter("context", inspect.Parameter.POSITIONAL_ONLY)
-    plain = [p.replace(kind=p.POSITIONAL_ONLY) for p in shown.parameters.values()]
-    typed.__signature__ = inspect.Signature([first, *plain])  # type: ignore[attr-defined]
-    return typed
 
 
 def _call(function: Any, context: Any, builder: Any, sig: Any, args: Any) -> Any:

@@ -132,10 +132,6 @@ class Compiled:
         """Whether the code is there in this process."""
         return words in self._ready
 
-    def prepare(self, words: str, types: Callable[[], Types]) -> None:
-        """Make or load the code for kinds of arguments."""
-        self.ready(words, types)
-
     def __deepcopy__(self, memo: dict[int, Any]) -> Compiled:
         return self
 

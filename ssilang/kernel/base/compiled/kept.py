@@ -16,7 +16,7 @@ from pathlib import Path
 
 import llvmlite
 
-from ssilang.kernel.base.compiled.cache import SUFFIX, digest, folder_of, state_of
+from ssilang.kernel.base.compiled.cache import SUFFIX, digest, folder_of
 from ssilang.kernel.base.compiled.machine import Code, processor
 
 
@@ -49,20 +49,8 @@ def _place(module: str, function: str, words: str) -> Path | None:
     folder = folder_of(module)
     if folder is None:
         return None
-    told = "\n".join([module, function, words, _state(module), _maker()])
+    told = "\n".join([module, function, words, _maker()])
     return folder / f"{function.rpartition('.')[2]}-{digest(told)}{SUFFIX}"
-
-
-@cache
-def _state(module: str) -> str:
-    """The text that a module's code comes from, with that of what it imports from the kernel."""
-    if module.startswith("ssilang."):
-        return state_of(module)
-    try:
-        text = Path(getattr(sys.modules.get(module), "__file__", "")).read_text(encoding="utf-8")
-    except OSError:
-        return ""
-    return digest(text)
 
 
 @cache

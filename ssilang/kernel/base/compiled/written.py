@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import functools
 import importlib
-import inspect
 from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
@@ -37,15 +36,10 @@ class Written:
     def _numba_type_(self) -> Any:
         """Read by numba where compiled code names the function."""
         from numba.core import types
-        from numba.core.typing.templates import (
-            infer,
-            infer_global,
-            make_intrinsic_template,
-            signature,
-        )
 
-        name = self.py_func.__name__
-        write = getattr(importlib.import_module(self.module), name)
+        from ssilang.kernel.base.compiled.calls import intrinsic
+
+        write = getattr(importlib.import_module(self.module), self.py_func.__name__)
 
         def code(context: Any, builder: Any, sig: Any, args: Any) -> Any:
             plain = [
@@ -57,19 +51,7 @@ class Written:
             write(builder, *plain)
             return context.get_dummy_value()
 
-        def typed(context: Any, *args: Any) -> tuple[Any, Any]:
-            return signature(types.none, *(types.unliteral(a) for a in args)), code
-
-        shown = inspect.signature(self.py_func).parameters
-        names = ["context", *shown]
-        typed.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
-            [inspect.Parameter(n, inspect.Parameter.POSITIONAL_ONLY) for n in names]
-        )
-        template = make_intrinsic_template(self, typed, name)
-        infer(template)
-        made = types.Function(template)
-        infer_global(self, made)
-        return made
+        return intrinsic(self, types.none, code)
 
 
 def written(module: str) -> Callable[[Function], Function]:

@@ -109,6 +109,15 @@ def test_nothing_is_started_where_it_is_not_allowed(monkeypatch):
     assert run._process is None
 
 
+def test_nothing_is_started_where_nothing_is_compiled(monkeypatch):
+    monkeypatch.setattr(beside, "ALLOWED", {"beside"})
+    monkeypatch.setattr(beside, "UNCOMPILED", True)
+    monkeypatch.setattr(beside, "tasks_ahead", lambda room: pytest.fail("nobody is there to tell"))
+    run = Beside()
+    run.enter("ssilang.kernel.solvers.dense")
+    assert run._process is None
+
+
 PROGRAM = """
 from __future__ import annotations
 

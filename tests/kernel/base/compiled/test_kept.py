@@ -140,3 +140,10 @@ def test_code_for_another_processor_is_kept_apart(monkeypatch):
     other = machine.processor.__wrapped__()
     assert other != own
     assert other.split()[1:] == ["generic"]
+
+
+def test_code_of_a_module_without_a_file_is_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    tmp_path.chmod(0o700)
+    assert cache.folder_of.__wrapped__("typed_by_hand") is None
+    assert cache.folder_of.__wrapped__(__name__) is not None
