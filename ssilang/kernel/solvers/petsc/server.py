@@ -106,11 +106,20 @@ def receive(line: socket.socket) -> tuple[Message, list[int]]:
 
 
 def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = ()) -> None:
-    """Send a message with descriptors."""
-    text = json.dumps(message).encode()
+    """Send a message with descriptors.
+
+    Raises
+    ------
+    OSError
+        If nobody is at the other end: also in a program that lets broken pipes end it, as gmsh does.
+    """
+    text, quiet = json.dumps(message).encode(), getattr(socket, "MSG_NOSIGNAL", 0)
     whole = struct.pack(">I", len(text)) + text
-    sent = socket.send_fds(line, [whole], descriptors) if descriptors else line.send(whole)
-    line.sendall(whole[sent:])
+    if descriptors:
+        sent = socket.send_fds(line, [whole], descriptors, quiet)
+    else:
+        sent = line.send(whole, quiet)
+    line.sendall(whole[sent:], quiet)
 
 
 def end_with(line: socket.socket, on: bool) -> None:

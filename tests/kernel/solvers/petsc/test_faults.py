@@ -2,6 +2,7 @@
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.petsc import client
 from ssilang.kernel.solvers.petsc.client import PetscServer
+from ssilang.kernel.solvers.petsc.server import send
 
 A = sp.csr_array(2.5 * sp.eye_array(5))
 SOON = 30.0  # seconds, for processes to come and go on a busy machine
@@ -170,6 +172,23 @@ def test_another_user_is_not_heard(fake, monkeypatch):
     assert refusal(fake("greets"), limit=1.0)[0] in ("petsc-late", "petsc-ended-at-start")
 
 
+@pytest.mark.skipif(not hasattr(socket, "MSG_NOSIGNAL"), reason="not on this system")
+@pytest.mark.parametrize("descriptors", [(), (0,)])
+def test_a_line_that_is_broken_does_not_end_a_program_that_lets_pipes_end_it(descriptors):
+    ours, other = socket.socketpair()
+    other.close()
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as gmsh leaves it
+    try:
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGPIPE])
+        with pytest.raises(BrokenPipeError):
+            send(ours, {"do": "quit"}, descriptors)
+        assert signal.SIGPIPE not in signal.sigpending()
+    finally:
+        signal.signal(signal.SIGPIPE, before)  # what is pending is ignored
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGPIPE])
+        ours.close()
+
+
 def test_memory_has_no_name_and_is_for_this_user_alone():
     descriptor = client._memory(1 << 16)
     try:
@@ -282,6 +301,7 @@ sys.path[:0] = sys.argv[2:]
 import petsc_there
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.petsc.client import PetscServer
+from ssilang.kernel.solvers.petsc.server import send
 server = PetscServer(petsc_there.COMMAND)
 factor = server.factorise(sp.csr_array(2.0 * sp.eye_array(4)), True)
 if sys.argv[1] == "busy":
