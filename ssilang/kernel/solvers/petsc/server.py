@@ -14,6 +14,7 @@ ends, so does the server, in the middle of a factorisation as well.
 
 from __future__ import annotations
 
+import array
 import glob
 import json
 import mmap
@@ -111,14 +112,13 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
     Raises
     ------
     OSError
-        If nobody is at the other end: also in a program that lets broken pipes end it, as gmsh does.
+        If nobody is at the other end, also in programs that let a broken pipe end them (gmsh does).
     """
     text, quiet = json.dumps(message).encode(), getattr(socket, "MSG_NOSIGNAL", 0)
     whole = struct.pack(">I", len(text)) + text
-    if descriptors:
-        sent = socket.send_fds(line, [whole], descriptors, quiet)
-    else:
-        sent = line.send(whole, quiet)
+    # not `send_fds`, which leaves out the flags
+    beside = [(socket.SOL_SOCKET, socket.SCM_RIGHTS, array.array("i", descriptors))]
+    sent = line.sendmsg([whole], beside if descriptors else [], quiet)
     line.sendall(whole[sent:], quiet)
 
 
