@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.interface.copies import copy_rows
 
@@ -119,6 +120,7 @@ def answer(active: ActiveSet, g: FloatArray, out: FloatArray) -> None:
             out[j] += row[j] * a
 
 
+@apart
 @compiled_fast
 def find_active(active: ActiveSet) -> int:
     """What is `found` under the jumps `free`; turns (<= 0: none found)."""

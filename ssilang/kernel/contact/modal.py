@@ -12,6 +12,7 @@ from ssilang.kernel.contact.modal_loop import (
     Stops,
     VelocityChange,
     factorise,
+    room_of,
     run_contact,
 )
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
@@ -121,7 +122,9 @@ class ContactLoop:
         u, v, a = self._z
         few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0))
         kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "contact"), tap=r.tap)
-        outcome = run_contact(self.stops, self._rows, few, factors, kept)
+        outcome = run_contact(
+            self.stops, self._rows, few, room_of(*self.stops.G.shape), factors, kept
+        )
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
         for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):

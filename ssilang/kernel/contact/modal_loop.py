@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import seldom
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.contact.active_set import ActiveSet, find_active
 from ssilang.kernel.contact.struck import COUPLED, STILL, press, strike
@@ -25,6 +25,7 @@ from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.modal.diagonal import (
     Diagonal,
+    Sweep,
     account,
     advance_range,
     next_load,
@@ -77,6 +78,34 @@ class Stops(NamedTuple):
     closed: np.ndarray
 
 
+class Room(NamedTuple):
+    """Vectors that each step overwrites; of m rows but for the velocities `v` (r,) of before.
+
+    `gap` without what is imposed, `rise` and `rate` of that, reactions `before`, rows that
+    `closing` and `lasting` say; `chosen` rows, their changes of velocity `x`, factors `L` (m, m).
+    """
+
+    sweep: Sweep
+    v: FloatArray
+    gap: FloatArray
+    rise: FloatArray
+    rate: FloatArray
+    before: FloatArray
+    closing: np.ndarray
+    lasting: np.ndarray
+    chosen: IntArray
+    x: FloatArray
+    L: FloatArray
+
+
+def room_of(m: int, r: int) -> Room:
+    """Room for m rows on r coordinates."""
+    gap, rise, rate, before, x = (np.zeros(m) for _ in range(5))
+    closing, lasting = (np.zeros(m, bool) for _ in range(2))
+    chosen, L = np.zeros(m, np.int64), np.zeros((m, m))
+    return Room(sweep_of(r), np.zeros(r), gap, rise, rate, before, closing, lasting, chosen, x, L)
+
+
 @compiled_fused
 def factorise(A: FloatArray, rows: IntArray, n: int, L: FloatArray) -> bool:
     """Cholesky factor of the first n `rows` and columns of A into L; False if not positive."""
@@ -109,21 +138,20 @@ def solve(L: FloatArray, n: int, x: FloatArray) -> None:
 
 @compiled_fused
 def _change_velocity(
-    G: FloatArray, change: VelocityChange, chosen: np.ndarray, rate: FloatArray, v: FloatArray
+    G: FloatArray, change: VelocityChange, wanted: np.ndarray, room: Room, v: FloatArray
 ) -> None:
-    """Change velocities of the chosen rows, relative to `rate`."""
-    n, rows, x = 0, np.empty(len(chosen), np.int64), np.empty(len(chosen))
-    for i in range(len(chosen)):
-        if chosen[i]:
+    """Change velocities of the rows that are wanted, relative to their rate."""
+    n, rows, x, L = 0, room.chosen, room.x, room.L
+    for i in range(len(wanted)):
+        if wanted[i]:
             rows[n] = i
-            total = -rate[i]
+            total = -room.rate[i]
             for j in range(len(v)):
                 total += G[i, j] * v[j]
             x[n] = change.factor * total
             n += 1
     if n == 0:
         return
-    L = np.empty((n, n))
     if not factorise(change.on, rows, n, L):
         v[:] = np.nan
         return
@@ -134,14 +162,15 @@ def _change_velocity(
             v[j] += change.by[j, row] * part
 
 
+@apart
 @compiled_fused
-def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
+def _impacts(stops: Stops, Q: FloatArray, x: Motion, room: Room) -> float:
     """Velocities of rows that close, and of those that stay closed; the new set of closed rows.
 
     The work of moving stops on bodies that were struck while they were held; NaN: none was.
     """
-    m, closed = len(x.contact), stops.closed
-    closing, lasting, strikes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), False
+    m, closed, rate, strikes = len(x.contact), stops.closed, room.rate, False
+    closing, lasting = room.closing, room.lasting
     for i in range(m):
         now = x.contact[i] > 0.0
         closing[i] = now and not closed[i]
@@ -159,9 +188,9 @@ def _impacts(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray) -> float:
         closed[i] = x.contact[i] > 0.0
         lasting[i] = lasting[i] and closed[i]
     if stops.closing.by.shape[1]:
-        _change_velocity(stops.G, stops.closing, closing, rate, x.v)
+        _change_velocity(stops.G, stops.closing, closing, room, x.v)
     if stops.lasting.by.shape[1]:
-        _change_velocity(stops.G, stops.lasting, lasting, rate, x.v)
+        _change_velocity(stops.G, stops.lasting, lasting, room, x.v)
     return work
 
 
@@ -265,14 +294,13 @@ def _total(energies: FloatArray) -> float:
 
 @compiled_fast
 def run_contact(
-    stops: Stops, rows: ActiveSet, x: Motion, factors: FloatArray, to: Recorder
+    stops: Stops, rows: ActiveSet, x: Motion, room: Room, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
     """As `run_modal`, with relations in place of joints."""
-    n, diagonal = stops.newmark, stops.diagonal
+    n, diagonal, sweep, v1 = stops.newmark, stops.diagonal, room.sweep, room.v
     m, r = stops.G.shape
-    sweep = sweep_of(r)
-    v1, start = np.zeros(r), r - r  # not a literal: that is a type, and code, of its own
-    gap, rise, rate, before = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
+    start = r - r  # not a literal: that is a type, and code, of its own
+    gap, rise, rate, before = room.gap, room.rise, room.rate, room.before
     worst, corrected = 0, stops.closing.by.shape[1] + stops.lasting.by.shape[1] > 0
     next_load(stops.forces, factors[0], sweep.load0, sweep.load1)
     balance = _total(x.energies)
@@ -304,7 +332,7 @@ def run_contact(
         account(x, sweep)
         _rows_of(stops.G, sweep.du, gap)
         copy_state(x.v, v1)
-        work = _impacts(stops, rows.Q, x, rate)
+        work = _impacts(stops, rows.Q, x, room)
         if corrected:
             size += _correct_energies(stops, x, v1, sweep.du)
         if not np.isfinite(size):

@@ -12,10 +12,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.interface.copies import dot
-from ssilang.kernel.interface.response import InterfaceState, Joints, Trial, interface_stiffness
+from ssilang.kernel.interface.response import InterfaceState, Trial
 
 
 class Condensed(NamedTuple):
@@ -34,6 +36,11 @@ class Condensed(NamedTuple):
     c: float
 
 
+def condensed_of(S: FloatArray, c: float) -> Condensed:
+    """An interface of which nothing is held in excess."""
+    return Condensed(np.ascontiguousarray(S), np.zeros((0, 0)), c)
+
+
 @compiled_fast
 def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     """`h = c (f - f_0) - R y` and `r = y - y_0 + S h` of the trial; the largest |r|."""
@@ -47,15 +54,3 @@ def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
         r[i] = y[i] - trial.y0[i] + dot(S[i], h)
         size = max(size, abs(r[i]))
     return size
-
-
-@compiled
-def jump_stiffness(joints: Joints, condensed: Condensed, D: FloatArray, K: FloatArray) -> None:
-    """`K = dh/dy`, `c K - R` of the tangents D (n_points, d, d), dense (q, q)."""
-    interface_stiffness(joints, D, K)
-    R = condensed.R
-    for i in range(len(K)):
-        for j in range(len(K)):
-            K[i, j] *= condensed.c
-            if len(R):
-                K[i, j] -= R[i, j]

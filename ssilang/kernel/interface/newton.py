@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import largest
@@ -26,7 +26,7 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
     Variable,
 )
-from ssilang.kernel.interface.projected import find_start, is_stiff, set_shares
+from ssilang.kernel.interface.projected import find_start, is_stiff, rubs, set_shares
 from ssilang.kernel.interface.response import (
     InterfaceState,
     Joints,
@@ -110,7 +110,7 @@ def _evaluate(joints: Joints, condensed: Condensed, now: InterfaceState, trial: 
     return residual(condensed, now, trial)
 
 
-@apart
+@seldom
 @compiled
 def _restart_held(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     """Start again with the shear held that a step's start has, where no other shear is possible."""
@@ -144,7 +144,10 @@ def solve_interface(
     """
     trial, y, dy, shares = work.trial, work.trial.y, work.trial.dy, work.shares
     if len(shares) and np.isnan(shares[0, 0]):
-        set_shares(joints, condensed, shares)
+        if rubs(joints):
+            set_shares(joints, condensed, shares)
+        else:
+            shares[0, 0] = 1.0  # looked at; the others stay no number, which is not stiff
     if is_stiff(shares):
         find_start(joints, condensed, now, trial, work.factors, shares)
     size = _evaluate(joints, condensed, now, trial)

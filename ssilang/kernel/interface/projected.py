@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart, seldom
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state
@@ -52,7 +52,16 @@ def _compliance(S: FloatArray, pairs: IntArray, b: FloatArray, d: int) -> float:
     return total
 
 
-@apart
+@compiled
+def rubs(joints: Joints) -> bool:
+    """Whether any point has a bound by friction."""
+    for i in range(len(joints.p)):  # noqa: SIM110
+        if joints.p[i, Parameter.FROT] >= 0.0:
+            return True
+    return False
+
+
+@seldom
 @compiled
 def set_shares(joints: Joints, condensed: Condensed, rho: FloatArray) -> None:
     """Shares rho (n_points, d) of the joints' own stiffness: 1 of points that are no projections.

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.laws.columns import N_STATE
@@ -200,6 +201,7 @@ def accept(trial: Trial, now: InterfaceState) -> None:
     copy_rows(trial.state, now.state)
 
 
+@apart
 @compiled
 def interface_energies(
     joints: Joints, w: FloatArray, t: FloatArray, state: FloatArray

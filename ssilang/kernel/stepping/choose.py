@@ -120,6 +120,19 @@ def _supports_are_still(problem: Problem) -> bool:
     return supports_are_still(problem)
 
 
+def room_ahead(problem: Problem) -> str:
+    """Room of `ahead.toml` with the loop that a problem most likely gets, seen before it starts."""
+    if problem.contact is not None:
+        return "relations"
+    if not problem.small:
+        return "sparse"
+    if not _supports_are_still(problem):
+        return "dense"
+    from ssilang.kernel.stepping.rests.modal.modes import way_ahead
+
+    return way_ahead(problem)
+
+
 def _adaptive(case: Case) -> Loop:
     from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 

@@ -78,6 +78,7 @@ def zdyn(call: Call, table: Table) -> Table:
         import ssilang.kernel.stepping.run  # noqa: F401 - used further down
         from ssilang.kernel.base.compiled.beside import tell_ahead
         from ssilang.kernel.base.compiled.cache import is_compiled
+        from ssilang.kernel.stepping.choose import room_ahead
         from ssilang.kernel.stepping.extremes import Extremes
         from ssilang.kernel.stepping.node_track import NodeTrack
         from ssilang.kernel.stepping.problem.problem import make_problem
@@ -109,8 +110,7 @@ def zdyn(call: Call, table: Table) -> Table:
     observers += [] if record is None else record.observers
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
-        if not problem.small:
-            tell_ahead("sparse")
+        tell_ahead(room_ahead(problem))
     try:
         with recorded(record):
             history = _integrated(entries, problem, observers, line, bodies)

@@ -26,7 +26,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -62,6 +62,7 @@ class Beside:
 
     def __init__(self) -> None:
         self.found: list[Task] | None = None  # in the other process: of what it compiles
+        self.steps = False  # whether steps in time follow, whatever comes first
         self._told: set[str] = set()
         self._own: set[str] = set()  # taken by this process
         self._rooms: set[str] = set()  # told of
@@ -94,12 +95,13 @@ class Beside:
 
     def enter(self, module: str) -> None:
         """The run compiles a function of a module: others of its room will be needed too."""
-        room = module.removeprefix(KERNEL).partition(".")[0]
+        parts = module.removeprefix(KERNEL).split(".")
         self._start()  # it gets ready meanwhile
-        if self.helped and self.found is None and room not in self._rooms:
-            self._rooms.add(room)
-            for name, task in tasks_ahead(room):
-                self.tell(name, task)
+        for room in (".".join(parts[:n]) for n in (1, 2)):
+            if self.helped and self.found is None and room not in self._rooms:
+                self._rooms.add(room)
+                for name, task in tasks_ahead(room):
+                    self.tell(name, task)
 
     @contextmanager
     def taking(self, name: str) -> Iterator[bool]:
@@ -219,20 +221,23 @@ def tasks_ahead(room: str) -> list[Task]:
     known = tomllib.loads(AHEAD.read_text(encoding="ascii"))
     if room not in known:
         return []
-    records: dict[str, Any] = {}
+    parts = {path: path.split(".") for path in known["records"]}
+    records = {".".join(p[-n:]): path for path, p in parts.items() for n in (1, 2)}
+
+    @cache
+    def record(name: str) -> Any:
+        module, _, own = records[name].rpartition(".")
+        kind = getattr(importlib.import_module(KERNEL + module), own)
+        made: Any = types.BaseTuple  # numba's, untyped
+        return made.from_types([*types_of(known["records"][records[name]])], kind)
 
     def types_of(text: str) -> Iterator[Any]:
         for word in text.split():
             times, _, kind = word.rpartition("*")
             name, _, indices = kind.rstrip("]").partition("[")
-            one = records.get(name) or getattr(types, name)
+            one = record(name) if name in records else getattr(types, name)
             yield from [types.Array(one, int(indices), "C") if indices else one] * int(times or 1)
 
-    for path, text in known["records"].items():
-        module, _, name = path.rpartition(".")
-        kind = getattr(importlib.import_module(KERNEL + module), name)
-        made: Any = types.BaseTuple  # numba's, untyped
-        records[name] = made.from_types([*types_of(text)], kind)
     found = []
     for path, text in known[room].items():
         module, _, name = path.rpartition(".")

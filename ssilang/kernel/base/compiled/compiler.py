@@ -12,8 +12,10 @@ from __future__ import annotations
 import functools
 import inspect
 import re
+import sys
 import threading
 from collections.abc import Callable
+from types import GenericAlias
 from typing import Any, TypeVar, cast
 
 from ssilang.kernel.base.compiled import PLAIN, UNCOMPILED
@@ -194,5 +196,18 @@ def counts(function: Callable[..., Any]) -> bool:
 
 def _gives_arrays(function: Callable[..., Any]) -> bool:
     """Whether the annotated result is or holds an array."""
-    result = str(function.__annotations__.get("return", "not annotated"))
-    return not set(re.findall(r"\w+", result)) <= SCALARS
+    result = function.__annotations__.get("return", "not annotated")
+    return _holds_arrays(result, function.__globals__)
+
+
+def _holds_arrays(annotation: Any, names: dict[str, Any]) -> bool:
+    """Whether a type that is written so is none of numbers, and no record of numbers alone."""
+    for word in re.findall(r"\w+", getattr(annotation, "__forward_arg__", str(annotation))):
+        kind, own, parts = names.get(word), names, list[Any]()
+        if hasattr(kind, "_fields"):
+            parts, own = [*kind.__annotations__.values()], vars(sys.modules[kind.__module__])
+        elif isinstance(kind, GenericAlias):  # a name for a tuple
+            parts = [kind]
+        if word not in SCALARS and not (parts and not any(_holds_arrays(p, own) for p in parts)):
+            return True
+    return False

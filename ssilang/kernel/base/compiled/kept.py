@@ -1,7 +1,7 @@
 """Compiled code on disk: a file for each function and kinds of arguments.
 
 The name of the file tells them, so that processes which fill a folder at a time need no index. It
-also tells who made it: numba's, LLVM's and Python's version, the processor.
+also tells who made it: numba's, LLVM's, numpy's and Python's version, the processor.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 
 import llvmlite
+import numpy as np
 
 from ssilang.kernel.base.compiled.cache import SUFFIX, digest, folder_of
 from ssilang.kernel.base.compiled.machine import Code, processor
@@ -59,4 +60,5 @@ def _maker() -> str:
     version = ""
     if found is not None and found.origin is not None:
         version = Path(found.origin).with_name("_version.py").read_text(encoding="utf-8")
-    return "\n".join([version, llvmlite.__version__, sys.version, processor()])
+    made_by = (version, llvmlite.__version__, np.__version__, sys.version, processor())
+    return "\n".join(made_by)

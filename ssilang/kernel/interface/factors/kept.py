@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
@@ -74,6 +74,7 @@ def is_factorised(factors: Factors) -> bool:
     return not np.isnan(factors.tangents[0, 0, 0])
 
 
+@apart
 @compiled
 def solve_known(joints: Joints, condensed: Condensed, factors: Factors, x: FloatArray) -> None:
     """Solve in place with the matrix of the tangents that are factorised."""
@@ -93,13 +94,22 @@ def solve_tangent(
 
     `enough` is the relative residual up to which a solution is iterated.
     """
-    known, lu = factors.tangents, factors.lu
     if len(factors.inverse.Y):
-        if not update_inverse(joints, condensed, D, known, factors.inverse):
+        if not update_inverse(joints, condensed, D, factors.tangents, factors.inverse):
             return False
-        apply_inverse(joints, condensed, known, factors.inverse, x)
+        solve_known(joints, condensed, factors, x)
         return True
-    same = True
+    return solve_changing(joints, condensed, factors, D, x, enough)
+
+
+@seldom
+@compiled
+def solve_changing(
+    joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, x: FloatArray,
+    enough: float,
+) -> bool:  # fmt: skip
+    """`solve_tangent` of many jumps: by LU factors, changed or iterated on where that pays."""
+    known, lu, same = factors.tangents, factors.lu, True
     for p in range(len(D)):
         same = same and is_equal(D[p], known[p])
     if not same and is_factorised(factors):
@@ -120,5 +130,5 @@ def solve_tangent(
         if not good:
             known[0, 0, 0] = np.nan
             return False
-    solve_factors(lu.A, lu.exchanges, x)
+    solve_known(joints, condensed, factors, x)
     return True

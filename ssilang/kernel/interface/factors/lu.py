@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.condensed import Condensed, jump_stiffness
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import factorise_dense, multiply
 
@@ -21,43 +19,41 @@ class LU(NamedTuple):
     exchanges: IntArray
 
 
-@compiled
-def _times_stiffness(S: FloatArray, K: FloatArray, A: FloatArray) -> None:
-    """A = 1 + S K, K being dense or with few terms a row."""
-    n, terms = len(S), 0
-    for k in range(n):
-        for j in range(n):
-            if K[k, j] != 0.0:
-                terms += 1
-    if 4 * terms > n * n:
-        multiply(S, K, A)
-    else:
-        # rows of K as a sparse matrix
-        start, column, value = np.zeros(n + 1, np.int64), np.empty(terms, np.int64), np.empty(terms)
-        terms = 0
-        for k in range(n):
-            for j in range(n):
-                if K[k, j] != 0.0:
-                    column[terms], value[terms] = j, K[k, j]
-                    terms += 1
-            start[k + 1] = terms
-        # each row of S spreads over them
-        for i in range(n):
-            for j in range(n):
-                A[i, j] = 0.0
-            for k in range(n):
-                for e in range(start[k], start[k + 1]):
-                    A[i, column[e]] += S[i, k] * value[e]
-    for i in range(n):
-        A[i, i] += 1.0
+@compiled_fast
+def _add_point(
+    pairs: IntArray, B: FloatArray, D: FloatArray, weight: float, S: FloatArray, A: FloatArray
+) -> None:
+    """`A += weight S B^T D B` of one point."""
+    d = len(B)
+    for i in range(len(S)):
+        for column in range(d):
+            total = 0.0
+            for row in range(d):
+                if D[row, column] != 0.0:
+                    felt = 0.0
+                    for a in range(len(pairs)):
+                        for j in range(d):
+                            felt += S[i, pairs[a] * d + j] * B[row, a * d + j]
+                    total += felt * D[row, column]
+            if total != 0.0:
+                total *= weight
+                for a in range(len(pairs)):
+                    for j in range(d):
+                        A[i, pairs[a] * d + j] += total * B[column, a * d + j]
 
 
 @apart
 @compiled
 def factorise(joints: Joints, condensed: Condensed, D: FloatArray, lu: LU) -> bool:
     """Factors of `1 + S (c K - R)`, K of the tangents D; False if it is singular."""
-    n = len(condensed.S)
-    K = np.empty((n, n))
-    jump_stiffness(joints, condensed, D, K)
-    _times_stiffness(condensed.S, K, lu.A)
-    return factorise_dense(lu.A, lu.exchanges)
+    S, R, A = condensed.S, condensed.R, lu.A
+    if len(R):
+        multiply(S, R, A)
+    for i in range(len(A)):
+        for j in range(len(A)):
+            A[i, j] = -A[i, j] if len(R) else 0.0
+        A[i, i] += 1.0
+    for p in range(len(D)):
+        weight = condensed.c * joints.weights[p]
+        _add_point(joints.pairs[p], joints.B[p], D[p], weight, S, A)
+    return factorise_dense(A, lu.exchanges)

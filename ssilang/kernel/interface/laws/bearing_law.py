@@ -114,6 +114,7 @@ def lead_point(
     new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + _lead_core(w, state, p, t, new, D)
 
 
+@seldom
 @compiled
 def lead_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored in the rubber, in what of the core is elastic, and in the vertical spring."""
@@ -192,6 +193,7 @@ def _rub(
     return taken
 
 
+@seldom
 @compiled
 def pendulum_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored in the vertical spring and in the friction's spring."""

@@ -192,6 +192,20 @@ def bed_points(
         _place(k, w, state, p, t, new, D)
 
 
+@seldom
+@compiled
+def bed_point(
+    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
+) -> None:
+    """One point, as other laws answer."""
+    d = w.shape[0]
+    bed_points(
+        0, 1, w.reshape((1, d)), state.reshape((1, state.shape[0])), p.reshape((1, p.shape[0])),
+        t.reshape((1, d)), new.reshape((1, new.shape[0])), D.reshape((1, d, d)),
+    )  # fmt: skip
+
+
+@seldom
 @compiled
 def bed_energy(w: FloatArray, t: FloatArray, p: FloatArray) -> float:
     """Energy stored beyond that of the elastic bed, per unit area."""

@@ -35,6 +35,7 @@ def _elastic_normal(closing: float, p: FloatArray) -> tuple[float, float]:
     return p[Par.KN] * closing, p[Par.KN]
 
 
+@seldom
 @compiled
 def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored energy of a point, per unit area."""

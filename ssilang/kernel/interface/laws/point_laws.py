@@ -20,7 +20,7 @@ from ssilang.kernel.interface.laws.bearing_law import (
     pendulum_energy,
     pendulum_point,
 )
-from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_points
+from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_point, bed_points
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
@@ -66,17 +66,7 @@ def point_response(
     elif code == LawCode.PENDULUM:
         pendulum_point(w, state, p, t, new, D)
     elif code == LawCode.BED:
-        d = w.shape[0]
-        bed_points(
-            0,
-            1,
-            w.reshape((1, d)),
-            state.reshape((1, state.shape[0])),
-            p.reshape((1, p.shape[0])),
-            t.reshape((1, d)),
-            new.reshape((1, new.shape[0])),
-            D.reshape((1, d, d)),
-        )
+        bed_point(w, state, p, t, new, D)
     else:
         macro_point(code, w, state, p, t, new, D)
 

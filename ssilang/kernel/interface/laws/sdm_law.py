@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
@@ -43,19 +44,25 @@ def normal_law(
         trial = k * (w - xi_n)
         if trial <= fu * math.exp(-a * xi_n):
             return trial, xi_n, k
-        xi = xi_n
-        for _ in range(100):  # monotone: the residual is convex and decreasing, 5-8 turns
-            y = fu * math.exp(-a * xi)
-            step = (k * (w - xi) - y) / (k - a * y)
-            xi += step
-            if abs(step) <= 1e-15 * abs(xi) + 1e-18:
-                break
-        y = fu * math.exp(-a * xi)
+        y, xi = _soften(w, xi_n, k, fu, a)
         return y, xi, -k * a * y / (k - a * y)
     if k * w <= fc:
         return k * w, xi_n, k
     closing = -k * fc / (-fc + k * xi_n) if fc < 0.0 else 0.0
     return closing * (w - xi_n), xi_n, closing
+
+
+@seldom
+@compiled
+def _soften(w: float, xi: float, k: float, fu: float, a: float) -> tuple[float, float]:
+    """Strength and opening that `k (w - xi) = FU exp(-a xi)` leads to from an opening xi."""
+    for _ in range(100):  # monotone: the residual is convex and decreasing, 5-8 turns
+        y = fu * math.exp(-a * xi)
+        step = (k * (w - xi) - y) / (k - a * y)
+        xi += step
+        if abs(step) <= 1e-15 * abs(xi) + 1e-18:
+            break
+    return fu * math.exp(-a * xi), xi
 
 
 @compiled
@@ -171,7 +178,18 @@ def _closed_shear(
     bound = -p[Par.FROT] * tn
     if p[Par.FROT] < 0.0 or size <= bound:
         return
-    ratio = bound / size
+    _slide(w, p, t, new, D, dtn, size)
+
+
+@seldom
+@compiled
+def _slide(
+    w: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray, dtn: float,
+    size: float,
+) -> None:  # fmt: skip
+    """Shear of `_closed_shear`, of this size, back on the cone."""
+    n = w.shape[0] - 1
+    ratio = -p[Par.FROT] * t[n] / size
     for i in range(n):
         direction = t[i] / size
         for j in range(n):

@@ -21,7 +21,7 @@ from ssilang.kernel.interface.factors.kept import new_factors
 from ssilang.kernel.stepping.run import integrate
 from tests.references.soil_block import soil_block
 
-ROOMS = ("interface", "inverse", "iterated", "changed", "solvers", "sparse")
+ROOMS = ("interface", "inverse", "iterated", "changed", "solvers.cholesky", "sparse")
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
 
@@ -210,10 +210,10 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     run._process = Living(9)
     monkeypatch.setattr(run, "tell", lambda name, task: told.append(name))
     run.enter("ssilang.kernel.solvers.cholesky.dissection")
-    assert told == [name for name, _ in tasks_ahead("solvers")]
+    assert told == [name for name, _ in tasks_ahead("solvers.cholesky")]
     run.enter("ssilang.kernel.solvers.dense")
     run.enter("ssilang.kernel.mesh.queries.select")  # of which nothing is known
-    assert len(told) == len(tasks_ahead("solvers"))
+    assert len(told) == len(tasks_ahead("solvers.cholesky"))
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import importlib
 import itertools
 import pkgutil
 import sys
+from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
@@ -13,12 +14,12 @@ import ssilang.kernel
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.compiler import Compiled, compiled
+from ssilang.kernel.stepping.newmark import Quantity
 
 OF_SCALARS = {
     "ceil", "cos", "inf", "isfinite", "isnan", "nan", "pi", "sign", "sin", "sqrt", "int32", "int64",
     "bool_",
 }  # fmt: skip
-HOLDS_NO_ARRAY = {"None", "bool", "int", "float"}
 
 
 def dispatchers():
@@ -37,10 +38,15 @@ def uncounted():
 
 
 def gives_numbers(function):
-    result = str(function.__annotations__["return"])
-    parts = result.removeprefix("tuple").replace("[", ",").replace("]", ",").replace("tuple", ",")
-    plain = {p.strip() for p in parts.split(",")} - {""} <= HOLDS_NO_ARRAY
-    return plain or "Quantity" in result
+    return holds_numbers(get_type_hints(function)["return"])
+
+
+def holds_numbers(kind):
+    if get_origin(kind) is tuple:
+        return all(map(holds_numbers, get_args(kind)))
+    if hasattr(kind, "_fields"):
+        return all(map(holds_numbers, get_type_hints(kind).values()))
+    return kind in (type(None), bool, int, float, Quantity)
 
 
 @pytest.mark.skipif(PLAIN, reason="plain numba counts everywhere")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_state
@@ -70,6 +71,13 @@ class Sweep(NamedTuple):
     old: FloatArray  # (n,) reaction at the step's start
 
 
+def sweep_of(system: System) -> Sweep:
+    """Room for a system."""
+    n = len(system.M)
+    r, du, load0, load1, v0, past, product, old = (np.zeros(n) for _ in range(8))
+    return Sweep(r, du, np.zeros(len(system.rows)), load0, load1, v0, past, product, old)
+
+
 @compiled
 def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
     for i in range(A.shape[0]):
@@ -105,6 +113,7 @@ def _finite(x: FloatArray) -> bool:
     return True
 
 
+@apart
 @compiled
 def _predict(system: System, n: Newmark, x: Motion, sweep: Sweep) -> None:
     """Right-hand side r of `A du + end J^T (f1 - f0) = r`."""
@@ -153,6 +162,7 @@ def _advance(n: Newmark, x: Motion, sweep: Sweep) -> None:
         sweep.v0[i] = v
 
 
+@apart
 @compiled
 def _account(system: System, joints: Joints, x: Motion, sweep: Sweep) -> None:
     """Reactions and energies of the new state.
@@ -200,6 +210,7 @@ def run_dense(
     step: StepOperators,
     joints: Joints,
     motion: Motion,
+    sweep: Sweep,
     work: Workspace,
     factors: FloatArray,
     to: Recorder,
@@ -211,13 +222,9 @@ def run_dense(
     factors : array (n_steps + 1, k)
         Load factors at the times, the first being that of the current state.
     """
-    n, scheme, worst = len(motion.u), step.newmark, 0
+    scheme, worst = step.newmark, 0
     trial, condensed = work.trial, Condensed(step.S, step.R, scheme.end)
     now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
-    sweep = Sweep(
-        np.zeros(n), np.zeros(n), np.zeros(len(system.rows)), np.zeros(n), np.zeros(n),
-        np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n),
-    )  # fmt: skip
     _times_vector(system.forces, factors[0], sweep.load0)
     for k in range(len(to.row)):
         # predict: the past, the loads, and what supports impose

@@ -15,7 +15,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.equilibrium import reactions
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of, jumps_of
-from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System, run_dense
+from ssilang.kernel.stepping.rests.dense.loop import StepOperators, System, run_dense, sweep_of
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import Matrix, View, expand, whole_view
 
@@ -67,7 +67,9 @@ class ReducedLoop:
         few = m._replace(u=T.T @ m.u, v=T.T @ m.v, a=T.T @ m.a, reaction=np.zeros(n))
         u, v, a = (np.zeros((len(r.u), n)) for _ in range(3))
         to = r._replace(u=u, v=v, a=a, reaction=np.zeros((0, n)))
-        outcome = run_dense(self.system, self.step, self.joints, few, self._work, factors, to)
+        outcome = run_dense(
+            self.system, self.step, self.joints, few, sweep_of(self.system), self._work, factors, to
+        )
         m.u[:], m.v[:], m.a[:] = T @ few.u, T @ few.v, T @ few.a
         for part, q in zip((r.u, r.v, r.a), (u, v, a), strict=True):
             part[:] = expand(T, q)

@@ -7,7 +7,7 @@ from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of, operators_of, system_of
-from ssilang.kernel.stepping.rests.dense.loop import run_dense
+from ssilang.kernel.stepping.rests.dense.loop import run_dense, sweep_of
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View, whole_view
 
@@ -31,6 +31,7 @@ class DenseLoop:
             self._operators,
             self._joints,
             self._motion,
+            sweep_of(self._system),
             self._work,
             factors,
             recorder,

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_inline
+from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
 from ssilang.kernel.stepping.verbs import advance, from_past
@@ -47,12 +47,10 @@ def diagonal_of(n: Newmark, m: FloatArray, c: FloatArray, k: FloatArray) -> Diag
     return Diagonal(m, c, k, 1.0 / (n.mass * m + n.damping * c + n.end * k))
 
 
-@compiled
 def sweep_of(size: int) -> Sweep:
     """Room for r coordinates."""
-    return Sweep(
-        np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(4), np.zeros(size)
-    )
+    du, g, load0, load1, end = (np.zeros(size) for _ in range(5))
+    return Sweep(du, g, load0, load1, np.zeros(4), end)
 
 
 @compiled_fast

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state
@@ -31,7 +32,6 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     advance_range,
     next_load,
     predict,
-    sweep_of,
 )
 from ssilang.kernel.stepping.state import LOST, STORED, Motion, Recorder
 from ssilang.kernel.stepping.verbs import keep, tap
@@ -48,11 +48,11 @@ class Modal(NamedTuple):
 
 
 class ModalStep(NamedTuple):
-    """What depends on dt: diagonals, compliance S of the interface."""
+    """What depends on dt: diagonals, the condensed interface."""
 
     newmark: Newmark
     diagonal: Diagonal
-    S: FloatArray  # (q, q)
+    condensed: Condensed
 
 
 @compiled_fast
@@ -91,25 +91,29 @@ def _change_force(
     old[i] = g
 
 
+@apart
 @compiled_fast
 def _end_and_begin(
-    modal: Modal, step: ModalStep, x: Motion, f: FloatArray, sweep: Sweep, y0: FloatArray,
-    factors: FloatArray,
+    modal: Modal, step: ModalStep, x: Motion, sweep: Sweep, y0: FloatArray, factors: FloatArray,
+    ends: bool,
 ) -> float:  # fmt: skip
-    """End of a step under the joints' forces f and prediction of the next, in one pass over Jt.
+    """End of a step under the joints' forces and prediction of the next, in one pass over Jt.
 
-    `factors` are those of the loads at the end of the next step; none: there is none.
+    `factors` are those of the loads at the end of the next step; none: there is none. Nothing
+    `ends` before the first.
     """
     n, size, coming = len(x.u), 0.0, len(factors) > 0
     for j in range(len(y0)):
         y0[j] = 0.0
     for first in range(0, n, BLOCK):
         last = min(first + BLOCK, n)
-        correct(modal, step, f, sweep, first, last)
-        size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
+        correct(modal, step, x.f, sweep, first, last)
+        if ends:
+            size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
         if coming:
             _begin(modal, step, x, sweep, y0, factors[0], first, last)
-    account(x, sweep)
+    if ends:
+        account(x, sweep)
     return size
 
 
@@ -128,20 +132,14 @@ def _begin(
 
 @compiled_fast
 def run_modal(
-    modal: Modal, step: ModalStep, joints: Joints, x: Motion, work: Workspace,
+    modal: Modal, step: ModalStep, joints: Joints, x: Motion, sweep: Sweep, work: Workspace,
     factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
     """As `run_dense`; `x` and the rows hold coordinates."""
-    n, steps, worst, trial = len(x.u), len(to.row), 0, work.trial
-    sweep = sweep_of(n)
+    steps, worst, trial, condensed = len(to.row), 0, work.trial, step.condensed
     now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
-    condensed = Condensed(step.S, np.zeros((0, 0)), step.newmark.end)
-    for i in range(len(trial.y0)):
-        trial.y0[i] = 0.0
-    start = n - n  # not a literal: that is a type, and code, of its own
-    correct(modal, step, x.f, sweep, start, n)
     next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
-    _begin(modal, step, x, sweep, trial.y0, factors[min(1, steps)], start, n)
+    _end_and_begin(modal, step, x, sweep, trial.y0, factors[1:2], False)
     for k in range(steps):
         if len(x.f):  # solve: Newton's method on the interface
             copy_state(trial.y0, trial.y)
@@ -155,7 +153,7 @@ def run_modal(
             if len(to.jumps):
                 copy_rows(x.w, to.jumps[k])
         # advance and account, and predict the next step while its coordinates are near
-        size = _end_and_begin(modal, step, x, x.f, sweep, trial.y0, factors[k + 2 : k + 3])
+        size = _end_and_begin(modal, step, x, sweep, trial.y0, factors[k + 2 : k + 3], True)
         if not np.isfinite(size):
             return k, -1, np.inf
         if len(x.f):

@@ -15,6 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.active_set import ActiveSet
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
@@ -23,10 +24,10 @@ from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
 from ssilang.kernel.stepping.rests.dense.still_supports import keep_reactions, supports_are_still
-from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
+from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal, sweep_of
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
 from ssilang.kernel.stepping.rests.modal.one_mode import carry, run_one_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, run_one_spring
+from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, step_one_spring
 from ssilang.kernel.stepping.rests.modal.springs import (
     run_springs,
     springs_of,
@@ -134,7 +135,7 @@ class SmallLoop:
         ways: dict[str, tuple[Steps, JointsOf]] = {
             "modes": (self._by_modes, self._of_modes),
             "springs": (self._by_springs, self._of_springs),
-            "one_spring": (partial(self._by_line, run_one_spring), self._of_line),
+            "one_spring": (partial(self._by_line, step_one_spring), self._of_line),
             "one_mode": (partial(self._by_line, run_one_mode), self._of_line),
         }
         self._way = way
@@ -185,7 +186,9 @@ class SmallLoop:
             few = few._replace(w=w, t=t, delta=w[:, 0].copy(), f=normal.weights * t[:, 0])
         kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), tap=r.tap)
         work = workspace(few.w.shape, len(few.f))
-        outcome = run_modal(self._modal, self._step, self._stepped, few, work, factors, kept)
+        outcome = run_modal(
+            self._modal, self._step, self._stepped, few, sweep_of(len(u)), work, factors, kept
+        )
         if normal is not None:
             self._put_normal(few.w, few.t)
         return outcome, kept
@@ -211,7 +214,9 @@ class SmallLoop:
             contact=np.zeros(0),
         )  # fmt: skip
         kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "f", "w", "state"), tap=r.tap)
-        outcome = run_springs(self._modal, self._step, self.springs, few, factors, kept)
+        outcome = run_springs(
+            self._modal, self._step, self.springs, few, sweep_of(len(u)), factors, kept
+        )
         m.state[:, Variable.XI] = few.state[:, 0]
         self._put_normal(few.w, (few.f / weights)[:, None])
         return outcome, kept
@@ -302,7 +307,7 @@ def modal_of(
     """Arrays of the loops on modes, that are orthonormal in the step's matrix; J (q, r)."""
     Jt = np.ascontiguousarray(J.T)
     diagonal = Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size))
-    return Modal(J, Jt, forces), ModalStep(n, diagonal, np.ascontiguousarray(J @ Jt))
+    return Modal(J, Jt, forces), ModalStep(n, diagonal, condensed_of(J @ Jt, n.end))
 
 
 def spring_rows(joints: Joints, modes: Modes, kept: Kept) -> JointRows:
@@ -331,11 +336,26 @@ def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:
     return found
 
 
+def way_ahead(problem: Problem) -> str:
+    """The way that a problem with still supports steps on its modes, before they are known."""
+    joints, free = joints_of(problem), problem.constraints.T.shape[1]
+    if len(joints.pairs) <= 1 and free <= LINE_MODES:
+        return "one_spring" if free > 1 else "one_mode"
+    pushes = len(joints.pairs) and has_no_shear(joints) and only_pushes(joints, problem.state)
+    return "springs" if pushes else "modes"
+
+
+def has_no_shear(joints: Joints) -> bool:
+    """Whether joints act along their normals alone."""
+    shear = joints.p[:, Parameter.KS1 : Parameter.KS2 + 1]
+    sdm = (joints.codes == LawCode.SDM).all()
+    return bool(joints.pairs.shape[1] == 1 and sdm and not shear.any())
+
+
 def shearless(joints: Joints, modes: Modes) -> tuple[Joints | None, FloatArray]:
     """Joints that push along their normals alone (None if some resist shear), J on the modes."""
-    n, width = joints.pairs.shape
-    shear = joints.p[:, Parameter.KS1 : Parameter.KS2 + 1]
-    if n == 0 or width != 1 or (joints.codes != LawCode.SDM).any() or shear.any():
+    n = len(joints.pairs)
+    if n == 0 or not has_no_shear(joints):
         return None, modes.J
     d = joints.B.shape[1]
     rows = modes.J.reshape(-1, d, modes.size)[joints.pairs[:, 0]]

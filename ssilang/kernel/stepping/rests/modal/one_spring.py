@@ -20,7 +20,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, normal_law, opening_loss
-from ssilang.kernel.stepping.newmark import Newmark
+from ssilang.kernel.stepping.newmark import Newmark, from_past
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.state import (
     DAMPED,
@@ -32,7 +32,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, from_past, keep, tap
+from ssilang.kernel.stepping.verbs import advance, keep, tap
 
 MOST_TURNS = 60
 CLOSE = 1e-15  # of the jump: last change of the iteration on softening
@@ -97,7 +97,10 @@ def _softening(
 
 
 class LinearStep(NamedTuple):
-    """Increments `du = pu u + pv v + pa a + P load - pf f` (r,), and `closed_form`'s numbers."""
+    """Increments `du = pu u + pv v + pa a + P load - pf f` (r,), and `closed_form`'s numbers.
+
+    `du` and the loads at both ends, `load0` and `load1` (r,), each step overwrites.
+    """
 
     pu: FloatArray
     pv: FloatArray
@@ -106,39 +109,38 @@ class LinearStep(NamedTuple):
     s: float
     soft: float
     closed: float
+    du: FloatArray
+    load0: FloatArray
+    load1: FloatArray
 
 
-@compiled_fast
 def linear_step(line: Line, spring: Spring) -> LinearStep:
     """What the past and the joint's force f make of each coordinate."""
-    n, diagonal, r = line.newmark, line.diagonal, len(line.b)
-    pu, pv, pa, pf = np.zeros(r), np.zeros(r), np.zeros(r), np.zeros(r)
-    compliance = 0.0
-    for i in range(r):
-        m, c, P = diagonal.m[i], diagonal.c[i], diagonal.P[i]
-        pu[i] = -P * diagonal.k[i]
-        pv[i] = P * from_past(n, m, 0.0, c, 0.0)
-        pa[i] = P * from_past(n, 0.0, m, 0.0, c)
-        pf[i] = line.b[i] * P
-        compliance += line.b[i] * pf[i]
-    s, closed = compliance * n.end * spring.weight, 0.0
+    n, diagonal, none = line.newmark, line.diagonal, np.zeros(len(line.b))
+    m, c, P = diagonal.m, diagonal.c, diagonal.P
+    pf = line.b * P
+    s, closed = float(line.b @ pf) * n.end * spring.weight, 0.0
     if spring.fc < 0.0:
         closed = spring.fc / spring.k + s * spring.fc
-    return LinearStep(pu, pv, pa, pf, s, 1.0 / (1.0 + s * spring.k), closed)
+    return LinearStep(
+        -P * diagonal.k, P * from_past(n, m, none, c, none), P * from_past(n, none, m, none, c),
+        pf, s, 1.0 / (1.0 + s * spring.k), closed, none, none.copy(), none.copy(),
+    )  # fmt: skip
 
 
 @compiled_fast
 def run_one_spring(
-    line: Line, spring: Spring, x: Motion, factors: FloatArray, to: Recorder
+    line: Line, spring: Spring, step: LinearStep, x: Motion, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
     """As `run_modal`, on jumps w and tractions t (1, 1) and the opening xi as the state (1, 1).
 
     Steps without room for their energies leave those of the end alone, and the balance.
     """
-    n, diagonal, b, step = line.newmark, line.diagonal, line.b, linear_step(line, spring)
+    n, diagonal, b = line.newmark, line.diagonal, line.b
     r, loads, weight = len(x.u), line.forces.shape[0], spring.weight
-    du, load0, load1 = np.zeros(r), np.zeros(r), np.zeros(r)
+    du, load0, load1 = step.du, step.load0, step.load1
     for i in range(r):
+        load0[i] = 0.0
         for j in range(loads):
             load0[i] += line.forces[j, i] * factors[0, j]
     w, t, xi = x.w[0, 0], x.t[0, 0], x.state[0, 0]
@@ -202,3 +204,10 @@ def run_one_spring(
     x.w[0, 0], x.t[0, 0], x.state[0, 0] = w, t, xi
     to.balance[1] = worst
     return steps, 1, 0.0
+
+
+def step_one_spring(
+    line: Line, spring: Spring, x: Motion, factors: FloatArray, to: Recorder
+) -> tuple[int, int, float]:
+    """Steps of a line by `run_one_spring`."""
+    return run_one_spring(line, spring, linear_step(line, spring), x, factors, to)

@@ -27,7 +27,6 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     advance_range,
     next_load,
     predict,
-    sweep_of,
 )
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
 from ssilang.kernel.stepping.state import STORED, Motion, Recorder
@@ -115,39 +114,39 @@ def wrong_sign(springs: ActiveSet) -> float:
 
 def springs_of(step: ModalStep, k: FloatArray) -> ActiveSet:
     """Springs of stiffness k (q,), all open."""
-    return active_set_of(step.newmark.end * step.S + np.diag(1.0 / k), k, WRONG)
+    return active_set_of(step.newmark.end * step.condensed.S + np.diag(1.0 / k), k, WRONG)
 
 
 @compiled_fast
 def run_springs(
-    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, factors: FloatArray, to: Recorder
-) -> tuple[int, int, float]:
+    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, sweep: Sweep,
+    factors: FloatArray, to: Recorder,
+) -> tuple[int, int, float]:  # fmt: skip
     """As `run_modal`, J being the springs' jumps.
 
     `x` holds jumps w (q, 1), forces f (q,) and, as its state (q, 1), the largest openings.
     """
     n, steps, worst = len(x.u), len(to.row), 1
-    sweep = sweep_of(n)
     begin_springs(springs, x)
-    start = n - n  # not a literal: that is a type, and code, of its own
-    _push(modal, step, springs, x.f, sweep, start, n)  # the forces at the start, for alpha_f
     next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
-    for i in range(len(springs.free)):
-        springs.free[i] = 0.0
-    _begin(modal, step, springs, x, sweep, factors[min(1, steps)], start, n)
-    for s in range(steps):
-        turns = end_springs(springs, x)  # solve: the set of springs that push
-        if turns < 0:
-            return s, turns, wrong_sign(springs)
-        worst, size = max(worst, turns), 0.0
+    for s in range(-1, steps):  # -1: the forces at the start, for alpha_f, and the first prediction
+        if s >= 0:
+            turns = end_springs(springs, x)  # solve: the set of springs that push
+            if turns < 0:
+                return s, turns, wrong_sign(springs)
+            worst = max(worst, turns)
+        size = 0.0
         for i in range(len(springs.free)):
             springs.free[i] = 0.0
         for first in range(0, n, BLOCK):  # advance, and predict the next step
             last = min(first + BLOCK, n)
             _push(modal, step, springs, x.f, sweep, first, last)
-            size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
+            if s >= 0:
+                size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
             if s + 1 < steps:
                 _begin(modal, step, springs, x, sweep, factors[s + 2], first, last)
+        if s < 0:
+            continue
         if not np.isfinite(size):
             return s, -1, np.inf
         account(x, sweep)

@@ -54,7 +54,7 @@ class DampedTrace:
         to = to._replace(work=np.zeros((2, len(to.row), whole.shape[1] if moves else 0)))
         work = np.array([self.own @ x for x in (motion.u, motion.v, motion.a)])
         start = Start(work, motion.f.copy())
-        dashpots = dashpots_of(self.model.B @ motion.v, self.model.B @ motion.a, q)
+        dashpots = dashpots_of(self.model.B @ motion.v, self.model.B @ motion.a, q, len(motion.u))
         done, turns, _ = run_reduced(
             self.reduced, self.steps[n.dt], self.joints, motion, dashpots, room, whole, to
         )

@@ -19,7 +19,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
-from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.condensed import Condensed, condensed_of
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.factors.kept import is_factorised, solve_known
 from ssilang.kernel.interface.newton import Workspace, solve_interface
@@ -63,14 +63,14 @@ class ReducedStep(NamedTuple):
 
     newmark: Newmark
     diagonal: Diagonal
-    S: FloatArray  # (q, q) compliance of the interface with the dashpots
+    condensed: Condensed  # the interface with the dashpots
     E: FloatArray  # (d, d)
     SJB: FloatArray  # (q, d)
     SBB: FloatArray  # (d, d)
 
 
 class Dashpots(NamedTuple):
-    """Velocities and accelerations of the dashpots, and vectors that each step overwrites."""
+    """Velocities and accelerations of the dashpots, and what each step overwrites."""
 
     v: FloatArray  # (d,)
     a: FloatArray
@@ -78,12 +78,14 @@ class Dashpots(NamedTuple):
     phi: FloatArray  # (d,)
     z: FloatArray  # (d,) motions in the step
     y: FloatArray  # (q + d,) jumps and dashpots' motions under the loads alone
+    h: FloatArray  # (q,) change of the joints' forces
+    sweep: Sweep  # of the coordinates
 
 
-def dashpots_of(v: FloatArray, a: FloatArray, q: int) -> Dashpots:
-    """Dashpots (d,) beside q jumps."""
-    d = len(v)
-    return Dashpots(v, a, np.zeros(d), np.zeros(d), np.zeros(d), np.zeros(q + d))
+def dashpots_of(v: FloatArray, a: FloatArray, q: int, r: int) -> Dashpots:
+    """Dashpots (d,) beside q jumps, on r coordinates."""
+    w, phi, z = (np.zeros(len(v)) for _ in range(3))
+    return Dashpots(v, a, w, phi, z, np.zeros(q + len(v)), np.zeros(q), sweep_of(r))
 
 
 def reduced_step(model: Reduced, n: Newmark, q: int) -> ReducedStep:
@@ -94,7 +96,7 @@ def reduced_step(model: Reduced, n: Newmark, q: int) -> ReducedStep:
     d = len(model.sense)
     E = model.sense[:, None] * np.linalg.inv(np.eye(d) + rate * SBB * model.sense)
     E = np.ascontiguousarray(0.5 * (E + E.T))
-    own = np.ascontiguousarray(S[:q, :q] - rate * SJB @ E @ SJB.T)
+    own = condensed_of(S[:q, :q] - rate * SJB @ E @ SJB.T, n.end)
     return ReducedStep(n, diagonal, own, E, SJB, SBB)
 
 
@@ -197,10 +199,9 @@ def run_reduced(
 ) -> tuple[int, int, float]:  # fmt: skip
     """As `run_modal`; the work of loads is kept as in `run_interleaved`."""
     n, q, steps, worst = len(x.u), len(x.delta), len(to.row), 0
-    d, trial, end = len(model.sense), room.trial, step.newmark.end
-    sweep, h = sweep_of(n), np.zeros(q)
+    d, trial, end, condensed = len(model.sense), room.trial, step.newmark.end, step.condensed
+    sweep, h = dashpots.sweep, dashpots.h
     now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
-    condensed = Condensed(step.S, np.zeros((0, 0)), end)
     start = n - n  # not a literal: that is a type, and code, of its own
     _correct(model, step, x.f, dashpots.phi, sweep, start, n)
     next_load(model.forces, factors[0], sweep.load0, sweep.load1)

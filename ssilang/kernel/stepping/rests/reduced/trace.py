@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.stepping.newmark import Newmark, newmark_of
 from ssilang.kernel.stepping.problem.initial import (
@@ -18,7 +19,7 @@ from ssilang.kernel.stepping.problem.initial import (
 from ssilang.kernel.stepping.problem.moving_supports import Course
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.modal.diagonal import diagonal_of
+from ssilang.kernel.stepping.rests.modal.diagonal import diagonal_of, sweep_of
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
 from ssilang.kernel.stepping.rests.reduced.damped import DampedTrace
@@ -99,7 +100,14 @@ class Trace:
             done, turns, course = self._damped.advance(n, self.motion, work, factors, to)
         else:
             done, turns, _ = run_modal(
-                self._modal, self._step(n), self._joints, self.motion, work, factors, to
+                self._modal,
+                self._step(n),
+                self._joints,
+                self.motion,
+                sweep_of(len(self.motion.u)),
+                work,
+                factors,
+                to,
             )
         if done < len(row):
             return None
@@ -117,8 +125,8 @@ class Trace:
         if n.dt not in self._modal_steps:
             m = self.model
             diagonal = diagonal_of(n, m.m, m.c, m.k)
-            S = np.ascontiguousarray((m.J * diagonal.P) @ m.J.T)
-            self._modal_steps[n.dt] = ModalStep(n, diagonal, S)
+            condensed = condensed_of((m.J * diagonal.P) @ m.J.T, n.end)
+            self._modal_steps[n.dt] = ModalStep(n, diagonal, condensed)
         return self._modal_steps[n.dt]
 
 

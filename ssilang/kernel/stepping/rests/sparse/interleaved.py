@@ -30,6 +30,7 @@ from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Products,
     Sparse,
     run_interleaved,
+    sweep_of,
 )
 from ssilang.kernel.stepping.state import (
     Motion,
@@ -125,8 +126,9 @@ class InterleavedLoop:
             kept = self.room(block, r, part, seen)._replace(peaks=peaks)
             peaks.first[0] = r.peaks.first[0] + first
             done, turns, residual = run_interleaved(
-                block.plan, self.joints, block.motion, block.products, self.newton, block.factors,
-                kept,
+                block.plan, self.joints, block.motion, block.products,
+                sweep_of(block.plan, len(block.motion.u), block.factors.shape[1]), self.newton,
+                block.factors, kept,
             )  # fmt: skip
             self.finish(block, given, kept, done)
             self.put(block, given, kept, r, first, done, seen)

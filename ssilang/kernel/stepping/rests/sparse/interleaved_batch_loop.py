@@ -57,6 +57,7 @@ def _sweep_at(x: Sweep, j: int) -> Sweep:
         x.load_change[j],
         x.next_load_change[j],
         x.sums[j],
+        x.local[0],
     )
 
 
@@ -70,13 +71,13 @@ def _add_above(L: Panels, s: int, sweep: Sweep) -> None:
 
 @compiled
 def _solve_interfaces(
-    plan: Plan, joints: Joints, batch: Batch, sweep: Sweep, local: FloatArray, k: int, steps: int
+    plan: Plan, joints: Joints, batch: Batch, sweep: Sweep, k: int, steps: int
 ) -> None:
     """The interfaces of all motions at the end of step k; motions without an answer end."""
     L, s, ends = plan.L, plan.root, batch.ends
     _add_above(L, s, sweep)
-    forward_many(L, s, s + 1, sweep.b, L.first[0], sweep.above, local)
-    backward_many(L, s, s + 1, sweep.b, sweep.du, local)
+    forward_many(L, s, s + 1, sweep.b, L.first[0], sweep.above, sweep.local)
+    backward_many(L, s, s + 1, sweep.b, sweep.du, sweep.local)
     for j in range(len(sweep.b)):
         if ends.steps[j] == steps:
             turns, residual = settle_interface(
@@ -133,9 +134,9 @@ def run_interleaved_batch(
     sweep = Sweep(
         np.empty((count, n)), np.zeros((count, n)), np.zeros((count, n)), np.zeros((count, n)),
         np.empty((count, n)), np.zeros((count, loads)), np.zeros((count, loads)),
-        np.zeros((count, 5)),
+        np.zeros((count, 5)), np.empty((FOUR, plan.room)),
     )  # fmt: skip
-    b, du, above, local = sweep.b, sweep.du, sweep.above, np.empty((FOUR, plan.room))
+    b, du, above, local = sweep.b, sweep.du, sweep.above, sweep.local
     for j in range(count):
         ends.steps[j], ends.turns[j] = steps, 1
         for c in range(loads):
@@ -150,7 +151,7 @@ def run_interleaved_batch(
             _add_above(L, s, sweep)
             forward_many(L, s, s + 1, b, L.first[0], above, local)
         if batch.x.f.shape[1]:
-            _solve_interfaces(plan, joints, batch, sweep, local, k, steps)
+            _solve_interfaces(plan, joints, batch, sweep, k, steps)
         for i in range(len(plan.trunk) - 1, -1, -1):
             s = plan.trunk[i]
             backward_many(L, s, s + 1, b, du, local)

@@ -144,6 +144,8 @@ class Sweep(NamedTuple):
         Increments of the load factors in this step and in the next one.
     sums : array (5,)
         v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), something finite if all is.
+    local : array (plan.room,)
+        Room of the solution.
     """
 
     b: FloatArray
@@ -154,6 +156,16 @@ class Sweep(NamedTuple):
     load_change: FloatArray
     next_load_change: FloatArray
     sums: FloatArray
+    local: FloatArray
+
+
+def sweep_of(plan: Plan, n: int, loads: int) -> Sweep:
+    """Room for n unknowns."""
+    b, du, above, change, room = (np.zeros(n) for _ in range(5))
+    return Sweep(
+        b, du, above, change, room, np.zeros(loads), np.zeros(loads), np.zeros(5),
+        np.empty(plan.room),
+    )  # fmt: skip
 
 
 @compiled_fast
@@ -335,19 +347,19 @@ def account(
 
 
 @compiled
-def _root(plan: Plan, sweep: Sweep, local: FloatArray) -> None:
+def _root(plan: Plan, sweep: Sweep) -> None:
     """Forward and backward solves of the root, under the joints' old forces."""
     L, s = plan.L, plan.root
     for i in range(L.first[s], L.first[s + 1]):
         sweep.b[i] += sweep.above[i]
         sweep.above[i] = 0.0
-    forward(L, s, s + 1, sweep.b, L.first[0], sweep.above, local)
-    backward(L, s, s + 1, sweep.b, sweep.du, local)
+    forward(L, s, s + 1, sweep.b, L.first[0], sweep.above, sweep.local)
+    backward(L, s, s + 1, sweep.b, sweep.du, sweep.local)
 
 
 @compiled
 def run_interleaved(
-    plan: Plan, joints: Joints, x: Motion, products: Products, newton: Workspace,
+    plan: Plan, joints: Joints, x: Motion, products: Products, sweep: Sweep, newton: Workspace,
     factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
     """Steps between the rows of `factors`; see `state.Outcome` for the results.
@@ -355,12 +367,10 @@ def run_interleaved(
     The recorder's work (2, n_steps, k) is that of each load on the step's increment, and of the
     joints' forces on the jumps of `lift` at its end.
     """
-    L, n, loads, steps, worst = plan.L, len(x.u), factors.shape[1], len(to.row), 1
-    sweep = Sweep(
-        np.empty(n), np.zeros(n), np.zeros(n), np.zeros(n), np.empty(n), factors[1] - factors[0],
-        np.zeros(loads), np.zeros(5),
-    )  # fmt: skip
-    b, du, above, local = sweep.b, sweep.du, sweep.above, np.empty(plan.room)
+    L, n, steps, worst = plan.L, len(x.u), len(to.row), 1
+    b, du, above, local = sweep.b, sweep.du, sweep.above, sweep.local
+    for j in range(len(sweep.load_change)):
+        sweep.load_change[j] = factors[1, j] - factors[0, j]
     start = L.first[0]  # 0, but not as a literal: that is a type of its own
     predict(plan, products, sweep.load_change, b, start, n)
     for j in range(len(plan.branches)):
@@ -370,7 +380,7 @@ def run_interleaved(
         # solve: up the trunk, Newton's method on the interface at the root, down the trunk
         _trunk_forward(L, plan.trunk, b, above, local)
         if len(x.f):
-            _root(plan, sweep, local)
+            _root(plan, sweep)
             turns, residual = settle_interface(plan, joints, x, newton, sweep)
             if turns <= 0:
                 return k, turns, residual

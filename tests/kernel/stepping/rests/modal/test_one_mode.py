@@ -13,7 +13,7 @@ from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.one_mode import Mode as OneMode
 from ssilang.kernel.stepping.rests.modal.one_mode import branch_of, run_one_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, run_one_spring
+from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, step_one_spring
 from ssilang.kernel.stepping.run import Integration, integrate
 from ssilang.kernel.stepping.state import Motion, recorder_of, rows_of
 
@@ -38,7 +38,7 @@ def both(scheme, spring, steps, dt, damping=0.0, load=0.0, every=1, mass=MASS, e
     factors = np.sin(30.0 * dt * np.arange(steps + 1))[:, None][:, : 1 if load else 0]
     row = rows_of(np.arange(steps) % every == every - 1)
     found = []
-    for run in (run_one_spring, run_one_mode):
+    for run in (step_one_spring, run_one_mode):
         w = 0.01 if spring.weight else 0.0
         t, xi = (0.0, w) if spring.fu == 0.0 else (spring.k * 1e-5, w - 1e-5)
         if spring.fu:
