@@ -79,7 +79,7 @@ class _Reader:
         if isinstance(kind, types.Array):
             return self.array(held, kind)
         if isinstance(kind, types.BaseTuple):
-            return self.context.make_tuple(builder, kind, self.entries(held, list(kind)))
+            return self.context.make_tuple(builder, kind, self.entries(held, _kinds(kind)))
         if kind == types.float64:
             return api.float_as_double(held)
         if kind == types.boolean:
@@ -158,17 +158,22 @@ class Lowering(NativeLowering):
         return _Lower
 
 
+def _kinds(kind: Any) -> list[Any]:
+    """Of the entries of a tuple."""
+    return [*kind]
+
+
 def is_read(kind: types.Type) -> bool:
     """Whether values of a type are read here."""
     if isinstance(kind, types.BaseTuple):
-        return all(is_read(one) for one in kind)  # type: ignore[attr-defined]
+        return all(map(is_read, _kinds(kind)))
     return kind in NUMBERS or (isinstance(kind, types.Array) and kind.dtype in ITEMS)
 
 
 def is_number(kind: types.Type) -> bool:
     """Whether a type is one of numbers, or of tuples of them."""
     if isinstance(kind, types.BaseTuple):
-        return all(is_number(one) for one in kind)  # type: ignore[attr-defined]
+        return all(map(is_number, _kinds(kind)))
     return kind in NUMBERS
 
 
