@@ -20,7 +20,6 @@ from ssilang.kernel.stepping.choose import (
     refuse_combinations,
     rule_named,
 )
-from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.keeping import (
     Keeper,
@@ -49,6 +48,7 @@ from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
 
 if TYPE_CHECKING:
+    from ssilang.kernel.stepping.driven import Driver
     from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
@@ -148,6 +148,8 @@ class Integration:
             size = p.numbering.size
             raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=size)
         if self.driver is not None:
+            from ssilang.kernel.stepping.driven import Drive
+
             self._drive = Drive(self.problem, self.driver, self.full_newton)
             p = self._drive.start()
         joints = joint_state(p)

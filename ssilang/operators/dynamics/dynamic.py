@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.plasticity.bulk import stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
@@ -284,6 +283,8 @@ def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs
+    from ssilang.kernel.plasticity.bulk import stiffness_beside
+
     material = entries.needed("CARACTERISTIQUES")
     stiffness = without_zones(inputs.stiffness, zones)
     blocks = (*stiffness.blocks, *(stiffness_beside(z, material) for z in zones))

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.vtk.labels import Labels
-from ssilang.io.vtk.series import Part, Series
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 
 if TYPE_CHECKING:
+    from ssilang.io.vtk.labels import Labels
+    from ssilang.io.vtk.series import Series
     from ssilang.kernel.stepping.snapshot import Snapshot
 
 Steps = NDArray[np.bool_]
@@ -56,6 +56,9 @@ class VtkObserver:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Write one instant."""
+        from ssilang.io.vtk.labels import Labels
+        from ssilang.io.vtk.series import Part
+
         u = snapshot.displacement
         moved = NodeField(u.table, {k: v for k, v in u.components.items() if k != "LX"}, u.nature)
         points = {

@@ -10,7 +10,6 @@ from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
-from ssilang.kernel.elements.beams.rotating import corotational
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
@@ -344,6 +343,8 @@ def turning_damping(
     reference: bool,
 ) -> tuple[Matrix, Matrix]:
     """Damping that turns with beams, and the circulatory stiffness beside it."""
+    from ssilang.kernel.elements.beams.rotating import corotational
+
     shown, material = present(call, model), joined(fields)
     blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
     pairs = zip(shown.zones, blocks, strict=True)

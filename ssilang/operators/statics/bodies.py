@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.bulk import Bulk, State
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 _STATE = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
 """Results that a calculation goes on from."""
 
-Bodies = Callable[["Problem", "Inputs"], tuple[Bulk, State]]
+Bodies = Callable[["Problem", "Inputs"], tuple["Bulk", "State"]]
 
 
 def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
@@ -37,6 +37,7 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     material: CellField = entries.needed("CARACTERISTIQUES")
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+        from ssilang.kernel.plasticity.bulk import bulk_of
         from ssilang.kernel.plasticity.expansion import free_strains
 
         bulk = bulk_of(zones, material, problem.numbering)
@@ -87,4 +88,6 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
 
 
 def _given(bulk: Bulk, start: Any) -> State | None:
+    from ssilang.kernel.plasticity.bulk import state_from_fields
+
     return state_from_fields(bulk, *(start.of(word) for word in _STATE))

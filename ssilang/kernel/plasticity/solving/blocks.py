@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import (
     compiled_fast,
     compiled_fused,
@@ -157,6 +158,7 @@ def _space(cells: Cells) -> Space:
     )  # fmt: skip
 
 
+@apart
 @compiled_fused
 def strains(cells: Cells, block: int, first: int, n: int, step: Step, space: Space) -> None:
     """Strains of the points `first` to `first + n` of a block."""
@@ -209,6 +211,7 @@ def trial_stresses(start: Start, first: int, n: int, space: Space) -> None:
         t5[x] = s5[x] + G[x] * e5[x]
 
 
+@apart
 @compiled_fast
 def stressed(cells: Cells, start: Start, first: int, n: int, new: Points, space: Space) -> float:
     """Keep the stresses of a block; the work of the step."""
@@ -237,6 +240,7 @@ def energy(cells: Cells, start: Start) -> float:
     return total
 
 
+@apart
 @compiled_fused
 def forces(cells: Cells, block: int, first: int, n: int, force: FloatArray, space: Space) -> None:
     """Add the forces of a block's cells."""

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled_fused, compiled_inline
 from ssilang.kernel.materials.plastic.cone_rows import (
     ConeColumn,
@@ -49,6 +50,7 @@ def prepare(cone: ConeRows, p: FloatArray, given: FloatArray) -> None:
         given[STRENGTH, at] = strength_at(cone, cone.of[at], p[at])[0]
 
 
+@apart
 @compiled_fused
 def _elastic(start: Start, first: int, n: int, space: Space) -> None:
     """Stresses without flow, from the surfaces' centres, and how far they are beyond them."""
