@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_inline
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.stepping import newmark
@@ -55,7 +55,7 @@ def tap(x: Motion, to: Tap, row: int) -> None:
     _keep_joints(x, to, row)
 
 
-@apart
+@later
 @compiled_fast
 def watch(x: Motion, to: Peaks, k: int) -> None:
     """What is larger at the end of step k than ever before."""

@@ -36,10 +36,10 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 class Apart:
     """A compiled function; called from Python as any other, from compiled code by its address."""
 
-    def __init__(self, function: Compiled, expected: bool = True) -> None:
+    def __init__(self, function: Compiled, expected: bool = True, later: bool = False) -> None:
         functools.update_wrapper(self, function)
         self.name: str = function.py_func.__qualname__
-        self.function, self.expected = function, expected
+        self.function, self.expected, self.later = function, expected, later
         self.py_func = function.py_func
         self.result: str = self.py_func.__annotations__["return"]
         function.options["no_cpython_wrapper"] = True  # half of what is compiled for some
@@ -97,7 +97,12 @@ def apart(function: Function) -> Function:
 
     Without compilation (NUMBA_DISABLE_JIT=1), or by plain numba alone, it stays what it is.
     """
-    return _made(function, True)
+    return _made(function)
+
+
+def later(function: Function) -> Function:
+    """As `apart`, for one that first steps do without: a second process takes it last."""
+    return _made(function, later=True)
 
 
 def seldom(function: Function) -> Function:
@@ -105,13 +110,13 @@ def seldom(function: Function) -> Function:
 
     `beside.tell_more` does where a model shows that it is entered.
     """
-    return _made(function, False)
+    return _made(function, expected=False)
 
 
-def _made(function: Function, expected: bool) -> Function:
+def _made(function: Function, expected: bool = True, later: bool = False) -> Function:
     if PLAIN or UNCOMPILED:
         return function
-    return cast(Function, Apart(cast(Compiled, function), expected))
+    return cast(Function, Apart(cast(Compiled, function), expected, later))
 
 
 def _resolve(text: int, size: int) -> int:
@@ -120,7 +125,7 @@ def _resolve(text: int, size: int) -> int:
     0 if it cannot be compiled (the reason is shown), `STOPPED` if someone interrupts.
     """
     try:
-        module, name, words, types = pickle.loads(ctypes.string_at(text, size))
+        module, name, words, types, _ = pickle.loads(ctypes.string_at(text, size))
         function = getattr(importlib.import_module(module), name)
         return int(function.address(words, lambda: pickle.loads(types)))
     except KeyboardInterrupt:

@@ -171,7 +171,7 @@ class Beside:
         """Compile what is told on the standard input, until the run has ended.
 
         The last is the first: the run takes others itself. Of what a function calls, however, the
-        first comes first.
+        first comes first, and what first steps do without comes when nothing else waits.
         """
         self._claims, waiting = Path(claims), list[Task]()
         threading.Thread(target=self._read, args=(sys.stdin.buffer, waiting), daemon=True).start()
@@ -179,21 +179,29 @@ class Beside:
             if not waiting:
                 time.sleep(POLL)
                 continue
-            module, name, words, types = pickle.loads(waiting.pop()[1])
+            module, name, words, types, _ = pickle.loads(waiting.pop()[1])
             self.found = []
             with suppress(Exception):  # the run will tell
                 function = getattr(importlib.import_module(module), name)
                 function.ready(words, partial(pickle.loads, types))
-            waiting += [task for task in reversed(self.found) if task[0] not in dict(waiting)]
+            for told in reversed(self.found):
+                _put(told, waiting)
 
     def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
         while heads := tasks.read(2 * LENGTH):
             sizes = (int.from_bytes(head, "little") for head in (heads[:LENGTH], heads[LENGTH:]))
             name, task = (tasks.read(size) for size in sizes)
-            waiting.append((name.decode(), task))
+            _put((name.decode(), task), waiting)
         if self._claims is not None:
             shutil.rmtree(self._claims, ignore_errors=True)
         os._exit(0)
+
+
+def _put(told: Task, waiting: list[Task]) -> None:
+    """One more task; the last of the list is done first."""
+    later = pickle.loads(told[1])[-1]
+    if told[0] not in dict(waiting):
+        waiting.insert(0 if later else len(waiting), told)
 
 
 BESIDE = Beside()
@@ -244,7 +252,8 @@ def tasks_ahead(room: str) -> list[Task]:
         args = (*types_of(text),)
         words = words_of_types(args)
         told = KERNEL + module, name, words
-        found.append((title(*told), task_of(*told, args)))
+        made = getattr(importlib.import_module(told[0]), name)
+        found.append((title(*told), task_of(*told, args, getattr(made, "later", False))))
     return found
 
 
@@ -253,6 +262,8 @@ def title(module: str, name: str, words: str) -> str:
     return f"{module}.{name}({words})"
 
 
-def task_of(module: str, name: str, words: str, types: tuple[Any, ...]) -> bytes:
-    """A function with kinds of arguments, and numba's types of them, which few need to read."""
-    return pickle.dumps((module, name, words, pickle.dumps(types)))
+def task_of(
+    module: str, name: str, words: str, types: tuple[Any, ...], later: bool = False
+) -> bytes:
+    """A function with kinds of arguments, numba's types of them, and whether it can wait."""
+    return pickle.dumps((module, name, words, pickle.dumps(types), later))

@@ -59,7 +59,7 @@ def _call(function: Any, context: Any, builder: Any, sig: Any, args: Any) -> Any
     conv, int64 = context.call_conv, ir.IntType(64)
     name = f"{function.__module__}.{function.name}"
     words = words_of_types(sig.args)
-    wanted = task_of(function.__module__, function.name, words, sig.args)
+    wanted = task_of(function.__module__, function.name, words, sig.args, function.later)
     if function.expected and not function.function.has(words):
         BESIDE.tell(title(function.__module__, function.name, words), wanted)
     place = cgutils.add_global_variable(builder.module, int64, f"address of {name}{sig.args}")

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import seldom
+from ssilang.kernel.base.compiled.apart import later
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import is_equal
@@ -152,7 +152,7 @@ def _correct(changes: Changes, place: IntArray, change: FloatArray, x: FloatArra
     return True
 
 
-@seldom
+@later
 @compiled
 def solve_changed(
     joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, lu: LU,

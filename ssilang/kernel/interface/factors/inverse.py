@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart, seldom
+from ssilang.kernel.base.compiled.apart import later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
@@ -88,7 +88,7 @@ def solve_small(A: FloatArray, X: FloatArray) -> bool:
     return True
 
 
-@apart
+@later
 @compiled_fast
 def update_point(
     pairs: IntArray, B: FloatArray, weight: float, D: FloatArray, known: FloatArray, Y: FloatArray,

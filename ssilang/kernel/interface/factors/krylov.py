@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import seldom
+from ssilang.kernel.base.compiled.apart import later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, copy_state, dot, is_equal
@@ -100,8 +100,8 @@ def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatAr
     for k in range(count - 1, -1, -1):
         if H[k, k] == 0.0:
             return False
-        for later in range(k + 1, count):
-            e[k] -= H[later, k] * e[later]
+        for after in range(k + 1, count):
+            e[k] -= H[after, k] * e[after]
         e[k] /= H[k, k]
         v = V[k]
         for i in range(len(x)):
@@ -109,7 +109,7 @@ def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatAr
     return True
 
 
-@seldom
+@later
 @compiled
 def solve_iterated(
     joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, lu: LU,
