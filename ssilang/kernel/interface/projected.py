@@ -23,7 +23,7 @@ from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors.inverse import solve_small
+from ssilang.kernel.interface.factors.inverse import VANISHING, solve_small
 from ssilang.kernel.interface.factors.kept import FORCING, Factors, solve_tangent
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import respond
@@ -132,7 +132,7 @@ def _tangents(joints: Joints, rho: FloatArray, D: FloatArray, F: FloatArray) -> 
                 if rho[i, j] < 1.0:
                     G[a, j] -= D[i, a, j] * (1.0 - rho[i, j]) / k
                 X[a, j] = D[i, a, j] * rho[i, j]
-        if not solve_small(G, X):
+        if not solve_small(G, X, VANISHING):
             return False
         for a in range(d):
             F[i, a] = X[a, d]

@@ -16,15 +16,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import later, seldom
+from ssilang.kernel.base.compiled.apart import apart, later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
-from ssilang.kernel.interface.factors.lu import LU, factorise
+from ssilang.kernel.interface.factors.lu import LU, factorise, newton_matrix
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 from ssilang.kernel.solvers.dense import solve_factors_together
 
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow
+PLAIN = 64  # jumps up to which Y is made by plain elimination
+NOTHING = 1e-15  # of the largest number: a pivot of a singular matrix
 VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is made anew
 
 
@@ -55,10 +57,11 @@ def _products(pairs: IntArray, B: FloatArray, Y: FloatArray, room: FloatArray) -
 
 
 @compiled_fast
-def solve_small(A: FloatArray, X: FloatArray) -> bool:
-    """A X = X in place, by elimination with row exchanges; False if a pivot nearly vanishes.
+def solve_small(A: FloatArray, X: FloatArray, least: float) -> bool:
+    """A X = X in place, by elimination with row exchanges.
 
-    A is (n, n), X (n, m); both are overwritten.
+    A is (n, n), X (n, m); both are overwritten. False if a pivot is below `least`, a share of the
+    largest number of A and of one.
     """
     n, m, top = len(A), X.shape[1], 1.0
     for i in range(n):
@@ -69,7 +72,7 @@ def solve_small(A: FloatArray, X: FloatArray) -> bool:
         for i in range(k + 1, n):
             if abs(A[i, k]) > abs(A[pivot, k]):
                 pivot = i
-        if not abs(A[pivot, k]) > VANISHING * top:
+        if not abs(A[pivot, k]) > least * top:
             return False
         for j in range(n):
             A[k, j], A[pivot, j] = A[pivot, j], A[k, j]
@@ -112,7 +115,7 @@ def update_point(
                 for b in range(B.shape[1]):
                     product += rows[k, pairs[b // d] * d + b % d] * B[j, b]
                 T[i, j] += E[i, k] * product
-    if not solve_small(T, E):
+    if not solve_small(T, E, VANISHING):
         return False
     for i in range(d):
         for j in range(d):
@@ -150,18 +153,40 @@ def update_inverse(
         if good:
             return True
     # else anew
-    lu = LU(np.empty((n, n)), np.empty(n, np.int64))
-    good = factorise(joints, condensed, D, lu)
+    if n <= PLAIN:
+        good = make_anew(joints, condensed, D, Y)
+    else:
+        good = make_by_blocks(joints, condensed, D, Y)
     for p in range(D.shape[0]):
         if good:
             copy_rows(D[p], known[p])
         else:
             known[p, 0, 0] = np.nan
     if good:
-        copy_rows(condensed.S, Y)
-        solve_factors_together(lu.A, lu.exchanges, Y)
         inverse.updates[0] = 0
     return good
+
+
+@apart
+@compiled
+def make_anew(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
+    """Y of the tangents D; False if there is none."""
+    A = np.empty(Y.shape)
+    newton_matrix(joints, condensed, D, A)
+    copy_rows(condensed.S, Y)
+    return solve_small(A, Y, NOTHING)
+
+
+@seldom
+@compiled
+def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
+    """As `make_anew`, by factors that read large matrices less often."""
+    lu = LU(np.empty(Y.shape), np.empty(len(Y), np.int64))
+    if not factorise(joints, condensed, D, lu):
+        return False
+    copy_rows(condensed.S, Y)
+    solve_factors_together(lu.A, lu.exchanges, Y)
+    return True
 
 
 @compiled_fast

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.copies import clear
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.solvers.dense import factorise_dense, multiply
 
@@ -42,18 +43,33 @@ def _add_point(
                         A[i, pairs[a] * d + j] += total * B[column, a * d + j]
 
 
+@seldom
+@compiled
+def _hold_less(S: FloatArray, R: FloatArray, A: FloatArray) -> None:
+    """A = -S R."""
+    multiply(S, R, A)
+    for i in range(len(A)):
+        for j in range(len(A)):
+            A[i, j] = -A[i, j]
+
+
+@compiled
+def newton_matrix(joints: Joints, condensed: Condensed, D: FloatArray, A: FloatArray) -> None:
+    """`A = 1 + S (c K - R)`, K of the tangents D."""
+    if len(condensed.R):
+        _hold_less(condensed.S, condensed.R, A)
+    else:
+        clear(A)
+    for i in range(len(A)):
+        A[i, i] += 1.0
+    for p in range(len(D)):
+        weight = condensed.c * joints.weights[p]
+        _add_point(joints.pairs[p], joints.B[p], D[p], weight, condensed.S, A)
+
+
 @apart
 @compiled
 def factorise(joints: Joints, condensed: Condensed, D: FloatArray, lu: LU) -> bool:
     """Factors of `1 + S (c K - R)`, K of the tangents D; False if it is singular."""
-    S, R, A = condensed.S, condensed.R, lu.A
-    if len(R):
-        multiply(S, R, A)
-    for i in range(len(A)):
-        for j in range(len(A)):
-            A[i, j] = -A[i, j] if len(R) else 0.0
-        A[i, i] += 1.0
-    for p in range(len(D)):
-        weight = condensed.c * joints.weights[p]
-        _add_point(joints.pairs[p], joints.B[p], D[p], weight, S, A)
-    return factorise_dense(A, lu.exchanges)
+    newton_matrix(joints, condensed, D, lu.A)
+    return factorise_dense(lu.A, lu.exchanges)

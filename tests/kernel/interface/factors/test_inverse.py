@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.factors.inverse import Inverse, apply_inverse, update_point
+from ssilang.kernel.interface.factors.inverse import (
+    PLAIN,
+    Inverse,
+    apply_inverse,
+    update_inverse,
+    update_point,
+)
 from ssilang.kernel.interface.response import Joints, interface_stiffness
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
@@ -54,6 +60,33 @@ def test_response_follows_points_that_change(d):
         apply_inverse(joints, condensed, D, inverse, solved)
         exact = np.linalg.solve(matrix(joints, condensed, D), x)
         np.testing.assert_allclose(solved, exact, atol=1e-10 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("n_pairs", [5, PLAIN // 2, PLAIN // 2 + 1, 60])
+@pytest.mark.parametrize("excess", [0.1, 0.0])
+def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
+    rng = np.random.default_rng(n_pairs)
+    joints, S, D = interface(rng, 2, n_pairs)
+    R = excess * np.eye(len(S)) if excess else np.zeros((0, 0))
+    inverse = Inverse(np.zeros_like(S), np.empty(len(S)), np.ones(1, np.int64))
+    known = np.full_like(D, np.nan)
+    assert update_inverse(joints, Condensed(S, R, SHARE), D, known, inverse)
+    truth = np.linalg.solve(matrix(joints, (S, excess * np.eye(len(S)), SHARE), D), S)
+    np.testing.assert_allclose(inverse.Y, truth, atol=1e-9 * np.abs(truth).max())
+    np.testing.assert_array_equal(known, D)
+    assert inverse.updates[0] == 0
+
+
+@pytest.mark.parametrize("n", [1, PLAIN + 1])
+def test_no_response_is_made_of_a_singular_matrix(n):
+    """S = 1, tangents of -1: `1 + S D` vanishes."""
+    pairs = np.arange(n, dtype=np.int64)[:, None]
+    joints = Joints(pairs, np.ones((n, 1, 1)), np.ones(n), np.zeros(n, np.int64), np.zeros((n, 1)))
+    inverse = Inverse(np.zeros((n, n)), np.empty(n), np.zeros(1, np.int64))
+    D, known = -np.ones((n, 1, 1)), np.full((n, 1, 1), np.nan)
+    condensed = Condensed(np.eye(n), np.zeros((0, 0)), 1.0)
+    assert not update_inverse(joints, condensed, D, known, inverse)
+    assert np.isnan(known).all()
 
 
 def test_response_from_factors_with_row_exchanges():
