@@ -381,7 +381,7 @@ class Taps:
         For rows that some track keeps as they are; others look at rows, or take what they want of
         them, so that their memory is soon free for the next.
     looked_at : bool
-        Whether anything but keeping is done with rows while the run goes on.
+        Whether rows are looked at while the run goes on, and nobody keeps them.
     """
 
     tracks: Sequence[Track]
@@ -405,7 +405,7 @@ class Taps:
             and np.count_nonzero(track.wanted) == rows
             and len(track.unknowns) == width
         ]  # they get the rows that the loop fills, and no copies
-        self.looked_at = any(track.wanted.any() for track in self.tracks if track not in kept)
+        self.looked_at = not kept and any(track.wanted.any() for track in self.tracks)
         if kept:
             self.room = Room(rows)
 

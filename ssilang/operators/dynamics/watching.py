@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
 
 if TYPE_CHECKING:
@@ -82,17 +83,18 @@ def joint_places(joints: Interface) -> FloatArray:
     return np.concatenate(found)
 
 
-@dataclass
-class UpliftWatch:
+@dataclass(eq=False)
+class UpliftWatch(Track):
     """Sees whether all joints have opened for good: weights with the wrong sign, most often.
 
     Attributes
     ----------
-    wanted : array (n_times,)
+    seen : list of (float, float)
+        Times and least openings since all joints were seen open.
     """
 
-    wanted: BoolArray
-    seen: list[tuple[float, float]] = field(default_factory=list)
+    seen: list[tuple[float, float]] = field(default_factory=list, init=False)
+    keeps: ClassVar[bool] = False
 
     @classmethod
     def of(cls, problem: Problem) -> UpliftWatch | None:
@@ -104,18 +106,23 @@ class UpliftWatch:
             return None
         wanted = np.zeros(n, bool)
         wanted[np.unique(np.linspace(0, n - 1, SAMPLES).round().astype(int))] = True
-        return cls(wanted)
+        return cls(wanted, np.zeros(0, np.int64))
 
     def receive(self, snapshot: Snapshot) -> None:
-        """Look at one instant."""
-        least = float(snapshot.w[:, -1].min())
-        if least <= 0.0 or snapshot.t.any() or (self.seen and least < self.seen[-1][1]):
+        """Look at one whole instant."""
+        self._look(snapshot.time, snapshot.w, snapshot.t)
+
+    def take(self, rows: Rows) -> None:
+        """Look at instants."""
+        for time, w, t in zip(rows.times.tolist(), rows.joints.w, rows.joints.t, strict=True):
+            self._look(time, w, t)
+
+    def _look(self, time: float, w: FloatArray, t: FloatArray) -> None:
+        least = float(w[:, -1].min())
+        if least <= 0.0 or t.any() or (self.seen and least < self.seen[-1][1]):
             self.seen.clear()
             return
-        self.seen.append((snapshot.time, least))
-
-    def close(self) -> None:
-        """Nothing is open."""
+        self.seen.append((time, least))
 
     def content(self) -> list[Any]:
         """What a checkpoint keeps."""

@@ -133,6 +133,7 @@ class InterleavedLoop:
             self.finish(block, given, kept, done)
             self.put(block, given, kept, r, first, done, seen)
             if first + done == steps or turns <= 0:
+                self.react(given[done])
                 self._compare(peaks, r.peaks)
             if turns <= 0:
                 return first + done, turns, residual
@@ -195,7 +196,11 @@ class InterleavedLoop:
         if done:
             m.energies[:] = history[-1]
         m.u[:], m.v[:], m.a[:] = self._unfolded(block, few.u, few.v, few.a, done)
-        m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors[done])
+
+    def react(self, factors: FloatArray) -> None:
+        """The reactions of the motion under the loads of its last step."""
+        m = self.motion
+        m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors)
 
     def _unfolded(
         self, block: PreparedBlock, u: FloatArray, v: FloatArray, a: FloatArray, k: int

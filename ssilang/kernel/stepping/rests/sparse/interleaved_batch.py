@@ -153,6 +153,7 @@ class BlockTask:
     def put(self, block: PreparedBlock, kept: Recorder, done: int) -> None:
         """Motion, energies and kept instants of a block of which some steps were done."""
         self.loop.finish(block, self.factors, kept, done)
+        self.loop.react(self.factors[done])
         self.loop.put(block, self.factors, kept, self.recorder, self.part.start, done, self.seen)
 
     def alone(self) -> Outcome:
