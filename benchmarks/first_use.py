@@ -6,7 +6,7 @@ Cases: `oscillator` (the deck club_b_sdm), `frame` (rocking_frame.py), `block` (
 uplift_openseespy.py); a deck is a file (`cases/*/*.ssi`). Each runs twice, each time in a process
 of its own, with a folder for compiled code that is empty the first time. The difference is printed,
 in seconds of a clock and of a processor: on a busy machine the first says little. Of decks with
-DYNAMIC it is also printed when the first step in time of the first run was done.
+PASAPAS or DYNAMIC it is also printed when the first step of each in the first run was done.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).parent
 RUN = "import first_use; first_use.run({!r})"
-TOLD = "first_step"  # file with the seconds after which the first step in time was done
+KINDS = ("first load step", "first step in time")  # files with the time at which each was done
 CASES = {
     "oscillator": RUN.format(str(HERE.parent / "cases" / "club_cast3m_2014" / "club_b_sdm.ssi")),
     "frame": "import pathlib, rocking_frame as r; r.ours(2000, 2000, pathlib.Path('.'))",
@@ -32,17 +33,34 @@ CASES = {
 def run(deck: str) -> None:
     """A deck from the command line; its first chunk of steps in time is one step."""
     from ssilang.cli.main import main as command
+    from ssilang.kernel.plasticity.run import BulkRun
+    from ssilang.kernel.statics import stepping
     from ssilang.kernel.stepping.run import Integration
 
-    within = Integration._within_memory
+    hand_over, within, save = stepping._hand_over, Integration._within_memory, BulkRun.save
+
+    def tell(kind: str) -> None:
+        if not Path(kind).exists():
+            Path(kind).write_text(str(time.time()), encoding="ascii")
+
+    def handed_over(observers: Any, problem: Any, motion: Any, step: int) -> None:
+        hand_over(observers, problem, motion, step)
+        if step > 0:
+            tell(KINDS[0])
+
+    def saved(bodies: BulkRun, step: int) -> None:
+        save(bodies, step)
+        if step > 0:
+            tell(KINDS[1] if bodies.problem.M.nnz else KINDS[0])
 
     def one_first(integration: Integration, first: int, last: int) -> int:
         if first == 0:
             return 1
-        if not Path(TOLD).exists():
-            Path(TOLD).write_text(str(time.time()), encoding="ascii")
+        tell(KINDS[1])
         return within(integration, first, last)
 
+    stepping._hand_over = handed_over
+    BulkRun.save = saved  # type: ignore[method-assign]
     Integration._within_memory = one_first  # type: ignore[method-assign]
     sys.exit(command([deck, "--out", "."]))
 
@@ -66,10 +84,11 @@ def main(names: list[str]) -> None:
         program = CASES.get(name) or RUN.format(str(Path(name).resolve()))
         with tempfile.TemporaryDirectory() as folder:
             begun = time.time()
-            first, told = times(program, folder), Path(folder, TOLD)
-            step = ""
-            if told.exists():
-                step = f" (first step in time {float(told.read_text('ascii')) - begun:.1f} s)"
+            first, step = times(program, folder), ""
+            for told in (Path(folder, kind) for kind in KINDS):
+                if told.exists():
+                    done = float(told.read_text("ascii")) - begun
+                    step += f" ({told.name} {done:.1f} s)"
             second = times(program, folder)
             n = sum(1 for _ in Path(folder).rglob("*.code"))
         print(

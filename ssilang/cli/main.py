@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from ssilang.cli.usage import COMMANDS, parser
 from ssilang.late_imports import lasting
@@ -71,6 +71,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         told = render(SsiError("interrupted", None), getattr(options, "lang", "en"))
         sys.stderr.write(told + "\n")
         return FAILED
+
+
+def program() -> NoReturn:
+    """The command: `main`, and the end of the process.
+
+    Its end would look for garbage in all that is left, a sixth of a small run.
+    """
+    code = main()
+    gc.freeze()
+    sys.exit(code)
 
 
 def _command_first(words: list[str]) -> list[str]:
@@ -393,4 +403,4 @@ _ACTIONS: dict[str, Callable[[argparse.Namespace], int]] = {
 }
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 from references.small_motions import OSCILLATOR
 
@@ -20,6 +23,22 @@ def test_a_failing_script_gives_exit_code_1_and_a_placed_message(process, script
     assert done.code == 1
     assert "deck.ssi:2:5" in done.err
     assert "Traceback" not in done.err
+
+
+@pytest.mark.parametrize(("text", "code"), [("x = 1 ;\n", 0), ("y = 1 / 0 ;\n", 1)])
+def test_the_process_ends_without_a_search_through_all_that_is_left(script, tmp_path, text, code):
+    program = (
+        "import atexit, gc, sys\n"
+        "from ssilang.cli.main import program\n"
+        f"sys.argv = ['ssilang', {script(text)!r}, '-q']\n"
+        "atexit.register(lambda: print('left to search:', len(gc.get_objects())))\n"
+        "program()\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == code, done.stderr
+    assert int(done.stdout.split(":")[1]) < 1000  # of more than a hundred thousand
 
 
 def test_debug_shows_the_traceback_too(ssilang, script):
