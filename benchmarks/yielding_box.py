@@ -10,7 +10,7 @@ sine at the base. The same quads, lumped masses, springs, loads and step (averag
 steps, and ends a step at 0.1 N out of balance.
 A ratio is printed only if the displacements of the tower's top agree within 1e-6 of the largest
 one at every step that both made. Times are processor times of the stepping loops, factorisation
-and assembly included; a run of two steps before loads the compiled code.
+and assembly included; a run of the same steps before loads the compiled code.
 """
 
 from __future__ import annotations
@@ -268,7 +268,7 @@ def compare(across: int, steps: int, peer_steps: int) -> None:
     case = make_case(across)
     made = make_model(make_case(across), peer_steps)
     size = made.problem.numbering.size
-    run_ssilang(case, 2)  # compiles
+    run_ssilang(case, steps)  # compiles
     own, seconds, told = run_ssilang(make_case(across), steps)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"{size} unknowns; ssilang {1e3 * seconds / steps:.1f} ms a step, {peak:.0f} MB: {told}")
