@@ -69,7 +69,10 @@ def workspace_at(works: Workspace, j: int) -> Workspace:
         Factors(
             x.tangents[j],
             LU(x.lu.A[j], x.lu.exchanges[j]),
-            Inverse(x.inverse.Y[j], x.inverse.room[j], x.inverse.updates[j]),
+            Inverse(
+                x.inverse.Y[j], x.inverse.room[j], x.inverse.updates[j], x.inverse.matrix[j],
+                x.inverse.rows[j], x.inverse.changes[j],
+            ),
             Changes(x.changes.Z[j], x.changes.row[j], x.changes.held[j]),
             Krylov(x.krylov.V[j], x.krylov.asked[j], x.krylov.spent[j]),
         ),

@@ -33,7 +33,7 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
 _LOCK = threading.RLock()  # one function is made ready at a time
 
 SCALARS = {"None", "bool", "int", "float", "tuple", "Quantity"}
-MAKERS = {"array", "copy", "dot", "empty", "full", "reshape", "sort", "zeros"}
+MAKERS = {"array", "copy", "dot", "empty", "full", "sort", "zeros"}
 """Types of results that are no arrays; names that bring arrays into a function."""
 
 
@@ -188,10 +188,10 @@ def counts(function: Callable[..., Any]) -> bool:
 
     A function without counts would never give back arrays that it gets from what it calls.
     """
-    names = set(function.__code__.co_names)
-    called = (getattr(function.__globals__.get(name), "py_func", None) for name in names)
-    own = MAKERS & names or _gives_arrays(function)
-    return bool(own) or any(_gives_arrays(f) for f in called if f is not None)
+    names, known = set(function.__code__.co_names), function.__globals__
+    called = {name for name in names if hasattr(known.get(name), "py_func")}
+    own = MAKERS & names - called or _gives_arrays(function)
+    return bool(own) or any(_gives_arrays(known[name].py_func) for name in called)
 
 
 def _gives_arrays(function: Callable[..., Any]) -> bool:

@@ -31,11 +31,38 @@ VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is
 
 
 class Inverse(NamedTuple):
-    """Y (q, q), room (q,), and how many points were changed (1,) since Y was made."""
+    """Y, and what is overwritten.
+
+    Attributes
+    ----------
+    Y : array (q, q)
+    room : array (q,)
+    updates : array (1,)
+        How many points were changed since Y was made.
+    matrix : array (q, q)
+        Newton's, of which Y is made by plain elimination; no rows where that is done by blocks.
+    rows : array (2, d, q)
+        `B Y` and `(Y B^T)^T` of one point.
+    changes : array (2, d, d)
+        Of one point's tangent, and the matrix of their solution.
+    """
 
     Y: FloatArray
     room: FloatArray
     updates: IntArray
+    matrix: FloatArray
+    rows: FloatArray
+    changes: FloatArray
+
+
+def inverse_of(Y: FloatArray, d: int) -> Inverse:
+    """Of points in d directions."""
+    q = len(Y)
+    m = q if q <= PLAIN else 0
+    return Inverse(
+        Y, np.zeros(q), np.zeros(1, np.int64), np.zeros((m, m)), np.zeros((2, d, q)),
+        np.zeros((2, d, d)),
+    )  # fmt: skip
 
 
 @compiled_fast
@@ -94,19 +121,19 @@ def solve_small(A: FloatArray, X: FloatArray, least: float) -> bool:
 @later
 @compiled_fast
 def update_point(
-    pairs: IntArray, B: FloatArray, weight: float, D: FloatArray, known: FloatArray, Y: FloatArray,
-    room: FloatArray,
+    pairs: IntArray, B: FloatArray, weight: float, D: FloatArray, known: FloatArray,
+    inverse: Inverse,
 ) -> bool:  # fmt: skip
     """Y after the tangent of a point went from `known` to D; `weight` holds c.
 
-    `room` is (2, d, q). False, and Y as it was, if the update is not safe.
+    False, and Y as it was, if the update is not safe.
     """
-    d, rows, columns = len(B), room[0], room[1]
-    E, T = np.zeros((d, d)), np.zeros((d, d))
+    d, rows, columns, Y = len(B), inverse.rows[0], inverse.rows[1], inverse.Y
+    E, T = inverse.changes[0], inverse.changes[1]
     for i in range(d):
         for j in range(d):
             E[i, j] = weight * (D[i, j] - known[i, j])
-    _products(pairs, B, Y, room)
+    _products(pairs, B, Y, inverse.rows)
     for i in range(d):
         for j in range(d):
             T[i, j] = 1.0 if i == j else 0.0
@@ -142,11 +169,11 @@ def update_inverse(
         return True
     # point by point, as long as that is cheaper and safe
     if known[0, 0, 0] == known[0, 0, 0] and 3 * d * changed <= 2 * n:
-        room, good = np.empty((2, d, n)), inverse.updates[0] + changed <= UPDATES
+        good = inverse.updates[0] + changed <= UPDATES
         for p in range(D.shape[0]):
             if good and not is_equal(D[p], known[p]):
                 weight = condensed.c * joints.weights[p]
-                good = update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], Y, room)
+                good = update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], inverse)
                 if good:
                     inverse.updates[0] += 1
                     copy_rows(D[p], known[p])
@@ -154,7 +181,7 @@ def update_inverse(
             return True
     # else anew
     if n <= PLAIN:
-        good = make_anew(joints, condensed, D, Y)
+        good = make_anew(joints, condensed, D, inverse)
     else:
         good = make_by_blocks(joints, condensed, D, Y)
     for p in range(D.shape[0]):
@@ -169,12 +196,11 @@ def update_inverse(
 
 @apart
 @compiled
-def make_anew(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
+def make_anew(joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse) -> bool:
     """Y of the tangents D; False if there is none."""
-    A = np.empty(Y.shape)
-    newton_matrix(joints, condensed, D, A)
-    copy_rows(condensed.S, Y)
-    return solve_small(A, Y, NOTHING)
+    newton_matrix(joints, condensed, D, inverse.matrix)
+    copy_rows(condensed.S, inverse.Y)
+    return solve_small(inverse.matrix, inverse.Y, NOTHING)
 
 
 @seldom

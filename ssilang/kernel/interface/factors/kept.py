@@ -26,7 +26,12 @@ from ssilang.kernel.interface.factors.changed import (
     forget_changes,
     solve_changed,
 )
-from ssilang.kernel.interface.factors.inverse import Inverse, apply_inverse, update_inverse
+from ssilang.kernel.interface.factors.inverse import (
+    Inverse,
+    apply_inverse,
+    inverse_of,
+    update_inverse,
+)
 from ssilang.kernel.interface.factors.krylov import Krylov, new_krylov, pays, solve_iterated
 from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
@@ -58,7 +63,7 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LAR
     return Factors(
         np.full((*shape, shape[1]), np.nan),
         LU(np.zeros((whole, whole)), np.zeros(whole, np.int64)),
-        Inverse(np.zeros((own, own)), np.zeros(own), np.zeros(1, np.int64)),
+        inverse_of(np.zeros((own, own)), shape[1]),
         Changes(
             np.zeros((changing // MOST_CHANGED, changing)),
             np.full(changing, -1, np.int64),

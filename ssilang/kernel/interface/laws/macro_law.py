@@ -156,6 +156,7 @@ def _share(w: FloatArray, p: FloatArray) -> tuple[float, float]:
     return far / (far + turned), far
 
 
+@seldom
 @compiled
 def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """The closed form over ground that yields at places (`bed_law`), which take off theirs.
@@ -189,17 +190,22 @@ def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: Floa
 @seldom
 @compiled
 def macro_energy(code: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
-    """Stored energy of a macro-element, without what its ground takes.
+    """Stored energy of a macro-element, without what its ground takes."""
+    half: float = 0.0
+    for i in range(w.shape[0]):
+        half += 0.5 * w[i] * t[i]
+    return half if p[Par.COHE] == 0.0 else _energy_over_places(code, w, p, half)
 
-    Over ground that yields `E_at + share (E - E_at)`, E_at that of the places and E that of the
-    closed form. By `_over_places`, `w.t/2 = E_at + share^2 (E - E_at)`, so that E alone is needed.
+
+@seldom
+@compiled
+def _energy_over_places(code: int, w: FloatArray, p: FloatArray, half: float) -> float:
+    """`macro_energy` over ground that yields, of `half = w.t/2`.
+
+    It is `E_at + share (E - E_at)`, E_at that of the places and E that of the closed form. By
+    `_over_places`, `w.t/2 = E_at + share^2 (E - E_at)`, so that E alone is needed.
     """
     d = w.shape[0]
-    half: float = 0.0
-    for i in range(d):
-        half += 0.5 * w[i] * t[i]
-    if p[Par.COHE] == 0.0:
-        return half
     exact, D = np.zeros(d), np.zeros((d, d))
     _elastic(code, w, p, exact, D)
     share, _ = _share(w, p)
@@ -227,6 +233,7 @@ def _plane(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray
     D[0, 0], D[0, 1], D[1, 0], D[1, 1] = k * Q, k * S, k * S, k * A
 
 
+@seldom
 @compiled
 def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """w = (theta_1, theta_2, v); the opening grows along a = (-theta_2, theta_1)."""
@@ -249,6 +256,7 @@ def _disc(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
             D[i, j] = k * Q * e_i * e_j + moment / theta * ((1.0 if i == j else 0.0) - e_i * e_j)
 
 
+@seldom
 @compiled
 def _rectangle(w: FloatArray, p: FloatArray, t: FloatArray, D: FloatArray) -> None:
     """w = (theta_1, theta_2, v); the opening is v + theta_1 s_2 - theta_2 s_1."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.base.memory import fits
 from ssilang.kernel.base.sparse import sp
@@ -21,6 +21,7 @@ from ssilang.kernel.solvers.dense import multiply, subtract_from
 
 WIDTH = 32
 BLAS_ROWS = 192  # rows of a front from which BLAS is called
+BLAS_NUMBERS = 4096  # of a panel from which BLAS is called
 BLOCK = 128  # columns of a front whose update of the rest is one product
 
 
@@ -259,17 +260,24 @@ def _diagonal_block(F: FloatArray, k0: int, k1: int, inverse: FloatArray) -> int
     return -1
 
 
+@later
+@compiled_fast
+def _panel_together(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) -> None:
+    """`_panel` by BLAS."""
+    right = np.empty(P.shape)
+    for a in range(P.shape[0]):
+        for i in range(P.shape[1]):
+            right[a, i] = F[k0 + a, k1 + i]
+    multiply(inverse, right, P)
+
+
 @apart
 @compiled_fast
 def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) -> None:
     """Rows below a factorised block: P = inverse F[k0:k1, k1:]."""
     w, m = P.shape
-    if w * m > 4096:
-        right = np.empty((w, m))
-        for a in range(w):
-            for i in range(m):
-                right[a, i] = F[k0 + a, k1 + i]
-        multiply(inverse, right, P)
+    if w * m > BLAS_NUMBERS:
+        _panel_together(F, k0, k1, inverse, P)
         return
     for a in range(w):
         p = P[a]
@@ -280,23 +288,31 @@ def _panel(F: FloatArray, k0: int, k1: int, inverse: FloatArray, P: FloatArray) 
                 p[i] += t * f[i]
 
 
+@later
+@compiled_fast
+def _update_together(F: FloatArray, k0: int, k1: int, limit: int) -> None:
+    """`_update` by BLAS."""
+    m = F.shape[0]
+    for j0 in range(k1, limit, BLOCK):
+        left = np.empty((min(BLOCK, limit - j0), k1 - k0))
+        right = np.empty((k1 - k0, m - j0))
+        for k in range(k0, k1):
+            for i in range(j0, m):
+                right[k - k0, i - j0] = F[k, i]
+            for i in range(left.shape[0]):
+                left[i, k - k0] = F[k, j0 + i]
+        product = np.empty((left.shape[0], right.shape[1]))
+        multiply(left, right, product)
+        subtract_from(F, product, j0, j0)
+
+
 @apart
 @compiled_fast
 def _update(F: FloatArray, k0: int, k1: int, limit: int) -> None:
     """F[j, i] -= sum_k F[k, j] F[k, i], k from k0 to k1, columns j to limit, rows i >= j."""
     m = F.shape[0]
     if m - k1 > BLAS_ROWS:
-        for j0 in range(k1, limit, BLOCK):
-            left = np.empty((min(BLOCK, limit - j0), k1 - k0))
-            right = np.empty((k1 - k0, m - j0))
-            for k in range(k0, k1):
-                for i in range(j0, m):
-                    right[k - k0, i - j0] = F[k, i]
-                for i in range(left.shape[0]):
-                    left[i, k - k0] = F[k, j0 + i]
-            product = np.empty((left.shape[0], right.shape[1]))
-            multiply(left, right, product)
-            subtract_from(F, product, j0, j0)
+        _update_together(F, k0, k1, limit)
         return
     for j in range(k1, limit):
         f = F[j, j:]

@@ -77,6 +77,16 @@ def rows_sum(A: FloatArray) -> float:
 
 
 @compiled
+def sum_of_square(A: FloatArray) -> float:
+    flat = A.reshape(6)
+    square, total = flat[2:6].reshape((2, 2)), 0.0
+    for i in range(2):
+        for j in range(2):
+            total += square[i, j]
+    return total + flat[0] + flat[1]
+
+
+@compiled
 def row_of(A: FloatArray, i: int) -> FloatArray:
     return A[i]
 
@@ -91,7 +101,7 @@ def sums_of_rows(A: FloatArray) -> FloatArray:
     return found
 
 
-@pytest.mark.parametrize("function", [rows_sum, sums_of_rows])
+@pytest.mark.parametrize("function", [rows_sum, sum_of_square, sums_of_rows])
 def test_arrays_that_compiled_code_has_seen_are_freed(function):
     A = np.arange(6.0).reshape(2, 3)
     before = sys.getrefcount(A)

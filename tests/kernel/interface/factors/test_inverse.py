@@ -6,8 +6,8 @@ import pytest
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
-    Inverse,
     apply_inverse,
+    inverse_of,
     update_inverse,
     update_point,
 )
@@ -43,15 +43,14 @@ def test_response_follows_points_that_change(d):
     joints, S, D = interface(rng, d)
     condensed = Condensed(S, 0.1 * np.eye(len(S)), SHARE)
     Y = np.linalg.solve(matrix(joints, condensed, D), S)
-    inverse = Inverse(Y, np.empty(len(S)), np.zeros(1, np.int64))
-    room = np.empty((2, d, len(S)))
+    inverse = inverse_of(Y, d)
     for turn in range(40):
         p, new = turn % len(D), D.copy()
         new[p] = 0.0 if turn % 3 == 0 else 2.5 * np.eye(d) + 0.2 * rng.normal(size=(d, d))
         if turn % 3 == 1:
             new[p, 0, 0] = 0.0  # slides: a change of lower rank
         weight = SHARE * joints.weights[p]
-        assert update_point(joints.pairs[p], joints.B[p], weight, new[p], D[p], Y, room)
+        assert update_point(joints.pairs[p], joints.B[p], weight, new[p], D[p], inverse)
         D = new
         truth = np.linalg.solve(matrix(joints, condensed, D), S)
         np.testing.assert_allclose(Y, truth, atol=1e-10 * np.abs(truth).max())
@@ -68,7 +67,8 @@ def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     rng = np.random.default_rng(n_pairs)
     joints, S, D = interface(rng, 2, n_pairs)
     R = excess * np.eye(len(S)) if excess else np.zeros((0, 0))
-    inverse = Inverse(np.zeros_like(S), np.empty(len(S)), np.ones(1, np.int64))
+    inverse = inverse_of(np.zeros_like(S), 2)
+    inverse.updates[0] = 1
     known = np.full_like(D, np.nan)
     assert update_inverse(joints, Condensed(S, R, SHARE), D, known, inverse)
     truth = np.linalg.solve(matrix(joints, (S, excess * np.eye(len(S)), SHARE), D), S)
@@ -82,7 +82,7 @@ def test_no_response_is_made_of_a_singular_matrix(n):
     """S = 1, tangents of -1: `1 + S D` vanishes."""
     pairs = np.arange(n, dtype=np.int64)[:, None]
     joints = Joints(pairs, np.ones((n, 1, 1)), np.ones(n), np.zeros(n, np.int64), np.zeros((n, 1)))
-    inverse = Inverse(np.zeros((n, n)), np.empty(n), np.zeros(1, np.int64))
+    inverse = inverse_of(np.zeros((n, n)), 1)
     D, known = -np.ones((n, 1, 1)), np.full((n, 1, 1), np.nan)
     condensed = Condensed(np.eye(n), np.zeros((0, 0)), 1.0)
     assert not update_inverse(joints, condensed, D, known, inverse)
@@ -103,6 +103,6 @@ def test_response_from_factors_with_row_exchanges():
 def test_change_that_makes_the_interface_singular_is_refused():
     """One jump, S = 1: a tangent of -1 makes `1 + S D` vanish; Y stays as it was."""
     pairs, one = np.zeros((1, 1), np.int64), np.ones((1, 1))
-    Y, room = one.copy(), np.empty((2, 1, 1))
-    assert not update_point(pairs[0], one, 1.0, -one, 0.0 * one, Y, room)
-    assert Y[0, 0] == 1.0
+    inverse = inverse_of(one.copy(), 1)
+    assert not update_point(pairs[0], one, 1.0, -one, 0.0 * one, inverse)
+    assert inverse.Y[0, 0] == 1.0

@@ -339,7 +339,8 @@ def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:
 def way_ahead(problem: Problem) -> str:
     """The way that a problem with still supports steps on its modes, before they are known."""
     joints, free = joints_of(problem), problem.constraints.T.shape[1]
-    if len(joints.pairs) <= 1 and free <= LINE_MODES:
+    sdm = bool((joints.codes == LawCode.SDM).all())
+    if len(joints.pairs) <= 1 and sdm and free <= LINE_MODES:
         return "one_spring" if free > 1 else "one_mode"
     pushes = len(joints.pairs) and has_no_shear(joints) and only_pushes(joints, problem.state)
     return "springs" if pushes else "modes"

@@ -305,7 +305,7 @@ def settle_interface(
     condensed = Condensed(plan.S, plan.R, plan.newmark.end)
     turns, residual = solve_interface(joints, condensed, now, newton)
     if turns > 0:
-        released = np.empty(q)
+        released = trial.dy
         for i in range(q):
             released[i] = flow.f[i] - trial.f[i]
         for i in range(end - begin):
