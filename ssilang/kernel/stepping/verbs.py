@@ -29,7 +29,7 @@ def _keep_joints(x: Motion, to: Recorder | Tap, row: int) -> None:
         copy_state(x.contact, to.contact[row])
 
 
-@apart
+@later
 @compiled
 def keep(x: Motion, to: Recorder, row: int) -> None:
     """The present state into a row of those of its parts that are kept."""

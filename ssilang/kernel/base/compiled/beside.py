@@ -66,6 +66,7 @@ class Beside:
         self._told: set[str] = set()
         self._own: set[str] = set()  # taken by this process
         self._rooms: set[str] = set()  # told of
+        self._needed: list[Task] = []  # told of, in the order of need, by now perhaps taken
         self._process: subprocess.Popen[bytes] | None = None
         self._claims: Path | None = None
 
@@ -80,6 +81,7 @@ class Beside:
         self._start()
         process = self._process
         if process is not None and process.stdin is not None:
+            self._needed.append((name, task))
             try:
                 parts = name.encode(), task
                 heads = (len(part).to_bytes(LENGTH, "little") for part in parts)
@@ -109,7 +111,7 @@ class Beside:
         if self._claims is None or name in self._own:
             yield True
             return
-        place = self._claims / digest(name)
+        place = self._place(name)
         done = place.with_suffix(".done")
         try:
             place.touch(exist_ok=False)
@@ -128,9 +130,22 @@ class Beside:
                 with suppress(OSError):
                     done.touch()
 
+    def _place(self, name: str) -> Path:
+        """The file that who compiles a function makes."""
+        assert self._claims is not None
+        return self._claims / digest(name)
+
     def _wait(self, done: Path) -> None:
+        """Until the other process has compiled a function: others that it has not begun with."""
         while self._process is not None and self._process.poll() is None and not done.exists():
-            time.sleep(POLL)
+            while self._needed:
+                name, task = self._needed.pop(0)
+                *told, is_later = pickle.loads(task)
+                if not is_later and not self._place(name).exists():
+                    _make(*told)
+                    break
+            else:
+                time.sleep(POLL)
 
     def _start(self) -> None:
         """Start the other process, once, where it is allowed; without it all goes as before."""
@@ -179,13 +194,11 @@ class Beside:
             if not waiting:
                 time.sleep(POLL)
                 continue
-            module, name, words, types, _ = pickle.loads(waiting.pop()[1])
+            *told, _ = pickle.loads(waiting.pop()[1])
             self.found = []
-            with suppress(Exception):  # the run will tell
-                function = getattr(importlib.import_module(module), name)
-                function.ready(words, partial(pickle.loads, types))
-            for told in reversed(self.found):
-                _put(told, waiting)
+            _make(*told)
+            for found in reversed(self.found):
+                _put(found, waiting)
 
     def _read(self, tasks: IO[bytes], waiting: list[Task]) -> None:
         while heads := tasks.read(2 * LENGTH):
@@ -195,6 +208,13 @@ class Beside:
         if self._claims is not None:
             shutil.rmtree(self._claims, ignore_errors=True)
         os._exit(0)
+
+
+def _make(module: str, name: str, words: str, types: bytes) -> None:
+    """Compile a function, unless it is already."""
+    with suppress(Exception):  # whoever calls it will tell
+        function = getattr(importlib.import_module(module), name)
+        function.ready(words, partial(pickle.loads, types))
 
 
 def _put(told: Task, waiting: list[Task]) -> None:

@@ -27,6 +27,7 @@ from ssilang.kernel.interface.factors.changed import (
     solve_changed,
 )
 from ssilang.kernel.interface.factors.inverse import (
+    PLAIN,
     Inverse,
     apply_inverse,
     inverse_of,
@@ -59,7 +60,7 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LAR
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
     own = q if q <= few else 0  # of an inverse
     whole, changing = q - own, q if own == 0 and q >= large else 0
-    tell_more("inverse" if own else "iterated")
+    tell_more("iterated" if own == 0 else "inverse" if own <= PLAIN else "blocks")
     return Factors(
         np.full((*shape, shape[1]), np.nan),
         LU(np.zeros((whole, whole)), np.zeros(whole, np.int64)),

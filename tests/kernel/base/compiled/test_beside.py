@@ -9,26 +9,39 @@ import pickle
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numba.core import types
 
 import ssilang
 from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
 from ssilang.kernel.base.compiled.apart import apart, seldom
-from ssilang.kernel.base.compiled.beside import Beside, tasks_ahead, title
+from ssilang.kernel.base.compiled.beside import Beside, task_of, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.factors.kept import new_factors
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.stepping.choose import room_ahead
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.run import Integration, integrate
 from tests.kernel.stepping.rests.modal.test_one_mode import SPRINGS, both
+from tests.kernel.stepping.test_track import bouncing
 from tests.references.rocking_beam import rocking
 from tests.references.soil_block import soil_block
 
-ROOMS = ["interface", "inverse", "iterated", "solvers.cholesky", "sparse", "modes", "springs"]
-ROOMS += ["one_mode", "one_spring", "dense", "relations"]
+ROOMS = [
+    "interface",
+    "inverse",
+    "blocks",
+    "iterated",
+    "solvers.cholesky",
+    "sparse",
+    "modes",
+    "springs",
+]
+ROOMS += ["springs", "one_mode", "one_spring", "dense", "relations"]
 CASES = Path(__file__).parents[4] / "cases"
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
@@ -94,6 +107,26 @@ def test_each_function_is_compiled_by_one_of_the_two(tmp_path):
         assert mine
     with run.taking("f(float)") as mine:  # once more, another of the same name: no waiting
         assert mine
+
+
+@apart
+@compiled
+def third(x: float) -> float:
+    return x / 3.0
+
+
+@pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
+def test_a_run_that_waits_compiles_what_it_needs_and_nobody_has_begun(tmp_path, monkeypatch):
+    run, other = pair(tmp_path, turns=3)
+    made = []
+    monkeypatch.setattr(beside, "_make", lambda module, name, *kind: made.append(name))
+    names = {f: title(f.__module__, f.name, "float64") for f in (half, twice, third)}
+    for function, name in names.items():
+        task = task_of(function.__module__, function.name, "float64", (), function is third)
+        run._needed.append((name, task))
+    with other.taking("f(int)"), other.taking(names[half]), run.taking("f(int)") as mine:
+        assert not mine
+    assert made == ["twice"]  # the other has begun with `half`, `third` can wait
 
 
 def test_what_the_other_fails_to_compile_is_not_waited_for(tmp_path):
@@ -209,6 +242,7 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
     """Else the other process compiles in vain: correct `ahead.toml`."""
     for make in PROBLEMS.values():
         integrate(make())
+    integrate(soil_block(steps=2, size=(36, 2, 34)))  # many jumps
     both(Scheme(), SPRINGS["no tension"], 5, 1e-3)  # a mode, and a few, on a spring
     ssilang.run(CASES / "published" / "rocking_block.ssi")  # relations
     tasks = [pickle.loads(task) for room in ROOMS for _, task in tasks_ahead(room)]
@@ -234,6 +268,15 @@ def test_the_loop_of_a_problem_is_foreseen(room):
     assert rule == {"sparse": "dissection"}.get(room, room)
 
 
+def test_a_macro_element_is_no_spring():
+    problem = bouncing(feet=1)
+    assert room_ahead(problem) == "one_mode"
+    points = problem.interface.points
+    points = points._replace(codes=np.full_like(points.codes, LawCode.STRIP))
+    footing = replace(problem, interface=replace(problem.interface, points=points))
+    assert room_ahead(footing) == "modes"
+
+
 def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     told, run = [], Beside()
     monkeypatch.setattr(beside, "ALLOWED", set())
@@ -250,7 +293,7 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
 
 @pytest.mark.parametrize(
     ("jumps", "rooms"),
-    [(100, ["inverse"]), (200, ["iterated"]), (400, ["iterated"])],
+    [(60, ["inverse"]), (100, ["blocks"]), (200, ["iterated"]), (400, ["iterated"])],
 )
 def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatch, jumps, rooms):
     entered = []
