@@ -9,7 +9,6 @@ import pickle
 import subprocess
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +24,7 @@ from ssilang.kernel.interface.factors.kept import new_factors
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.stepping.choose import room_ahead
 from ssilang.kernel.stepping.newmark import Scheme
+from ssilang.kernel.stepping.rests.modal import modes
 from ssilang.kernel.stepping.run import Integration, integrate
 from tests.kernel.stepping.rests.modal.test_one_mode import SPRINGS, both
 from tests.kernel.stepping.test_track import bouncing
@@ -268,13 +268,13 @@ def test_the_loop_of_a_problem_is_foreseen(room):
     assert rule == {"sparse": "dissection"}.get(room, room)
 
 
-def test_a_macro_element_is_no_spring():
+def test_a_macro_element_is_no_spring(monkeypatch):
     problem = bouncing(feet=1)
     assert room_ahead(problem) == "one_mode"
     points = problem.interface.points
     points = points._replace(codes=np.full_like(points.codes, LawCode.STRIP))
-    footing = replace(problem, interface=replace(problem.interface, points=points))
-    assert room_ahead(footing) == "modes"
+    monkeypatch.setattr(modes, "joints_of", lambda problem: points)
+    assert room_ahead(problem) == "modes"
 
 
 def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
