@@ -16,11 +16,13 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
+from ssilang.kernel.stepping.problem.rayleigh import split_damping
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.iterated import (
     IteratedSolver,
@@ -126,11 +128,20 @@ def room_ahead(problem: Problem) -> str:
         return "relations"
     if not problem.small:
         return "sparse"
-    if not _supports_are_still(problem):
+    if not _supports_are_still(problem) or _has_dashpots(problem):
         return "dense"
     from ssilang.kernel.stepping.rests.modal.modes import way_ahead
 
     return way_ahead(problem)
+
+
+def _has_dashpots(problem: Problem) -> bool:
+    """Whether damping is no combination of mass and stiffness: it is not diagonal in modes then."""
+    T = problem.constraints.T
+    if problem.C.nnz == 0 or T.shape[1] < 2:
+        return False
+    C, M, K = (sp.csr_array(T.T @ A @ T) for A in (problem.C, problem.M, problem.K))
+    return split_damping(C, M, K)[2].nnz > 0
 
 
 def _adaptive(case: Case) -> Loop:

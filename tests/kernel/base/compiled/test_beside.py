@@ -260,12 +260,16 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
     }
 
 
-@pytest.mark.parametrize("room", PROBLEMS)
-def test_the_loop_of_a_problem_is_foreseen(room):
-    problem = PROBLEMS[room]()
+LOOPS = [(room, PROBLEMS[room], {"sparse": "dissection"}.get(room, room)) for room in PROBLEMS]
+LOOPS.append(("dense", lambda: bouncing(dashpot=True), "still supports"))
+
+
+@pytest.mark.parametrize(("room", "problem", "name"), LOOPS, ids=[made[2] for made in LOOPS])
+def test_the_loop_of_a_problem_is_foreseen(room, problem, name):
+    problem = problem()
     assert room_ahead(problem) == room
-    rule = Integration(problem)._choice(problem.times[1] - problem.times[0]).rule.name
-    assert rule == {"sparse": "dissection"}.get(room, room)
+    rule = Integration(problem)._choice(problem.times[1] - problem.times[0]).rule
+    assert rule.name == name
 
 
 def test_a_macro_element_is_no_spring(monkeypatch):
