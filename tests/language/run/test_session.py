@@ -63,7 +63,6 @@ def test_a_reader_who_left_ends_the_run(tell):
         "t = TABL ; t . 1 = PROG 1. ; y = (t . 1) * 2. ;",  # an entry that is none
         "t = PROG 1. 2. ; x = 1 ; REPE B 1 ; y = 1. + (x / 0) ; FIN B ;",
         "ET = 3 ; y = VRAI ET FAUX ;",  # a variable that hides an operator
-        "OPTI DIME 2 ; d = DROI 2 (0. 0.) (1. 0.) ; TRAC d ; DESS (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;",
         "x = TEXT 'a' ; MESS x y ; ERRE 'no' ;",
         "DEBP P a*'ENTIER' ; SI (a EGA 0) ; y = a / 0 ; FINS ; FINP (a - 1) ; x = P (P 1) ;",
     ],
