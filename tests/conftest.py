@@ -57,7 +57,7 @@ class _Memory:
     A script's objects are few and their arrays are large, while Python counts objects alone.
     """
 
-    ROOM = 200e6
+    ROOM = 400e6
 
     def __init__(self) -> None:
         self.least = self.resident()
