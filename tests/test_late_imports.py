@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from ssilang.late_imports import SELDOM, lasting
+from ssilang.late_imports import SELDOM
 
 
 def told(code):
