@@ -123,6 +123,11 @@ def _as_object(value: Any) -> Any:
     return Mot(value) if isinstance(value, str) else value
 
 
+def allow_nesting(depth: int) -> None:
+    """Let functions walk trees of blocks and parentheses nested some dozen times as deep."""
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * depth + 2000))
+
+
 def execute(session: Session, source: Source) -> None:
     """Parse and run a source in a session.
 
@@ -131,8 +136,7 @@ def execute(session: Session, source: Source) -> None:
     SsiError, SeveralErrors
         What is wrong in the script.
     """
-    # before anything walks the tree: blocks may be nested deep
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
+    allow_nesting(session.limits.recursion)  # before anything walks the tree
     script = session.evaluator.guarded(lambda: parse(source), None, source.name)
     try:
         session.assignments = first_assignments(script.body)

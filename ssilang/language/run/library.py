@@ -66,6 +66,11 @@ class Library:
             self._declared[name] = read_declaration(name) if known else None
         return self._declared[name]
 
+    def is_own(self, name: str) -> bool:
+        """Whether the standard library has a procedure that scripts are not meant to replace."""
+        declared = self.declared(name)
+        return name in self._standard and (declared is None or not declared.replaceable)
+
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""
         if name in self._loaded:
