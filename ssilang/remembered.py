@@ -1,4 +1,4 @@
-"""What takes long to find out and is the same at each start, kept in the user's cache folder."""
+"""What takes long to find out and is the same at each start, kept in a private folder."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 from zlib import crc32
 
 from ssilang import __version__
+from ssilang.private import first_private, places
 
 _PACKAGE = str(Path(__file__).parent)
 
@@ -29,27 +30,22 @@ def remembered(name: str, state: str, make: Callable[[], Any]) -> Any:
         Gives what JSON can hold: lists, strings and numbers.
     """
     state = f"{__version__} {sys.version} {state}"
-    path = _folder() / f"{name}-{crc32(_PACKAGE.encode()):08x}.json"
+    folder = first_private(*places("started"))
+    path = folder and folder / f"{name}-{crc32(_PACKAGE.encode()):08x}.json"
     with suppress(OSError, ValueError):  # missing, damaged, or of another state
-        total, _, text = path.read_text(encoding="utf-8").partition("\n")
-        if int(total) == crc32(text.encode()):
-            kept_state, data = json.loads(text)
-            if kept_state == state:
-                return data
+        kept_state, data = json.loads(path.read_text(encoding="utf-8") if path else "")
+        if kept_state == state:
+            return data
     text = json.dumps([state, make()], separators=(",", ":"))
-    _keep(path, f"{crc32(text.encode())}\n{text}")
+    if path:
+        _keep(path, text)
     return json.loads(text)[1]  # as it will be read: tuples are lists
 
 
-def _folder() -> Path:
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return Path(home) / "ssilang"
-
-
 def _keep(path: Path, text: str) -> None:
-    """Write the file whole or not at all; without a writable folder it is made each time."""
+    """Write the file whole or not at all; where that fails it is made each time."""
     part = path.with_suffix(f".{os.getpid()}")
     with suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        part.write_text(text, encoding="utf-8")
+        with open(part, "x", encoding="utf-8") as stream:
+            stream.write(text)
         part.replace(path)

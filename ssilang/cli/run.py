@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from ssilang import private
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.colour import coloured
 from ssilang.cli.terminal.loop_progress import follow_loops
@@ -227,7 +228,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     except ReaderLeft:
         errors = [SsiError("reader-left", session.evaluator.current_span)]
     _end_petsc(session)
-    _tell_refused_code(session)
+    _tell_refused_folders(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         _end_recording(session, errors)
@@ -363,14 +364,12 @@ def _flush(out: TextIO, errors: list[SsiError]) -> None:
         errors.append(unprinted(problem))
 
 
-def _tell_refused_code(session: Session) -> None:
-    """Warn of folders of compiled code that others could have written to, once a process."""
-    kept = sys.modules.get("ssilang.kernel.base.compiled.cache")  # a run may have compiled nothing
-    refused = [] if kept is None else kept.REFUSED
-    while refused:
-        folder, fault = refused.pop(0)
+def _tell_refused_folders(session: Session) -> None:
+    """Warn of folders of what is kept that others could have written to, once a process."""
+    while private.REFUSED:
+        folder, fault = private.REFUSED.pop(0)
         told = {"folder": str(folder), "fault": str(fault)}
-        warning = SsiError("cli.compiled-code-refused", None, **told)
+        warning = SsiError("cli.kept-folder-refused", None, **told)
         warning.warns = True
         with suppress(ReaderLeft):  # it is in the summary
             session.report(warning)

@@ -72,11 +72,11 @@ MESSAGES: dict[str, Message] = {
         "go to a folder that is there (cd)",
         "allez dans un dossier qui existe (cd)",
     ),
-    "compiled-code-refused": Message(
-        "others could have put code into {folder}: none is read from there or kept, this run "
-        "compiles anew",
-        "d'autres ont pu mettre du code dans {folder} : rien n'y est lu ni conservé, ce calcul "
-        "compile à nouveau",
+    "kept-folder-refused": Message(
+        "others could have put code or words into {folder}: nothing is read from there or kept, "
+        "this run makes them anew",
+        "d'autres ont pu mettre du code ou des mots dans {folder} : rien n'y est lu ni conservé, "
+        "ce calcul les refait",
         "{fault} must belong to you, be no link, and not let others write (chmod 700)",
         "{fault} doit vous appartenir, ne pas être un lien et ne pas laisser écrire les autres "
         "(chmod 700)",

@@ -38,6 +38,17 @@ def test_templates(template, data, language, told):
     assert filled(template, data, language) == told
 
 
+@pytest.mark.parametrize("spec", ["{x:.3g}", "{x:g}", "{xs:.2g}", "{xs:words .3g}"])
+@pytest.mark.parametrize("value", [4.905e-8, 0.125, 2.5, 1e300, 0.0, -1.5e-5])
+def test_no_digit_that_is_told_hangs_on_rounding(spec, value):
+    """Half an ulp up or down, and a thousand of them, make the same text."""
+    said = {
+        filled(spec, {"x": x, "xs": [x]}, "en")
+        for x in (value, *(value * (1.0 + k * 2.0**-53) for k in (-2000, -2, 2, 2000)))
+    }
+    assert len(said) == 1
+
+
 def test_an_error_inside_of_another_is_told_in_the_language_asked_for():
     inner = Sentence("recursion", limit=3)
     assert filled("at 2: {problem}", {"problem": inner}, "en").startswith("at 2: procedures call")

@@ -7,11 +7,12 @@ height as unit, so that coordinates of any size are drawn alike.
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 
 from ssilang.io.errors import NoGraphicsError
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.remembered import remembered
 
 Inks = NDArray[np.float64]  # (n, 4) red green blue opacity
 
@@ -247,41 +249,85 @@ def _window_kind() -> str:
     """
     try:
         import pyvista  # noqa: F401
-        from vtkmodules import vtkRenderingOpenGL2
-        from vtkmodules.vtkCommonCore import vtkLogger
     except ImportError as problem:  # a library that its wheels want of the system
         raise NoGraphicsError("io.no-drawing-in-space", reason=str(problem)) from problem
     if not sys.platform.startswith("linux") or _CHOSEN in os.environ:
         return ""
-    before = vtkLogger.GetCurrentVerbosityCutoff()
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-    try:
-        for kind in _window_kinds():
-            if getattr(vtkRenderingOpenGL2, kind)().SupportsOpenGL():
-                return kind
-    finally:
-        vtkLogger.SetStderrVerbosity(before)
-    raise NoGraphicsError("io.no-drawing-in-space", reason="libEGL, libOSMesa")
+    return str(remembered("graphics", _graphics(), _drawing_kind))
 
 
-def _window_kinds() -> list[str]:
-    """Kinds of windows to try: a graphics card or Mesa by EGL, Mesa alone, the screen's."""
-    kinds = ["vtkEGLRenderWindow"]
-    if _has_library("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
-        kinds.append("vtkOSOpenGLRenderWindow")
-    if os.environ.get("DISPLAY") and _has_library("libGL.so.1"):
-        kinds.append("vtkXOpenGLRenderWindow")
-    return kinds
+# Draws a window of one kind and looks at it: where libraries are missing, VTK dies of it
+_PROBE = """
+import sys
+from vtkmodules import vtkRenderingOpenGL2
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkRenderingCore import vtkRenderer
+window = getattr(vtkRenderingOpenGL2, sys.argv[1])()
+if not window.SupportsOpenGL():
+    sys.exit(1)
+window.SetOffScreenRendering(1)
+window.SetSize(8, 8)
+white = vtkRenderer()
+white.SetBackground(1, 1, 1)
+window.AddRenderer(white)
+window.Render()
+seen = vtkUnsignedCharArray()
+window.GetPixelData(0, 0, 7, 7, 0, seen, 0)
+sys.exit(seen.GetTuple3(0) != (255, 255, 255))
+"""
+_DRIVERS = "/usr/share/glvnd/egl_vendor.d"  # who draws for libEGL
+_SECONDS = 60.0  # that a window may take to open
+_KINDS = {
+    "vtkEGLRenderWindow": ("libEGL.so.1",),
+    "vtkOSOpenGLRenderWindow": ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"),
+    "vtkXOpenGLRenderWindow": ("libGL.so.1",),
+}
+"""Kinds of windows and what they draw with: a card or Mesa by EGL, Mesa alone, the screen's."""
 
 
-def _has_library(*names: str) -> bool:
+def _drawing_kind() -> str:
+    """The first kind of window that draws in a process of its own; none is not remembered."""
+    for kind, libraries in _KINDS.items():
+        if any(map(_library, libraries)) and (kind != "vtkXOpenGLRenderWindow" or _has_screen()):
+            command = [sys.executable, "-P", "-c", _PROBE, kind]
+            with suppress(OSError, subprocess.TimeoutExpired):
+                if not subprocess.run(
+                    command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_SECONDS,
+                    check=False,
+                ).returncode:  # fmt: skip
+                    return kind
+    raise NoGraphicsError("io.no-drawing-in-space", reason="libEGL, libOSMesa, libGL")
+
+
+def _graphics() -> str:
+    """What decides which windows draw: VTK's version, the system's libraries, the screen."""
+    from vtkmodules.vtkCommonCore import vtkVersion
+
+    found = [_library(name) for libraries in _KINDS.values() for name in libraries]
+    with suppress(OSError):
+        found += sorted(os.listdir(_DRIVERS))
+    return f"{vtkVersion.GetVTKVersion()} {_has_screen()} {found}"
+
+
+def _has_screen() -> bool:
+    return bool(os.environ.get("DISPLAY"))
+
+
+@cache
+def _library(name: str) -> str:
+    """A library of the system: its file, size and time, '' if there is none."""
     from ctypes import CDLL
 
-    for name in names:
-        with suppress(OSError):
-            CDLL(name)
-            return True
-    return False
+    try:
+        CDLL(name)
+        with open("/proc/self/maps", encoding="utf-8") as maps:
+            path = next(line.split()[-1] for line in maps if f"/{name}" in line)
+        found = os.stat(path)
+    except StopIteration:
+        return name
+    except OSError:
+        return ""
+    return f"{path} {found.st_size} {found.st_mtime_ns}"
 
 
 def _near_and_far(plotter: Any) -> tuple[float, float]:

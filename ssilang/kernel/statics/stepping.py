@@ -313,12 +313,10 @@ def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> 
         return _ground_gives_way(problem, joints, motion, step)
     if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
-        open_points = int((motion.w[:, -1] > 0).sum())
         return ConvergenceError(
             "kernel.statics.no-equilibrium-full-uplift",
             step=step,
             time=problem.times[step],
-            open_points=open_points,
             n_points=joints.n_points,
             node=problem.numbering.table.told(node),
         )

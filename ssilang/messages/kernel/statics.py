@@ -227,11 +227,11 @@ MESSAGES: dict[str, Message] = {
         "dynamique",
     ),
     "no-equilibrium-full-uplift": Message(
-        "load step {step}, time {time:g}: no equilibrium, full uplift: {open_points} of "
-        "{n_points} joint points are open and nothing else holds the body at node {node}",
-        "pas de charge {step}, temps {time:g} : pas d'équilibre, décollement total : "
-        "{open_points} des {n_points} points de joint sont ouverts et rien d'autre ne tient "
-        "le corps au noeud {node}",
+        "load step {step}, time {time:g}: no equilibrium, full uplift: no joint point of "
+        "{n_points} is pressed and nothing else holds the body at node {node}",
+        "pas de charge {step}, temps {time:g} : pas d'équilibre, décollement total : aucun "
+        "des {n_points} points de joint n'est pressé et rien d'autre ne tient le corps au "
+        "noeud {node}",
         "less eccentric loads, a support, or a dynamic calculation; if the loads press, the "
         "joint's sides are swapped",
         "un chargement moins excentré, un appui, ou un calcul dynamique ; si le chargement "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from ssilang.cli.run import run_text
+from ssilang.io.errors import NoGraphicsError
 from ssilang.io.plots import stage as stages
 from ssilang.io.plots.figure import drawing, figure_bytes
 from ssilang.io.plots.layers import Layer, PictureOptions
@@ -192,26 +194,76 @@ SOLID = (
 )
 
 
-@pytest.mark.parametrize("missing", ["window", "library"])
-def test_a_system_that_cannot_draw_keeps_the_run(
-    missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import sys
+DIES = "import os; os.abort()"
 
-    if missing == "window":
-        monkeypatch.setattr(stages, "_window_kinds", list)
-    else:  # as where a wheel finds no libXrender
-        monkeypatch.setitem(sys.modules, "pyvista", None)
+
+@pytest.fixture
+def unknown_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A system whose windows nobody has tried yet; the folder that remembers them."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
     stages._window_kind.cache_clear()
-    said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path)
+    yield tmp_path / "caches" / "ssilang" / "started"
     stages._window_kind.cache_clear()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere VTK chooses")
+@pytest.mark.parametrize(
+    ("there", "lives", "screen", "expected"),
+    [
+        ("libEGL libOSMesa libGL", "EGL OS X", ":9", "vtkEGLRenderWindow"),
+        ("libOSMesa libGL", "EGL OS X", ":9", "vtkOSOpenGLRenderWindow"),
+        ("libEGL libOSMesa libGL", "OS X", ":9", "vtkOSOpenGLRenderWindow"),
+        ("libGL", "EGL OS X", ":9", "vtkXOpenGLRenderWindow"),
+        ("libGL", "EGL OS X", "", None),
+        ("libEGL libOSMesa libGL", "X", "", None),
+        ("libEGL libGL", "OS", ":9", None),
+        ("", "EGL OS X", ":9", None),
+    ],
+)
+def test_the_first_window_that_draws_is_taken_and_remembered(
+    there: str, lives: str, screen: str, expected: str | None, unknown_system: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """Windows that die are tried in a process of their own; what has worked is not tried again."""
+    monkeypatch.setattr(stages, "_library", lambda name: name.split(".")[0] in there.split())
+    monkeypatch.setenv("DISPLAY", screen)
+    alive = [f"vtk{kind}" for kind in lives.split()]
+    probe = f"import os, sys\nsys.argv[1].startswith(tuple({alive!r})) or os.abort()"
+    monkeypatch.setattr(stages, "_PROBE", probe)
+    if expected is None:
+        for _ in range(2):
+            with pytest.raises(NoGraphicsError):
+                stages._window_kind()
+        assert not list(unknown_system.glob("graphics-*"))
+        return
+    assert stages._window_kind() == expected
+    stages._window_kind.cache_clear()
+    monkeypatch.setattr(stages, "_PROBE", DIES)
+    assert stages._window_kind() == expected
+    stages._window_kind.cache_clear()
+    monkeypatch.setattr(stages, "_library", lambda name: "another driver")
+    with pytest.raises(NoGraphicsError):
+        stages._window_kind()
+
+
+@pytest.mark.parametrize("missing", ["window", "library", "driver"])
+def test_a_system_that_cannot_draw_keeps_the_run(
+    missing: str, unknown_system: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if missing == "window":
+        monkeypatch.setattr(stages, "_KINDS", {})
+    elif missing == "driver":
+        monkeypatch.setattr(stages, "_PROBE", DIES)
+    else:  # as where a wheel finds no libXrender
+        monkeypatch.setitem(sys.modules, "pyvista", None)
+    said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path / "out")
     assert said.exit_code == 0, said.message
     assert said.session.root.find("A") == 1
     (warning,) = said.session.warnings
     assert "the picture is left out" in render(warning, "en")
     assert "libegl1" in render(warning, "en")
-    assert not list(tmp_path.iterdir())
+    assert not list(tmp_path.glob("out/*"))
 
 
 def test_edges_of_another_mesh_over_what_hides_them(tmp_path: Path) -> None:

@@ -15,27 +15,23 @@ import os
 import re
 import shutil
 import sys
-import tempfile
 import time
 from functools import cache
 from importlib.util import source_hash
 from pathlib import Path
 
 from ssilang.kernel.base.compiled import PLAIN
-from ssilang.kernel.base.compiled.private import (
+from ssilang.private import (
+    first_private,
     fresh_folder,
     opened_to_others,
-    private_folder,
-    user_number,
+    places,
 )
 
 SUFFIX = ".code"  # of a file with a function's machine code
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
 IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 PACKAGE = Path(__file__).parents[3]  # ssilang
-
-REFUSED: list[tuple[Path, Path]] = []
-"""Folders that others could have written to, with what opens each: nothing was read from them."""
 
 
 def is_compiled(package: str) -> bool:
@@ -105,9 +101,9 @@ def _is_package(module: str, package: Path) -> bool:
 def kept_code() -> tuple[Path, int] | None:
     """The folder that keeps code for later processes and the number of functions in it, if any."""
     given = os.environ.get("NUMBA_CACHE_DIR")
-    places = (Path(given),) if given else () if PLAIN else _places()
+    known = [Path(given)] if given else [] if PLAIN else places("compiled")
     base = _folder()
-    if base is None or base not in [place.resolve() for place in places]:
+    if base is None or base not in [place.resolve() for place in known]:
         return None
     return base, sum(1 for _ in base.rglob("*.nbc" if PLAIN else f"*{SUFFIX}"))
 
@@ -123,35 +119,16 @@ def given_folder() -> Path | None:
     return _given(given) if given else None
 
 
-def _places() -> tuple[Path, Path]:
-    """The user's folder for code, and a temporary one."""
-    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return (
-        Path(home) / "ssilang" / "compiled",
-        Path(tempfile.gettempdir()) / f"ssilang-{user_number()}",
-    )
-
-
 @cache
 def _base() -> Path | None:
     """Folder that keeps code: the user's, a temporary one, a new one, or None if none is safe."""
-    return _first_private(*_places())
+    return first_private(*places("compiled")) or fresh_folder()
 
 
 @cache
 def _given(name: str) -> Path | None:
     """The folder that NUMBA_CACHE_DIR names, or a new one if others could have written to it."""
-    return _first_private(Path(name), closed=0o022)
-
-
-def _first_private(*folders: Path, closed: int = 0o077) -> Path | None:
-    for folder in folders:
-        fault = private_folder(folder, closed)
-        if fault is None:
-            return folder.resolve()
-        if os.path.lexists(folder):  # not only a place where nothing can be made
-            REFUSED.append((folder, fault))
-    return fresh_folder()
+    return first_private(Path(name), closed=0o022) or fresh_folder()
 
 
 @cache

@@ -1,6 +1,7 @@
 """Folders that nobody but the user can have written to.
 
-Code that is kept is run as it is found. Who can write to its folder, put a folder of his own in its
+What is kept from run to run is taken as it is found: code is run, and the words of the language
+are what a file says. Who can write to its folder, put a folder of his own in its
 place, or rename one on the way to it, runs what he likes as the user. A folder is therefore trusted
 if it is no link, belongs to the user, is closed to all others (mode 700), and if nobody else can
 change an entry on the way to it: each parent belongs to the user or to the system, and is written
@@ -9,11 +10,8 @@ to by others only under a sticky bit, as /tmp is.
 
 from __future__ import annotations
 
-import atexit
 import os
-import shutil
 import stat
-import tempfile
 from contextlib import suppress
 from pathlib import Path
 
@@ -21,6 +19,40 @@ POSIX = os.name == "posix"
 _OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _PASSING = stat.S_IXGRP | stat.S_IXOTH
 _SYSTEM = 0  # the user number of root
+
+REFUSED: list[tuple[Path, Path]] = []
+"""Folders that others could have written to, with what opens each: nothing was read from them."""
+
+
+def places(name: str) -> list[Path]:
+    """Where what is kept may stand: below the user's caches, and below a temporary folder.
+
+    A user without a home, or with a relative one, has the second alone.
+    """
+    home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    above = [Path(home) / "ssilang"] if os.path.isabs(home) else []
+    return [p / name for p in (*above, Path(temporary()) / f"ssilang-{user_number()}")]
+
+
+def temporary() -> str:
+    """The system's folder for what does not last; `tempfile` takes time to load."""
+    given = os.environ.get("TMPDIR")
+    if POSIX:
+        return given if given and os.path.isabs(given) else "/tmp"
+    import tempfile
+
+    return tempfile.gettempdir()
+
+
+def first_private(*folders: Path, closed: int = 0o077) -> Path | None:
+    """The first folder that nobody else can have written to, made if it is missing; else None."""
+    for folder in folders:
+        fault = private_folder(folder, closed)
+        if fault is None:
+            return folder.resolve()
+        if os.path.lexists(folder) and (folder, fault) not in REFUSED:
+            REFUSED.append((folder, fault))  # not only a place where nothing can be made
+    return None
 
 
 def user_number() -> int:
@@ -84,6 +116,9 @@ def private_folder(folder: Path, closed: int = 0o077) -> Path | None:
 
 def fresh_folder() -> Path | None:
     """A new folder for this process alone, which ends with it; None if no place is safe."""
+    import atexit
+    import tempfile
+
     for place in (None, "/tmp", "/var/tmp"):
         try:
             made = Path(tempfile.mkdtemp(prefix="ssilang-", dir=place)).resolve()
@@ -97,5 +132,7 @@ def fresh_folder() -> Path | None:
 
 def _remove(folder: Path, owner: int) -> None:
     if os.getpid() == owner:  # a process forked from it ends earlier
+        import shutil
+
         with suppress(OSError):
             shutil.rmtree(folder)

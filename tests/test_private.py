@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from ssilang.kernel.base.compiled import cache, private
-from ssilang.kernel.base.compiled.private import opened_to_others, private_folder
+from ssilang import private
+from ssilang.kernel.base.compiled import cache
+from ssilang.private import opened_to_others, private_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="modes and owners of one system")
 
@@ -161,10 +162,10 @@ def test_the_temporary_folder_is_checked_as_the_user_s_own(home, monkeypatch, mo
     one, two = home / "one", home / "two"
     one.mkdir()
     one.chmod(mode)
-    monkeypatch.setattr(cache, "REFUSED", [])
-    assert cache._first_private(home / "file" / "x", one, two) == (one, two)[first]
-    assert len(cache.REFUSED) == first
-    assert all(told == (one, one) for told in cache.REFUSED)
+    monkeypatch.setattr(private, "REFUSED", [])
+    assert private.first_private(home / "file" / "x", one, two) == (one, two)[first]
+    assert len(private.REFUSED) == first
+    assert all(told == (one, one) for told in private.REFUSED)
 
 
 def test_code_of_a_package_of_the_kernel_is_found(home, monkeypatch):
@@ -179,9 +180,9 @@ def test_code_of_a_package_of_the_kernel_is_found(home, monkeypatch):
 def test_a_refused_folder_is_told_once(home, monkeypatch):
     from ssilang.cli.run import run_text
 
-    monkeypatch.setattr(cache, "REFUSED", [(kept(home), home)])
+    monkeypatch.setattr(private, "REFUSED", [(kept(home), home)])
     told = [[w.code for w in run_text("X = 1 ;", home / "out").session.warnings] for _ in range(2)]
-    assert told == [["cli.compiled-code-refused"], []]
+    assert told == [["cli.kept-folder-refused"], []]
 
 
 def test_a_run_tells_of_the_folder_that_it_refused(home):
@@ -201,5 +202,71 @@ def test_a_run_tells_of_the_folder_that_it_refused(home):
         env=given | {"XDG_CACHE_HOME": str(home)}, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert made.returncode == 0, made.stderr
-    assert made.stderr.count(f"others could have put code into {kept(home)}: none is read") == 1
+    assert made.stderr.count(f"others could have put code or words into {kept(home)}: nothing") == 1
     assert not any(kept(home).iterdir())
+
+
+def started(home):
+    return home / "ssilang" / "started"
+
+
+def run_script(home, text, **environment):
+    """A run of the command in an empty folder of its own; '' takes a variable away."""
+    folder = Path(tempfile.mkdtemp(dir=home))
+    (folder / "deck.ssi").write_text(text)
+    given = {k: v for k, v in os.environ.items() if k not in ("NUMBA_CACHE_DIR", "HOME")}
+    given |= {"PYTHONPATH": os.pathsep.join(sys.path), "XDG_CACHE_HOME": "", **environment}
+    made = subprocess.run(
+        [sys.executable, "-m", "ssilang.cli.main", "deck.ssi"], cwd=folder, check=False,
+        env={k: v for k, v in given.items() if v}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert made.returncode == 0, made.stderr
+    assert {p.name for p in folder.iterdir()} <= {"deck.ssi", "results"}
+    return made
+
+
+def spoilt(kept_file):
+    """A file of what is kept with the signs of numbers read as nothing."""
+    text = kept_file.read_text(encoding="utf-8")
+    kept_file.write_text(text.replace("[+-]", "[+]"), encoding="utf-8")
+    return kept_file
+
+
+def test_words_that_another_could_have_written_are_not_read(home):
+    """The same file decides what -9.81 is where only the user could have written it."""
+    script, caches = "X = PROG -9.81 ; LIST X ;", str(home)
+    first = run_script(home, script, XDG_CACHE_HOME=caches)
+    (words,) = started(home).glob("words-*.json")
+    assert [p.stat().st_mode & 0o777 for p in (started(home), started(home).parent)] == [0o700] * 2
+    assert "-9.81" in first.stdout
+    assert "[+-]" in words.read_text()
+    spoilt(words)
+    started(home).chmod(0o777)
+    told = run_script(home, script, XDG_CACHE_HOME=caches)
+    assert told.stdout == first.stdout
+    assert told.stderr.count(f"could have put code or words into {started(home)}") == 1
+
+
+def test_a_link_in_the_place_of_what_is_kept_is_not_followed(home):
+    started(home).parent.mkdir(mode=0o700)
+    (home / "theirs").mkdir(mode=0o777)
+    started(home).symlink_to(home / "theirs")
+    told = run_script(home, "MESS 1 ;", XDG_CACHE_HOME=str(home))
+    assert not list((home / "theirs").iterdir())
+    assert "could have put code or words into" in told.stderr
+
+
+@pytest.mark.parametrize(
+    "environment", [{"HOME": ""}, {"HOME": "~"}, {"HOME": "some/where"}, {"XDG_CACHE_HOME": "near"}]
+)
+def test_without_a_home_nothing_is_kept_beside_the_deck(home, environment):
+    temporary = tempfile.mkdtemp(dir=home)
+    run_script(home, "MESS 1 ;", **{"HOME": "none", "TMPDIR": temporary, **environment})
+
+
+def test_a_user_without_a_name_keeps_things_in_a_temporary_folder(home, monkeypatch):
+    monkeypatch.delenv("HOME", raising=False)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.setenv("TMPDIR", str(home))
+    monkeypatch.setattr(os.path, "expanduser", lambda path: path)
+    assert private.places("started") == [home / f"ssilang-{os.geteuid()}" / "started"]
