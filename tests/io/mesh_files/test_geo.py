@@ -77,7 +77,7 @@ def test_a_guarded_process_reaches_its_folders_alone(tmp_path):
         attempt("make a link", lambda: os.link(outside + "/secret", inside + "/secret"))
         attempt("start a program", lambda: subprocess.run([sys.executable, "-c", "1"]).returncode)
         attempt("start a shell", lambda: os.system("true") == 0 and "ran")
-            read_secret = lambda: open(outside + "/secret").read()
+        read_secret = lambda: open(outside + "/secret").read()
         worker = threading.Thread(target=attempt, args=("from a thread", read_secret))
         worker.start()
         worker.join()
