@@ -21,6 +21,7 @@ FREE = "SSILANG_ALLOW_GEO"
 
 LONGEST = 600
 """Seconds that Gmsh may take; SSILANG_GEO_SECONDS in the environment says otherwise."""
+_PASSED = ("LD_LIBRARY_PATH", "PYTHONPATH", "PATH", "SYSTEMROOT")  # of the environment
 
 # What the guard would refuse is said before: a help, and no guard.
 _OUTWARD = re.compile(
@@ -55,9 +56,10 @@ def read_geo(path: Path, dimension: int) -> FileMesh:
 
 def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
     free = os.environ.get(FREE, "")
-    longest = int(os.environ.get("SSILANG_GEO_SECONDS", LONGEST))
+    asked = os.environ.get("SSILANG_GEO_SECONDS", "")
+    longest = int(asked) if asked.isdecimal() else LONGEST
     own = [sys.executable, "-P", gmsh_alone.__file__]
-    kept = {k: v for k, v in os.environ.items() if k in ("LD_LIBRARY_PATH", "PYTHONPATH", "PATH")}
+    kept = {k: v for k, v in os.environ.items() if k in _PASSED}
     nothing = subprocess.DEVNULL
     try:
         code = subprocess.run(
@@ -69,11 +71,11 @@ def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
         raise InputError("io.geo-takes-long", name=script.name, seconds=longest) from error
     if code == gmsh_alone.UNGUARDED:
         raise InputError("io.geo-unguarded", name=script.name)
-    note, made = folder / "told", folder / "made.msh"
-    told = note.read_text(encoding="utf-8") if note.is_file() else f"exit {code}"
+    note, made = folder / gmsh_alone.TOLD, folder / gmsh_alone.MADE
+    told = note.read_text(encoding="utf-8", errors="replace") if note.is_file() else ""
     if told.startswith("import: "):  # a library of the system that Gmsh draws with
         raise InputError("io.gmsh-missing", error=told.removeprefix("import: "))
-    if told or not made.is_file():
+    if told or code or not made.stat().st_size:
         error = told[:200] or f"exit {code}"
         raise InputError("io.no-readable-mesh-file", name=script.name, kind="GEO", error=error)
     return read_foreign(made, "GMSH")

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import textwrap
+import time
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -31,7 +32,8 @@ def guarded(code: str, folder: Path, readable: tuple[str, ...] = ()) -> dict[str
     inside = folder / "inside"
     inside.mkdir(exist_ok=True)
     text = f"""
-        import errno, importlib.util, json, os, socket, subprocess, sys, threading
+        import errno, importlib.util, json, os, resource, socket, subprocess, sys
+        import threading
         found = importlib.util.spec_from_file_location("alone", {str(GUARD)!r})
         alone = importlib.util.module_from_spec(found)
         found.loader.exec_module(alone)
@@ -77,18 +79,25 @@ def test_a_guarded_process_reaches_its_folders_alone(tmp_path):
         attempt("make a link", lambda: os.link(outside + "/secret", inside + "/secret"))
         attempt("start a program", lambda: subprocess.run([sys.executable, "-c", "1"]).returncode)
         attempt("start a shell", lambda: os.system("true") == 0 and "ran")
+        attempt("another process", lambda: os.fork() or os._exit(0))
+        attempt("a network", lambda: socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        attempt("a socket", lambda: socket.socket(socket.AF_UNIX))
+        attempt("a signal", lambda: os.kill(os.getppid(), 0))
+        attempt("rights", lambda: os.chmod(outside + "/secret", 0o777))
+        attempt("times", lambda: os.utime(outside + "/secret"))
+        attempt("limits of another", lambda: resource.prlimit(os.getppid(), resource.RLIMIT_CORE))
         read_secret = lambda: open(outside + "/secret").read()
         worker = threading.Thread(target=attempt, args=("from a thread", read_secret))
         worker.start()
         worker.join()
     """
     said = guarded(code, tmp_path, (sys.prefix, sys.base_prefix, "/usr/lib", "/lib"))
-    fine = {"read given": "given", "write inside": "1", "remove inside": "done"}
+    fine = {"read given": "given", "write inside": "1"}
     assert {k: said[k] for k in fine} == fine
     assert said["start a shell"] == "done"  # the shell is not there, and nothing ran
     refused = {k: v for k, v in said.items() if k not in (*fine, "held", "start a shell")}
     assert set(refused.values()) <= {"EACCES", "EPERM", "EXDEV"}, refused
-    assert len(refused) == 11
+    assert len(refused) == 19
     assert sorted(p.name for p in outside.iterdir()) == ["secret"]
     assert (read / "given").read_text() == "given"
 
@@ -142,14 +151,33 @@ OUTWARD = {
     "file of a field": 'Field[1] = Structured; Field[1].FileName = "{secret}"; '
     "Field[1].TextFormat = 1; Background Field = 1;",
     "the end": "Exit;",
+    "quotes within quotes": "x = '\"'; SystemCall 'touch {out}'; y = '\"';",
+    "call without waiting": 'x = "//"; NonBlockingSystemCall "touch {out}";',
+    "call by a macro's name": 'Macro SystemCal\nReturn\nSystemCall StrCat("tou", "ch {out}");',
+    "solver": 'Solver.Name0 = "a"; Solver.Executable0 = "touch {out}"; x = "//"; OnelabRun("a");',
+    "options": 'x = "//"; Save Options "{out}";',
+    "errors": 'General.ErrorFileName = "{out}"; General.SaveOptions = 1; '
+    'General.OptionsFileName = "{out}"; General.SessionFileName = "{out}"; Mesh.Foo = 1;',
+    "view": 'Plugin(NewView).Run; Save View[0] "{out}";',
+    "plugin": "Plugin(NewView).Run; Plugin(ModifyComponent).Run; Plugin(Triangulate).Run; "
+    'View[0].FileName = "{out}"; Save View[0] "{out}";',
+    "picture": 'x = "//"; Print "{out}";',
+    "structure": 'DefineStruct A Struct s [ f = "//" ]; SystemCall "touch {out}";',
+    "post-processing field": 'Merge "{secret}"; Field[1] = PostView; Background Field = 1;',
+    "cad": 'SetFactory("OpenCASCADE"); v() = ShapeFromFile("{secret}");',
+    "name in the environment": 'SystemCall StrCat("touch ", "{out}", GetEnv("HOME"));',
+    "many files": 'For i In {{0:200}}\n  Printf("a") > Sprintf("a%g", i);\nEndFor',
 }
 SAID = {"io.geo-reaches-out", "io.no-readable-mesh-file"}
+TOLD = ("macro", "process of a field", "printf", "save by a sum", "merge", "include by a link")
 
 
 @with_gmsh
-@pytest.mark.parametrize("words", [True, False], ids=["with the words", "by the guard alone"])
-@pytest.mark.parametrize("name", OUTWARD)
+@pytest.mark.parametrize(
+    ("name", "words"), [*((n, False) for n in OUTWARD), *((n, True) for n in TOLD)]
+)
 def test_a_script_does_nothing_outside(name, words, tmp_path, monkeypatch):
+    """By the guard alone; and refused, where the words are known or the guard makes Gmsh fail."""
     if not words:
         monkeypatch.setattr(geo, "_OUTWARD", re.compile(r"(?!)"))
     folder, elsewhere = tmp_path / "deck", tmp_path / "elsewhere"
@@ -165,7 +193,7 @@ def test_a_script_does_nothing_outside(name, words, tmp_path, monkeypatch):
         pytest.skip("this system has no Landlock")
     assert sorted(p.name for p in elsewhere.iterdir()) == ["secret.geo"]
     assert sorted(p.name for p in folder.iterdir()) == ["box.geo", "link.geo"]
-    if words and name not in ("log", "file of a field"):
+    if words:
         assert said in SAID
 
 
@@ -175,13 +203,6 @@ def test_a_script_reads_what_stands_below_its_folder(tmp_path):
     (tmp_path / "parts" / "square.geo").write_text(SQUARE)
     said = refusal(tmp_path, 'Include "parts/square.geo"; // Save "x"\n/* SystemCall "x"; */')
     assert said in ("made", "io.geo-unguarded")
-
-
-@with_gmsh
-def test_a_script_without_an_end_is_ended(tmp_path, monkeypatch):
-    monkeypatch.setenv("SSILANG_GEO_SECONDS", "2")
-    text = "For i In {0:1e12}\nx = i;\nEndFor\n"
-    assert refusal(tmp_path, text) in ("io.geo-takes-long", "io.geo-unguarded")
 
 
 @with_gmsh
@@ -198,3 +219,54 @@ def test_without_a_guard_only_what_is_allowed_runs(tmp_path, monkeypatch, capsys
     assert "--allow-geo" in capsys.readouterr().err
     assert main([str(case), "--allow-geo"]) == 0
     assert os.environ[geo.FREE]
+
+
+@with_gmsh
+def test_what_is_allowed_runs_under_a_guard_where_there_is_one(tmp_path, monkeypatch):
+    folder, elsewhere = tmp_path / "deck", tmp_path / "elsewhere"
+    folder.mkdir()
+    elsewhere.mkdir()
+    if refusal(folder, SQUARE) == "io.geo-unguarded":
+        pytest.skip("this system has no Landlock")
+    monkeypatch.setenv(geo.FREE, "1")
+    monkeypatch.setattr(geo, "_OUTWARD", re.compile(r"(?!)"))
+    assert refusal(folder, f'{SQUARE} SystemCall "touch {elsewhere}/out";') in ("made", *SAID)
+    assert list(elsewhere.iterdir()) == []
+
+
+@with_gmsh
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x = 1;\nFor i In {0:1}\n  i = 0;\n  x = x + 1;\nEndFor\n",
+        SQUARE.replace("0.5}", "0.00002}"),
+        "a() = {0:3e9};" + SQUARE,
+    ],
+    ids=["a loop", "a huge mesh", "a huge list"],
+)
+def test_what_takes_all_is_ended(text, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("SSILANG_GEO_SECONDS", "2")
+    (tmp_path / "box.geo").write_text(text)
+    (tmp_path / "case.ssi").write_text("OPTI DIME 2 ; T = MAILLER 'box.geo' ;")
+    begun = time.monotonic()
+    assert main([str(tmp_path / "case.ssi")]) == 1
+    assert time.monotonic() - begun < 20.0
+    said = capsys.readouterr().err
+    assert "box.geo" in said
+    assert "Traceback" not in said
+
+
+def test_calls_have_the_numbers_of_the_system():
+    """Each table of numbers that the system's headers have."""
+    tables = {
+        0: Path("/usr/include/x86_64-linux-gnu/asm/unistd_64.h"),
+        1: Path("/usr/include/asm-generic/unistd.h"),
+    }
+    there = {i: p for i, p in tables.items() if p.is_file()}
+    if not there:
+        pytest.skip("this system has no headers")
+    calls = gmsh_alone.CALLS | {name: rule[0] for name, rule in gmsh_alone.ONLY.items()}
+    for column, path in there.items():
+        pairs = re.findall(r"#define __NR(?:3264)?_(\w+)\s+(\d+)", path.read_text())
+        known = {"newfstatat" if n == "fstatat" else n: int(v) for n, v in pairs}
+        assert {n: known.get(n, -1) for n in calls} == {n: v[column] for n, v in calls.items()}
