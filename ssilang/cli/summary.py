@@ -22,7 +22,6 @@ from typing import Any
 
 from ssilang import __version__
 from ssilang.io.atomic import write_text
-from ssilang.io.checkpoint import digest_of_text
 from ssilang.io.run_output import RunOutput
 from ssilang.language.run.session import Check, Session
 from ssilang.language.say.diagnostics import sentence
@@ -43,7 +42,7 @@ def write_summary(
     files = [_file(p, output.directory) for p in output.files if p.is_file()]
     made = {
         "deck": str(source.path) if source.path is not None else source.name,
-        "deck_digest": digest_of_text(source.text),
+        "deck_digest": source.digest,
         "version": __version__,
         "exit_code": exit_code,
         "seconds": round(time.perf_counter() - session.started - session.away(), 3),

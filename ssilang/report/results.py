@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.checkpoint import digest_of_text
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.inside import inside
 from ssilang.io.recording import CONTENTS, FOLDER
@@ -161,10 +160,10 @@ def _text(summary: dict[str, Any]) -> str:
         path = Path(name)
         if not path.is_file() or path.stat().st_size > MOST_BYTES:
             return ""
-        text = Source.decode("", path.read_bytes()).text
+        deck = Source.decode("", path.read_bytes())
     except (OSError, ValueError, SsiError):
         return ""
-    return text if digest_of_text(text) == digest else ""
+    return deck.text if deck.digest == digest else ""
 
 
 def _own(folder: Path, name: str) -> Path:

@@ -76,6 +76,6 @@ def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
     if told.startswith("import: "):  # a library of the system that Gmsh draws with
         raise InputError("io.gmsh-missing", error=told.removeprefix("import: "))
     if told or code or not made.stat().st_size:
-        error = told[:200] or f"exit {code}"
-        raise InputError("io.no-readable-mesh-file", name=script.name, kind="GEO", error=error)
+        fault = told[:200] or f"exit {code}"
+        raise InputError("io.no-readable-mesh-file", name=script.name, kind="GEO", error=fault)
     return read_foreign(made, "GMSH")

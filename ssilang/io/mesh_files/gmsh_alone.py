@@ -128,7 +128,8 @@ def _filtered() -> bool:
             (same, 0, 1, value), (end, 0, 0, _LET), (end, 0, 0, _REFUSE),
         ]  # fmt: skip
     made.append((end, 0, 0, _REFUSE))
-    program = _Program(len(made), (_Instruction * len(made))(*made))
+    rows = (_Instruction * len(made))(*(_Instruction(*row) for row in made))
+    program = _Program(len(made), rows)
     return bool(ctypes.CDLL(None).prctl(_FILTER, 2, ctypes.byref(program), 0, 0) == 0)
 
 
