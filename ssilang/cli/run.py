@@ -324,9 +324,9 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
 
     def deck() -> Deck:
         from ssilang import __version__
-        from ssilang.io.checkpoint import Deck, digest_of_text
+        from ssilang.io.checkpoint import Deck
 
-        return Deck(__version__, digest_of_text(source.text), given)
+        return Deck(__version__, source.digest, given)
 
     output = run_output(session)
     output.deck, output.resume = deck, options.resume

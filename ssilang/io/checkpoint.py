@@ -218,13 +218,8 @@ class Checkpoints:
         return InputError("io.checkpoint-damaged", path=path, error=error)
 
 
-def digest_of_text(text: str) -> str:
-    """What tells one deck from another."""
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-
-
 def digest_of_file(path: Path) -> str:
-    """The same of a file; '' of one that is gone."""
+    """What tells one file from another; '' of one that is gone."""
     try:
         with path.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -271,6 +271,10 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-allow": Message(
         "further folder to read and write", "autre répertoire où lire et écrire"
     ),
+    "usage-allow-geo": Message(
+        "let Gmsh run .geo files where the system cannot guard it",
+        "laisser Gmsh exécuter des fichiers .geo où le système ne peut l'enfermer",
+    ),
     "usage-verbose": Message(
         "say by which method motions are calculated",
         "dit par quelle méthode les mouvements sont calculés",

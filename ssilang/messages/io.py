@@ -348,11 +348,25 @@ MESSAGES: dict[str, Message] = {
         "pip install 'ssilang[gmsh]'}",
     ),
     "geo-reaches-out": Message(
-        "{name} is not run: '{word}' runs programs, or reads and writes other files",
-        "{name} n'est pas exécuté : '{word}' lance des programmes, ou lit et écrit d'autres "
-        "fichiers",
+        "{name} is not run: '{word}' runs programs or writes files",
+        "{name} n'est pas exécuté : '{word}' lance des programmes ou écrit des fichiers",
         "mesh it with gmsh and read the .msh",
         "le mailler par gmsh et lire le .msh",
+    ),
+    "geo-unguarded": Message(
+        "{name} is not run: a .geo may start programs, and this system cannot keep Gmsh from it",
+        "{name} n'est pas exécuté : un .geo peut lancer des programmes, et ce système ne peut en "
+        "empêcher Gmsh",
+        "if you trust the file: --allow-geo; else mesh it with gmsh and read the .msh (the guard "
+        "is Landlock, of Linux 5.13 and later)",
+        "si le fichier est de confiance : --allow-geo ; sinon le mailler par gmsh et lire le .msh "
+        "(l'enceinte est Landlock, de Linux 5.13 et plus)",
+    ),
+    "geo-takes-long": Message(
+        "Gmsh has not meshed {name} within {seconds} s and was ended",
+        "Gmsh n'a pas maillé {name} en {seconds} s et a été arrêté",
+        "coarser sizes; or more time: SSILANG_GEO_SECONDS in the environment",
+        "des tailles plus grandes ; ou plus de temps : SSILANG_GEO_SECONDS dans l'environnement",
     ),
     "mesh-cells-not-written": Message(
         "{kind} has no {others}",
