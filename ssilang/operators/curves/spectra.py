@@ -14,7 +14,7 @@ from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.curves.words import check_together
+from ssilang.operators.curves.words import check_together, warn_of_motions
 
 _TIMES = key(
     "times",
@@ -66,6 +66,7 @@ _COLOUR = key(
     ),
 )
 def osci(
+    call: Call,
     signal: Curve,
     damping: float,
     frequency: float,
@@ -74,6 +75,7 @@ def osci(
     speed: float,
     colour: str,
 ) -> Curve:
+    warn_of_motions(call, signal)
     part = signal.parts[0]
     wanted = None if times is None else times.values
     t, x = response(
@@ -151,6 +153,7 @@ def spo(
     kind: str,
     percentiles: ListReel | float | None,
 ) -> Curve:
+    warn_of_motions(call, signal)
     part = signal.parts[0]
     values = [dampings] if isinstance(dampings, float) else dampings.values
     if second is not None or percentiles is not None:

@@ -48,6 +48,13 @@ def one_part(call: Call, curve: Curve) -> CurvePart:
     return curve.parts[0]
 
 
+def warn_of_motions(call: Call, *curves: Curve) -> None:
+    """Warn of velocities or displacements where accelerations are read."""
+    names = {p.ordinate_name.strip().upper() for c in curves for p in c.parts}
+    for name in sorted(names & {"VITE", "DEPL"}):
+        call.warn("operators.curves.no-accelerations", name=name)
+
+
 def check_together(call: Call, first: Curve, second: Curve) -> None:
     """Refuse two components that have not the same instants.
 
