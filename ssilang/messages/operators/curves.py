@@ -18,7 +18,8 @@ MESSAGES: dict[str, Message] = {
     "no-accelerations": Message(
         "the ordinates of the curve are called '{name}': they are taken as accelerations",
         "les ordonnées de l'évolution s'appellent '{name}' : elles sont prises comme accélérations",
-        "read the file of the accelerations (.AT2); if they are some, EVOL 'MANU' names them 'ACCE'",
+        "read the file of the accelerations (.AT2); if they are some, EVOL 'MANU' names them "
+        "'ACCE'",
         "lisez le fichier des accélérations (.AT2) ; si elles en sont, EVOL 'MANU' les nomme "
         "'ACCE'",
         severity="warning",
