@@ -11,7 +11,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
 from ssilang.operators.dynamics.scheme_entries import NORMS
-from ssilang.operators.matrices.connections import warn_connections
+from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
 
@@ -211,6 +211,9 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
         inputs.model,
         inputs.characteristics,
     )
+    for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
+        if matrix is not None:
+            warn_repeated(entries.call.session, entries.place, entries.procedure, matrix, kind)
 
 
 def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:
