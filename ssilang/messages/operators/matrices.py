@@ -105,7 +105,8 @@ MESSAGES: dict[str, Message] = {
         severity="warning",
     ),
     "negative-at-nodes": Message(
-        "{kind}: the value at the nodes is negative ({amount:g}): it feeds motions instead of holding "
+        "{kind}: the value at the nodes is negative ({amount:g}): it feeds motions instead of "
+        "holding "
         "or braking them",
         "{kind} : la valeur aux noeuds est négative ({amount:g}) : elle nourrit les mouvements au "
         "lieu de les retenir ou de les freiner",

@@ -26,8 +26,8 @@ def warn_connections(
     """Warn, once a matrix, of what is not joined as it looks.
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
-    swapped, beams that end on one node of a solid, cells that count twice. Joints are those of `model`, whose law stands
-    beside the matrix, without it those that the matrix was made from.
+    swapped, beams that end on one node of a solid, cells that count twice. Joints are those of
+    `model`, whose law stands beside the matrix, without it those that the matrix was made from.
     """
     if _KEY in matrix.cache:
         return

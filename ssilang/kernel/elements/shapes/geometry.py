@@ -74,9 +74,8 @@ def _check_jacobians(det: FloatArray, jacobians: FloatArray) -> None:
     """Cells may be numbered either way round, but must be neither folded nor flat."""
     scale = np.abs(det).max(axis=1, keepdims=True)
     sides = np.sqrt((jacobians**2).sum(axis=3)).prod(axis=2)
-    folded = (np.abs(det) <= np.maximum(1e-14 * scale, FLAT * sides)).any(axis=1) | (np.sign(det).min(axis=1) < 0) & (
-        np.sign(det).max(axis=1) > 0
-    )
+    flat = np.abs(det) <= np.maximum(1e-14 * scale, FLAT * sides)
+    folded = flat.any(axis=1) | (det.min(axis=1) < 0) & (det.max(axis=1) > 0)
     if folded.any():
         first = int(np.argmax(folded))
         raise MeshError(
