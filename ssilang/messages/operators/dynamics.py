@@ -642,6 +642,17 @@ MESSAGES: dict[str, Message] = {
         "composante",
         severity="warning",
     ),
+    "turns-away": Message(
+        "the supports leave a motion free (a turn about them), and loads drive it: the model "
+        "moves off",
+        "les appuis laissent un mouvement libre (une rotation autour d'eux), et les chargements "
+        "l'entraînent : le modèle s'en va",
+        "RESO of the same matrix and load names the motion; hold a second point (BLOQ), or a "
+        "rotation",
+        "RESO de la même matrice et du même chargement nomme le mouvement ; tenez un second point "
+        "(BLOQ), ou une rotation",
+        severity="warning",
+    ),
     "step-over-period": Message(
         "the step of {dt:.3g} is longer than the period of {period:.3g} of what the loads set in "
         "motion",
@@ -662,6 +673,45 @@ MESSAGES: dict[str, Message] = {
         "is in seconds",
         "avec 'AMOR' = a M + b K le taux vaut a / (2 w) + b w / 2 à w = 2 pi f : 5 % s'écrivent "
         "0.05, et b est en secondes",
+        severity="warning",
+    ),
+    "driven-by-dashpots": Message(
+        "the damping of what the loads set in motion is negative ({ratio:.3g} of the critical "
+        "one): "
+        "it grows without end",
+        "l'amortissement de ce que les chargements mettent en mouvement est négatif "
+        "({ratio:.3g} du "
+        "critique) : cela croît sans fin",
+        "'AMOR' = a M + b K with a and b of no sign, dashpots too",
+        "'AMOR' = a M + b K avec a et b sans signe, les amortisseurs aussi",
+        severity="warning",
+    ),
+    "masses-alone": Message(
+        "{count} {count:node has a mass that hangs|nodes have masses that hang} on nothing (node "
+        "{node}): no stiffness, condition or load",
+        "{count} {count:noeud a une masse qui ne tient|noeuds ont des masses qui ne tiennent} à "
+        "rien "
+        "(noeud {node}) : ni raideur, ni condition, ni chargement",
+        "a point written again is a new node: put the mass on the body's own, by its name or POIN",
+        "un point récrit est un nouveau noeud : mettez la masse sur celui du corps, par son nom ou "
+        "POIN",
+        severity="warning",
+    ),
+    "load-twice": Message(
+        "the load {name} stands twice in 'CHAR': it acts doubled",
+        "le chargement {name} est deux fois dans 'CHAR' : il agit en double",
+        "join each load once; FLOT1 * CHPO1 doubles a field on purpose",
+        "réunissez chaque chargement une fois ; FLOT1 * CHPO1 double exprès un champ",
+        severity="warning",
+    ),
+    "load-outside": Message(
+        "the curve of the loads {name} goes from {begin:.6g} to {end:.6g}, the calculation from "
+        "{first:.6g} to {last:.6g}: it is a constant there",
+        "l'évolution du chargement {name} va de {begin:.6g} à {end:.6g}, le calcul de "
+        "{first:.6g} à "
+        "{last:.6g} : elle y est constante",
+        "are the times of the two in the same unit, from the same origin?",
+        "les temps des deux sont-ils dans la même unité, depuis la même origine ?",
         severity="warning",
     ),
     "load-begins": Message(

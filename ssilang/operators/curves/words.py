@@ -55,6 +55,13 @@ def warn_of_motions(call: Call, *curves: Curve) -> None:
         call.warn("operators.curves.no-accelerations", name=name)
 
 
+def warn_of_damping(call: Call, *ratios: float) -> None:
+    """Warn of damping ratios that are per cent."""
+    if ratios and max(ratios) >= 1.0:
+        ratio = max(ratios)
+        call.warn("operators.curves.damping-in-per-cent", ratio=ratio, meant=ratio / 100.0)
+
+
 def check_together(call: Call, first: Curve, second: Curve) -> None:
     """Refuse two components that have not the same instants.
 

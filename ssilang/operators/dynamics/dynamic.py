@@ -86,7 +86,7 @@ def zdyn(call: Call, table: Table) -> Table:
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
-    warn_at_rest(entries, inputs)
+    warn_at_rest(entries, problem)
     warn_of_loads(entries, inputs.load, times)
     warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)

@@ -46,11 +46,10 @@ def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
 def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import against_supports
 
-    if problem.u.any() or problem.v.any():
-        for index, rows in against_supports(problem).items():
-            if len(rows):
-                told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
-                yield "operators.dynamics.motion-against-supports", told
+    for index, rows in against_supports(problem).items():
+        if len(rows):
+            told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
+            yield "operators.dynamics.motion-against-supports", told
 
 
 def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
@@ -65,10 +64,22 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
 
 
-def _loose(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import Bodies
+def _masses_alone(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import masses_alone
 
-    for found in Bodies(problem).loose():
+    nodes = masses_alone(problem)
+    if len(nodes):
+        told = {"count": len(nodes), "node": problem.numbering.table.told(int(nodes[0]))}
+        yield "operators.dynamics.masses-alone", told
+
+
+def _loose(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
+
+    loose = list(Bodies(problem).loose())
+    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
+        yield "operators.dynamics.turns-away", {}
+    for found in loose:
         told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
         if found.pressed:
             yield "operators.dynamics.nothing-presses", told
@@ -85,19 +96,28 @@ def _swings(problem: Problem, _: Inputs) -> Told:
     if dt > period:
         told = {"dt": dt, "period": period, "wanted": period / WANTED, "steps": WANTED}
         yield "operators.dynamics.step-over-period", told
+    if any(s.damping < 0.0 for s in found):
+        yield "operators.dynamics.driven-by-dashpots", {"ratio": min(s.damping for s in found)}
     if ratio > OVERDAMPED:
         yield "operators.dynamics.overdamped", {"ratio": ratio}
 
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
-    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _loose, _swings,
+    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _masses_alone, _loose,
+    _swings,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 
 
 def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:
     """Warn of curves of loads that begin late, end early, or change between the instants."""
-    for part in () if load is None or len(times) < 2 else load.parts:
+    parts = () if load is None or len(times) < 2 else load.parts
+    known: set[tuple[int, int]] = set()
+    for part in parts:
+        key = id(part.space), id(part.time)
+        if key in known and part.time is not None:
+            entries.warn("operators.dynamics.load-twice", name=part.name)
+        known.add(key)
         for curve in () if part.time is None else part.time.parts:
             for code, told in _flaws(curve.abscissas, curve.ordinates, times):
                 entries.warn(code, name=part.name, **told)
@@ -110,6 +130,9 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
         return
     first, last = float(times[0]), float(times[-1])
     told = {"first": first, "last": last, "begin": float(x[0]), "end": float(x[-1])}
+    if x[0] >= last or x[-1] <= first:
+        yield "operators.dynamics.load-outside", told
+        return
     if x[0] > first + slack and abs(y[0]) > NOUGHT * size and abs(y[1] - y[0]) > NOUGHT * size:
         yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:

@@ -213,10 +213,13 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
             warn_repeated(entries.call.session, entries.place, entries.procedure, matrix, kind)
 
 
-def warn_at_rest(entries: Entries, inputs: Inputs) -> None:
+def warn_at_rest(entries: Entries, problem: Problem) -> None:
     """Warn of a motion that nothing starts: no load, no first displacement or velocity."""
-    given = (inputs.load, inputs.displacement, inputs.velocity, entries.get("REPRISE"))
-    if all(g is None for g in given) and not entries.flag("CHARMECA"):
+    loading = problem.loading
+    acting = loading.at(problem.times).any(axis=0)
+    moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
+    given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
+    if not given and problem.contact is None and not entries.flag("CHARMECA"):
         entries.warn("operators.dynamics.nothing-moves")
 
 

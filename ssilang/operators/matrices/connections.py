@@ -39,6 +39,8 @@ def warn_connections(
     _warn_swapped_joints(session, span, operator, matrix, model, characteristics)
     _warn_hinges(session, span, operator, matrix, model)
     warn_repeated(session, span, operator, matrix, "RIGI")
+    if model is None or not any(is_joint(z) for z in model.zones):
+        _warn_negative(session, span, operator, matrix)
 
 
 def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
@@ -67,6 +69,22 @@ def _warn_doubled_supports(
         y=y,
         z=z,
     )
+
+
+def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:
+    from ssilang.kernel.statics.negative import negative_unknowns
+
+    if found := negative_unknowns(matrix):
+        node, name, value = found[0]
+        session.warn(
+            "operators.matrices.negative-stiffness",
+            span,
+            operator=operator,
+            count=len(found),
+            node=matrix.table.told(node),
+            name=name,
+            value=value,
+        )
 
 
 def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:

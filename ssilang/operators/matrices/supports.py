@@ -464,8 +464,6 @@ def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Ma
     if held.sense:
         raise call.error("operators.matrices.spring-works-both-ways")
     _some(nodes)
-    if stiffness < 0.0:
-        call.warn("operators.matrices.negative-at-nodes", kind="RIGI", amount=stiffness)
     if not held.directed():
         return made.springs(held.ws.nodes, nodes, held.names(), stiffness)
     parts = [

@@ -67,14 +67,15 @@ def _jacobians(reference: FloatArray, coordinates: FloatArray) -> FloatArray:
     return (flat @ coordinates).reshape(-1, p, d, d)
 
 
-FLAT = 1e-12  # sine of the angle between the sides of a cell: no digit of its surface is left
+FLAT = 1e-12  # sine of an angle, or height of a cell beside its length: no digit is left
 
 
 def _check_jacobians(det: FloatArray, jacobians: FloatArray) -> None:
     """Cells may be numbered either way round, but must be neither folded nor flat."""
     scale = np.abs(det).max(axis=1, keepdims=True)
-    sides = np.sqrt((jacobians**2).sum(axis=3)).prod(axis=2)
-    flat = np.abs(det) <= np.maximum(1e-14 * scale, FLAT * sides)
+    sides = np.sqrt((jacobians**2).sum(axis=3))
+    flat = np.abs(det) <= np.maximum(1e-14 * scale, FLAT * sides.prod(axis=2))
+    flat |= sides.min(axis=2) <= FLAT * sides.max(axis=2)
     folded = flat.any(axis=1) | (det.min(axis=1) < 0) & (det.max(axis=1) > 0)
     if folded.any():
         first = int(np.argmax(folded))

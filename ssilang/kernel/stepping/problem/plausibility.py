@@ -23,6 +23,7 @@ AXES = ("UX", "UY", "UZ")
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS = 400  # free motions up to which a dense solve costs nothing beside the steps
 PRESSED = 0.02  # mean force of a weight beside the largest one
+FREE = 1e-13  # stiffness beside the largest one that holds nothing
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
 SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
 
@@ -47,7 +48,10 @@ class Loose:
 
 @dataclass(frozen=True)
 class Swing:
-    """The motion that a load asks for: its period (s), damping ratio, whether it comes at once."""
+    """The motion that a load asks for: period (s), damping ratio, whether it comes at once.
+
+    Without stiffness or dashpots against it the period is infinite.
+    """
 
     period: float
     damping: float
@@ -70,14 +74,14 @@ class Bodies:
         names = [a for a in AXES if a in problem.numbering.unknowns]
         for body in range(count):
             ways = {a: self._way(body, a) for a in names}
-            held = any(way == "held" or way == "pressed" for way in ways.values())
+            held = not {"held", "stands", "pressed"}.isdisjoint(ways.values())
             for axis, way in ways.items():
                 if way == "pressed" or (way == "slides" and held):
                     node = problem.numbering.nodes[np.argmax(self.label == body)]
                     yield Loose(int(node), axis, way == "pressed")
 
     def _way(self, body: int, axis: str) -> str:
-        """'held', 'slides' or 'pressed' (nothing presses it); '' where it is not concerned."""
+        """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
         problem = self.problem
         motion = np.zeros(problem.numbering.size)
         motion[problem.numbering.where(axis)] = 1.0
@@ -96,7 +100,7 @@ class Bodies:
         if any(ways):
             shaken = self.factors.any() and (problem.loading.forces.any() or self._moving)
             weight = excited and abs(float(pushed.mean())) > PRESSED * largest
-            return "pressed" if shaken and not weight else ""
+            return "pressed" if shaken and not weight else "stands"
         return "slides" if excited and not closed else ""
 
     @cached_property
@@ -156,12 +160,18 @@ def swings(problem: Problem) -> list[Swing]:
         closed = sp.csr_array(joints.closed_stiffness())
         stiffness = stiffness + joints.J.T @ (closed @ joints.J)
     forces = np.column_stack([T.T @ f for f, _ in given])
+    K = (T.T @ (stiffness @ T)).toarray()
     try:
-        motions = T @ np.linalg.solve((T.T @ (stiffness @ T)).toarray(), forces)
+        motions = np.linalg.solve(K, forces)
     except np.linalg.LinAlgError:
-        return []
+        motions = np.linalg.solve(K + FREE * np.abs(K).max() * np.eye(len(K)), forces)
+    free = np.abs(motions).max(axis=0) * np.abs(K).max() * FREE > np.abs(forces).max(axis=0)
     found = []
-    for x, (force, sudden) in zip(motions.T, given, strict=True):
+    for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
+        if unheld:
+            if x @ (problem.C @ x) <= ROUNDING * (x**2 @ abs(problem.C.diagonal())):
+                found.append(Swing(np.inf, 0.0, sudden))
+            continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
         if moved > 0.0 and 0.0 < work < np.inf:
             period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
@@ -193,9 +203,24 @@ def against_supports(problem: Problem) -> dict[str, IntArray]:
     taken = problem.v - admissible_velocity(problem)
     found = {}
     for index, value, off in (
-        ("DEPL", problem.u, rows @ problem.u - imposed),
+        ("DEPL", np.append(problem.u, imposed), rows @ problem.u - imposed),
         ("VITE", problem.v, rows @ taken),
     ):
         size = np.abs(value).max(initial=0.0)
         found[index] = np.flatnonzero(np.abs(off) > LITTLE * size) if size else np.zeros(0, int)
     return found
+
+
+def masses_alone(problem: Problem) -> IntArray:
+    """Nodes (n,) with mass that nothing else holds, joins, pushes or sets in motion."""
+    joints, contact, loading = problem.interface, problem.contact, problem.loading
+    others = [problem.K, problem.C, problem.constraints.C]
+    others += [] if joints is None else [joints.J]
+    others += [] if contact is None else [contact.G]
+    used = np.zeros(problem.numbering.size, bool)
+    for matrix in others:
+        used[matrix.indices[matrix.data != 0.0]] = True
+    used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
+    nodes = problem.numbering.nodes
+    heavy = np.unique(nodes[problem.M.diagonal() != 0.0])
+    return np.setdiff1d(heavy, nodes[used])
