@@ -54,5 +54,4 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
 def _keys(nodes: IntArray) -> IntArray:
     """A number for each cell, the same for the same nodes in any order."""
     odd = np.random.default_rng(0).integers(1, 2**62, nodes.shape[1]) * 2 + 1
-    keys: IntArray = np.sort(nodes, axis=1) @ odd
-    return keys
+    return np.asarray(np.sort(nodes, axis=1) @ odd, dtype=np.int64)

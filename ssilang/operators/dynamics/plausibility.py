@@ -19,6 +19,7 @@ Told = Iterator[tuple[str, dict[str, Any]]]
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
+MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 
@@ -76,6 +77,9 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
 def _loose(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
 
+    alone = problem.interface is None and problem.contact is None
+    if alone and problem.numbering.size > MOST_ALONE:
+        return
     loose = list(Bodies(problem).loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
         yield "operators.dynamics.turns-away", {}
