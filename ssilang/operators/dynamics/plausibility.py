@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -27,8 +28,11 @@ WANTED = 20  # steps of a period
 def warn_of_start(
     entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
 ) -> None:
-    """Warn of all that the start of a calculation shows, by the table below."""
-    for find in (_imposed_elsewhere,) if in_statics else GUARDS:
+    """Warn of all that the start of a calculation shows, by the tables below."""
+    guards = (_imposed_elsewhere,) if in_statics else GUARDS
+    if not in_statics and not plastic_zones(inputs.model):
+        guards += OF_STIFFNESS
+    for find in guards:
         for code, told in find(problem, inputs):
             entries.warn(code, **told)
 
@@ -107,10 +111,11 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
-    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _masses_alone, _loose,
-    _swings,
+    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
+OF_STIFFNESS = (_masses_alone, _loose, _swings)
+"""Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
 def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:

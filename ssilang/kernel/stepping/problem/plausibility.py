@@ -161,6 +161,8 @@ def swings(problem: Problem) -> list[Swing]:
         stiffness = stiffness + joints.J.T @ (closed @ joints.J)
     forces = np.column_stack([T.T @ f for f, _ in given])
     K = (T.T @ (stiffness @ T)).toarray()
+    if not K.any():
+        return []
     try:
         motions = np.linalg.solve(K, forces)
     except np.linalg.LinAlgError:
