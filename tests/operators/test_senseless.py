@@ -306,6 +306,9 @@ MODELS = {
 """Models, loads and steps."""
 
 SENSIBLE_MODELS = {
+    "a weight that leans, held by a condition": OSCILLATOR.format(
+        "Q = 0. 0. ; K = K ET (RIGI 'UX' -4. Q) ET (RELA 'UX' P - 'UX' Q) ;", ""
+    ),
     "an oscillator": OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 2. P ;"),
     "a held body": BODY.format(HELD, "T . 'VITE' = MANU 'CHPO' H 'UX' 1. ;"),
     "a footing with its weight": FOOTING.format(WEIGHT, ""),

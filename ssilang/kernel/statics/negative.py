@@ -11,7 +11,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 def negative_unknowns(matrix: Matrix) -> list[tuple[int, str, float]]:
     """Node, name and stiffness of unknowns where springs make the diagonal negative.
 
-    A spring below zero beside a stiffer one is meant (the moment of a weight that leans).
+    A spring below zero beside a stiffer one, or a condition, is meant (a weight that leans).
     """
     looked = [b for b in matrix.blocks if b.zone is None and (_diagonal(b) < 0.0).any()]
     if not looked:
@@ -25,6 +25,9 @@ def negative_unknowns(matrix: Matrix) -> list[tuple[int, str, float]]:
                 at = block.nodes[:, block.local[row]]
                 mine = np.isin(at, nodes)
                 np.add.at(total, np.searchsorted(nodes, at[mine]), _diagonal(block)[mine, row])
+        for relation in matrix.relations:
+            named = relation.nodes[[n == name for n in relation.unknowns]]
+            total[np.isin(nodes, named)] = 0.0
         found += [(int(nodes[i]), name, float(total[i])) for i in np.flatnonzero(total < 0.0)]
     return found
 
