@@ -43,7 +43,7 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
     order = np.argsort(keys, kind="stable")
     again = order[1:][keys[order][1:] == keys[order][:-1]]
     if not len(again):
-        return again
+        return np.zeros(0, np.int64)
     before = order[:-1][keys[order][1:] == keys[order][:-1]]
     sums = np.concatenate([np.trace(b.values, axis1=1, axis2=2) for b in blocks])
     same = np.abs(sums[again] - sums[before]) <= SAME * np.abs(sums[again])
