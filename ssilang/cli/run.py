@@ -9,9 +9,10 @@ import sys
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -320,16 +321,8 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
     from ssilang.io.errors import InputError
     from ssilang.operators.files.outputs import run_output
 
-    given = {name: repr(value) for name, value in options.given.items()}
-
-    def deck() -> Deck:
-        from ssilang import __version__
-        from ssilang.io.checkpoint import Deck
-
-        return Deck(__version__, source.digest, given)
-
     output = run_output(session)
-    output.deck, output.resume = deck, options.resume
+    output.deck, output.resume = partial(deck_of, source, options.given), options.resume
     if not options.resume or output.checkpoints is None:
         return
     if not output.checkpoints.found:
@@ -339,6 +332,14 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
         output.checkpoints.check()
     except InputError as problem:
         raise SsiError.of(problem, None) from problem
+
+
+def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
+    """What tells a run from others, but for the files that it reads."""
+    from ssilang import __version__
+    from ssilang.io.checkpoint import Deck, digest_of_text
+
+    return Deck(__version__, digest_of_text(source.text), {k: repr(v) for k, v in given.items()})
 
 
 def _forget_checkpoints(session: Session) -> None:

@@ -37,7 +37,7 @@ Rows = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True)
 class Deck:
-    """Whose checkpoints these are.
+    """What was run: whose checkpoints these are, or whose row of a sweep.
 
     Attributes
     ----------
@@ -52,6 +52,14 @@ class Deck:
     version: str
     text: str
     given: Mapping[str, str] = field(default_factory=dict)
+
+    def kept(self) -> dict[str, Any]:
+        """What is written down of it."""
+        return {"ssilang": self.version, "deck": self.text, "given": dict(self.given)}
+
+    def change_since(self, kept: Mapping[str, Any]) -> str:
+        """The first of 'ssilang', 'deck' and 'given' that was another one, '' if none was."""
+        return next((name for name, now in self.kept().items() if kept[name] != now), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,9 +158,7 @@ class Checkpoints:
         head = {
             "format": FORMAT,
             "version": VERSION,
-            "ssilang": self.deck.version,
-            "deck": self.deck.text,
-            "given": dict(self.deck.given),
+            **self.deck.kept(),
             "call": dict(call),
             "batches": batches + 1,
             "length": length,
@@ -190,18 +196,18 @@ class Checkpoints:
             if head["format"] != FORMAT:
                 raise ValueError(f"format {head['format']!r}")
             version, written_by = int(head["version"]), str(head["ssilang"])
-            deck, given = str(head["deck"]), dict(head["given"])
+            changed, given = self.deck.change_since(head), dict(head["given"])
         except DAMAGES as error:
             raise self._damaged(path, error) from error
-        if version != VERSION or written_by != self.deck.version:
+        if version != VERSION or changed == "ssilang":
             raise InputError(
                 "io.checkpoint-of-version",
                 folder=self.folder, version=written_by, own=self.deck.version,
             )  # fmt: skip
-        if deck != self.deck.text:
+        if changed == "deck":
             raise InputError("io.checkpoint-of-deck", folder=self.folder)
-        names = sorted(n for n in given.keys() | self.deck.given if self._differs(given, n))
-        if names:
+        if changed:
+            names = changed_names(given, self.deck.given)
             before, now = (
                 [f"{n}={d[n]}" if n in d else f"{n}" for n in names]
                 for d in (given, self.deck.given)
@@ -210,9 +216,6 @@ class Checkpoints:
                 "io.checkpoint-of-parameters", folder=self.folder, before=before, now=now
             )
         return head
-
-    def _differs(self, given: Mapping[str, str], name: str) -> bool:
-        return given.get(name) != self.deck.given.get(name)
 
     def _damaged(self, path: Path, error: Exception) -> InputError:
         return InputError("io.checkpoint-damaged", path=path, error=error)
@@ -225,6 +228,11 @@ def digest_of_file(path: Path) -> str:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError:
         return ""
+
+
+def changed_names(before: Mapping[str, str], now: Mapping[str, str]) -> list[str]:
+    """Names whose text or digest is another one, or that only one of the two has."""
+    return sorted(n for n in before.keys() | now if before.get(n) != now.get(n))
 
 
 # ---- what files hold -----------------------------------------------------------------------------

@@ -51,6 +51,24 @@ MESSAGES: dict[str, Message] = {
         "{done} of {total} runs are done already",
         "{done} calculs sur {total} sont déjà faits",
     ),
+    "runs-again": Message(
+        "{count} {count:run|runs} again: {reason}",
+        "{count} {count:calcul refait|calculs refaits} : {reason}",
+    ),
+    "again-version": Message(
+        "made by ssilang {before}, this is {now}",
+        "{before} de ssilang les a faits, celui-ci est {now}",
+    ),
+    "again-deck": Message("the deck has changed", "le jeu de données a changé"),
+    "again-values": Message("other values were given", "d'autres valeurs étaient données"),
+    "again-files": Message(
+        "{files} {files:has|have} changed",
+        "{files} {files:a|ont} changé",
+    ),
+    "again-unknown": Message(
+        "what was left does not say what it was made with",
+        "ce qui en reste ne dit pas avec quoi cela a été fait",
+    ),
     "files-no-motions": Message(
         "left out, no {count:motion|motions}: {names}",
         "{count:laissé de côté, pas un mouvement|laissés de côté, pas des mouvements} : {names}",

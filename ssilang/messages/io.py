@@ -277,6 +277,12 @@ MESSAGES: dict[str, Message] = {
         "cells {cell_type} have no AVS counterpart",
         "les éléments {cell_type} n'ont pas d'équivalent AVS",
     ),
+    "avs-file-cut": Message(
+        "{name} is cut: it has fewer lines than its first one says",
+        "{name} est tronqué : il a moins de lignes que n'en annonce la première",
+        "write or fetch it again",
+        "écrivez-le ou récupérez-le de nouveau",
+    ),
     "no-readable-avs-file": Message(
         "{name} is no readable AVS file: {error}",
         "{name} n'est pas un fichier AVS lisible : {error}",
@@ -472,6 +478,12 @@ MESSAGES: dict[str, Message] = {
     "record-not-finite": Message(
         "{name} has values that are too large for a number",
         "{name} a des valeurs trop grandes pour un nombre",
+    ),
+    "record-empty": Message(
+        "{name} holds no value, or says that it has none",
+        "{name} ne contient aucune valeur, ou dit n'en avoir aucune",
+        "the number of values in its head (NPTS) is that of the values below it",
+        "le nombre de valeurs de l'en-tête (NPTS) est celui des valeurs qui suivent",
     ),
     "line-says-values-file": Message(
         "{name}: line 4 says {count} {count:value|values}, the file holds {n_values}",
