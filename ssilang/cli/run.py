@@ -337,9 +337,9 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
 def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
     """What tells a run from others, but for the files that it reads."""
     from ssilang import __version__
-    from ssilang.io.checkpoint import Deck, digest_of_text
+    from ssilang.io.checkpoint import Deck
 
-    return Deck(__version__, digest_of_text(source.text), {k: repr(v) for k, v in given.items()})
+    return Deck(__version__, source.digest, {k: repr(v) for k, v in given.items()})
 
 
 def _forget_checkpoints(session: Session) -> None:
