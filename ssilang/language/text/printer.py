@@ -139,13 +139,13 @@ def same_tree(a: Any, b: Any) -> bool:
                 return False
             pairs += zip(a, b, strict=True)
         elif hasattr(a, "__dataclass_fields__"):
-            pairs += ((getattr(a, n), getattr(b, n)) for n in _said(type(a)))
+            pairs += ((getattr(a, n), getattr(b, n)) for n in _said(a.__class__))
         elif a != b:
             return False
     return True
 
 
 @cache
-def _said(kind: type[Any]) -> tuple[str, ...]:
+def _said(kind: Any) -> tuple[str, ...]:
     """Fields of a kind of node that say something."""
     return tuple(f.name for f in fields(kind) if f.name not in _IGNORED_FIELDS)
