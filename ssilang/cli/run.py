@@ -230,6 +230,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [SsiError("reader-left", session.evaluator.current_span)]
     _end_petsc(session)
     _tell_refused_folders(session)
+    if options.verbose:
+        _tell_plain_numba(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         _end_recording(session, errors)
@@ -374,6 +376,14 @@ def _tell_refused_folders(session: Session) -> None:
         warning.warns = True
         with suppress(ReaderLeft):  # it is in the summary
             session.report(warning)
+
+
+def _tell_plain_numba(session: Session) -> None:
+    """Note that plain numba has compiled, and why."""
+    kernel = sys.modules.get("ssilang.kernel.base.compiled")
+    if kernel is not None and kernel.PLAIN and session.on_note is not None:
+        told = {"untried": kernel.UNTRIED}
+        session.on_note(sentence("cli.plain-numba", told, session.language))
 
 
 def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> None:

@@ -146,6 +146,13 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "list-of-help": Message(
         "`ssilang help` lists all of them", "`ssilang help --lang fr` en donne la liste"
     ),
+    "plain-numba": Message(
+        "compiled code is made by plain numba{untried:?, since ssilang's own ways were not tried "
+        "with {untried}|, as SSILANG_PLAIN_NUMBA says}: the same answers, longer starts",
+        "le code compilé est fait par numba seul{untried:?, car les voies propres à ssilang n'ont "
+        "pas été essayées avec {untried}|, comme le dit SSILANG_PLAIN_NUMBA} : mêmes réponses, "
+        "départs plus longs",
+    ),
     "warm-nothing-kept": Message(
         "compiled code would end with this process",
         "le code compilé finirait avec ce processus",
