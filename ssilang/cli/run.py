@@ -369,8 +369,12 @@ def _flush(out: TextIO, errors: list[SsiError]) -> None:
 
 def _tell_refused_folders(session: Session) -> None:
     """Warn of folders of what is kept that others could have written to, once a process."""
+    told_of = set()
     while private.REFUSED:
         folder, fault = private.REFUSED.pop(0)
+        if fault in told_of:
+            continue
+        told_of.add(fault)
         told = {"folder": str(folder), "fault": str(fault)}
         warning = SsiError("cli.kept-folder-refused", None, **told)
         warning.warns = True

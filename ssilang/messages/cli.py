@@ -153,6 +153,12 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
         "pas été essayées avec {untried}|, comme le dit SSILANG_PLAIN_NUMBA} : mêmes réponses, "
         "départs plus longs",
     ),
+    "sweep-in-one-process": Message(
+        "processes cannot work together on this system (is /dev/shm missing, or closed?): the "
+        "runs go one after the other in this one",
+        "des processus ne peuvent travailler ensemble sur ce système (/dev/shm manque-t-il, ou "
+        "est-il fermé ?) : les calculs se suivent dans celui-ci",
+    ),
     "warm-nothing-kept": Message(
         "compiled code would end with this process",
         "le code compilé finirait avec ce processus",

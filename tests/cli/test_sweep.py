@@ -4,6 +4,7 @@ import csv
 import io
 import os
 import time
+from multiprocessing.context import SpawnContext
 
 import pyarrow.parquet as pq
 import pytest
@@ -425,3 +426,25 @@ def test_run_takes_one_value_of_a_name(deck, tmp_path, capsys):
     with pytest.raises(SystemExit) as stopped:
         main([str(deck), "--set", "AG=1,2"])
     assert stopped.value.code == 2
+
+
+@pytest.mark.parametrize("problem", [PermissionError(13, "closed"), ImportError("no sem_open")])
+def test_where_processes_cannot_share_the_runs_go_one_after_the_other(deck, monkeypatch, problem):
+    """As without /dev/shm; the rows are those of several processes."""
+    usual = SweepOptions(deck, ["AG=0.1,0.9,0.2", "N=3,1"], out=deck.parent / "usual", jobs=2)
+    expected, _, _ = run(usual)
+
+    def lock(self):
+        raise problem
+
+    monkeypatch.setattr(SpawnContext, "Lock", lock)
+    alone = SweepOptions(deck, ["AG=0.1,0.9,0.2", "N=3,1"], out=deck.parent / "alone", jobs=2)
+    code, _, err = run(alone)
+    assert code == expected == 1  # one value is too strong
+    assert "the runs go one after the other" in err
+    texts = [(o.folder / "sweep.csv").read_text() for o in (usual, alone)]
+    tables = [list(csv.DictReader(io.StringIO(text))) for text in texts]
+    for row in (row for table in tables for row in table):
+        del row["seconds"], row["folder"]
+    assert tables[0] == tables[1]
+    assert len(tables[0]) == 6

@@ -82,6 +82,21 @@ class FreshContext(SpawnContext):
     Process = _FreshProcess
 
 
+def can_share() -> bool:
+    """Whether processes can wait for each other: a system without /dev/shm has no semaphores."""
+    try:
+        get_context("spawn").Lock()
+    except (ImportError, OSError):
+        return False
+    return True
+
+
+def run_alone(tasks: Sequence[Task], together: int = 1) -> Iterator[Row]:
+    """Rows as they come, made in this process one after the other."""
+    for batch in gathered(tasks, 1, together):
+        yield from run_together(batch)
+
+
 def run_here(
     tasks: Sequence[Task],
     jobs: int,

@@ -13,7 +13,13 @@ from typing import Any, TextIO
 from ssilang.cli.run import deck_of, refuse_unknown, write_report
 from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.histories import Joined, join_histories
-from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
+from ssilang.cli.sweeping.pool import (
+    can_share,
+    dask_installed,
+    one_thread,
+    run_alone,
+    run_on_cluster,
+)
 from ssilang.cli.sweeping.table import (
     Row,
     can_write,
@@ -102,7 +108,7 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
-    for row in _progress(_run(waiting, options), len(waiting), teller(options.language), err):
+    for row in _progress(_run(waiting, options, err), len(waiting), teller(options.language), err):
         rows[row["run"]] = row
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}
@@ -147,11 +153,14 @@ def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
     )
 
 
-def _run(tasks: list[Task], options: SweepOptions) -> Iterator[dict[str, Any]]:
+def _run(tasks: list[Task], options: SweepOptions, err: TextIO) -> Iterator[dict[str, Any]]:
     if options.scheduler:
         return run_on_cluster(tasks, options.scheduler, options.together)
     jobs = options.jobs or os.cpu_count() or 1
     one_thread()
+    if tasks and not can_share():
+        err.write(sentence("cli.sweep-in-one-process", {}, options.language) + "\n")
+        return run_alone(tasks, options.together)
     return run_all(tasks, max(min(jobs, len(tasks)), 1), together=options.together)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import re
 import textwrap
 import unicodedata
@@ -54,6 +55,8 @@ _STYLE: dict[str, object] = {
 @contextmanager
 def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
     """A new figure of `width` x `height` inches; the style holds inside the block."""
+    # where the user has no home matplotlib tells of a cache that it makes elsewhere
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
