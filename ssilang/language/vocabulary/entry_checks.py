@@ -77,7 +77,7 @@ def checked(
                 "entry-type", None, where=place, kinds=kinds, found=found, made=made,
                 en=entry.en, fr=entry.fr, **data,
             )  # fmt: skip
-        return float(value)
+        value = float(value)
     if entry.values and found == "MOT":
         word = entry.word(str(value))
         if word is None:
@@ -91,6 +91,10 @@ def checked(
     flaw = session.flaw_of(value)
     if flaw:
         raise SsiError(flaw, None, where=place, **data)
+    said = entry.range.flaw(value, entry.index)
+    if said is not None:
+        code, told = said
+        raise SsiError(f"entry-{code}", None, where=place, en=entry.en, fr=entry.fr, **told, **data)
     return value
 
 
@@ -167,6 +171,12 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
+        said = entry.usual.flaw(value, entry.index)
+        if said is not None:
+            self.session.warn(
+                "entry-unusual", self.place, procedure=name, operator=name, where=shown(where),
+                en=entry.en, fr=entry.fr, **said[1],
+            )  # fmt: skip
         if isinstance(value, Table) and self.declared.inside(entry.path):
             self.run(value, entry.path, where)
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
+from ssilang.language.values import ListEnti, ListReel
 from ssilang.messages.message import spoken
 
 
@@ -62,12 +64,40 @@ UNITS: dict[str, Unit] = {
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Numbers from `low` to `high`; an open end does not belong to it."""
+    """Numbers from `low` to `high`; an open end does not belong to it.
+
+    Lists of `increasing` ones have at least one number, and each is above the one before.
+    """
 
     low: float = -math.inf
     high: float = math.inf
     open_low: bool = False
     open_high: bool = False
+    increasing: bool = False
+
+    def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
+        """What is wrong with a number or a list of them: a code and data; None if nothing is.
+
+        What is neither, as a field where a number would do too, is not judged.
+        """
+        if self == ANY_NUMBER or isinstance(value, bool):
+            return None
+        single = isinstance(value, int | float)
+        if not single and not isinstance(value, ListReel | ListEnti):
+            return None
+        numbers = [value] if isinstance(value, int | float) else value.values.tolist()
+        wrong = next((v for v in numbers if not (math.isfinite(v) and v in self)), None)
+        if wrong is not None:
+            bound = self.text(name) or f"|{name}| < inf"
+            return "out-of-range", {"value": wrong, "range": bound}
+        if single or not self.increasing:
+            return None
+        falls = next((i for i, (a, b) in enumerate(pairwise(numbers), 1) if not b > a), 0)
+        if numbers and not falls:
+            return None
+        place = {"place": falls, "next_place": falls + 1, "count": len(numbers)}
+        before, after = numbers[falls - 1 : falls + 1] if numbers else (0.0, 0.0)
+        return "not-increasing", {"value": after, "before": before, **place}
 
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low
@@ -83,6 +113,21 @@ class Range:
         if bounded[0]:
             return f"{name} {left.replace('<', '>')} {self.low:g}"
         return f"{name} {right} {self.high:g}" if bounded[1] else ""
+
+
+def read_range(text: str) -> Range:
+    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0'."""
+    increasing = text.startswith("increasing")
+    low, high, opens = -math.inf, math.inf, [False, False]
+    left, named, right = text.removeprefix("increasing").partition("x")
+    turned = {"<": ">", "<=": ">="}
+    parts = left.split() if not named else [turned[left.split()[1]], left.split()[0]]
+    for sign, number in (parts, right.split()) if named else (parts,) if parts else ():
+        if sign[0] == ">":
+            low, opens[0] = float(number), sign == ">"
+        else:
+            high, opens[1] = float(number), sign == "<"
+    return Range(low, high, *opens, increasing)
 
 
 ANY_NUMBER = Range()
