@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 _TRUTH = "LOGIQUE"
 
 
+_OF_ENTRIES = {"out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing"}
+
 MADE_BY = {
     "CHARGEME": "CHAR 'MECA' CHPO1 EVOL1",
     "CHPOINT": "MANU 'CHPO' MAIL1 'UX' X1",
@@ -94,7 +96,9 @@ def checked(
     said = entry.range.flaw(value, entry.index)
     if said is not None:
         code, told = said
-        raise SsiError(f"entry-{code}", None, where=place, en=entry.en, fr=entry.fr, **told, **data)
+        raise SsiError(
+            _OF_ENTRIES[code], None, where=place, en=entry.en, fr=entry.fr, **told, **data
+        )
     return value
 
 
