@@ -38,7 +38,7 @@ class Argument:
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
-    with its name and its place. Numbers outside of `range` are refused.
+    with its name and its place. Numbers outside of `range` are refused, of `usual` told.
     """
 
     name: str
@@ -57,6 +57,7 @@ class Argument:
     leads: bool = False
     whole: bool = False
     range: Range = ANY_NUMBER
+    usual: Range = ANY_NUMBER
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,9 +156,12 @@ def arg(
     unit: str = "",
     kind: str = "",
     range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind, range=range)
+    return Argument(
+        name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind, range=range, usual=usual
+    )
 
 
 def lead(
@@ -189,11 +193,13 @@ def opt(
     unit: str = "",
     kind: str = "",
     range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
 ) -> Argument:
     """An optional operand."""
     return Argument(
         name, types or (ANY,), optional=True, default=default, en=en, fr=fr, unit=unit, kind=kind,
         range=range,
+        usual=usual,
     )  # fmt: skip
 
 

@@ -404,8 +404,10 @@ MESSAGES: dict[str, Message] = {
         "{where} : {fr}",
     ),
     "entry-not-increasing": Message(
-        "{procedure}: {where} {count:?does not increase: {value:g} follows {before:g} (values {place} and {next_place})|is empty}",
-        "{procedure} : {where} {count:?ne croît pas : {value:g} suit {before:g} (valeurs {place} et {next_place})|est vide}",
+        "{procedure}: {where} {count:?does not increase: {value:g} follows "
+        "{before:g} (values {place} and {next_place})|is empty}",
+        "{procedure} : {where} {count:?ne croît pas : {value:g} suit "
+        "{before:g} (valeurs {place} et {next_place})|est vide}",
         "{where}: {en}",
         "{where} : {fr}",
     ),
@@ -422,9 +424,18 @@ MESSAGES: dict[str, Message] = {
         "{en:?{name}: {en}}",
         "{fr:?{name} : {fr}}",
     ),
+    "unusual": Message(
+        "{operator}: {name} is {value:g}, mostly {range}",
+        "{operator} : {name} vaut {value:g}, d'ordinaire {range}",
+        "{en:?{name}: {en}}",
+        "{fr:?{name} : {fr}}",
+        severity="warning",
+    ),
     "not-increasing": Message(
-        "{operator}: {name} {count:?does not increase: {value:g} follows {before:g} (values {place} and {next_place})|is empty}",
-        "{operator} : {name} {count:?ne croît pas : {value:g} suit {before:g} (valeurs {place} et {next_place})|est vide}",
+        "{operator}: {name} {count:?does not increase: {value:g} follows "
+        "{before:g} (values {place} and {next_place})|is empty}",
+        "{operator} : {name} {count:?ne croît pas : {value:g} suit "
+        "{before:g} (valeurs {place} et {next_place})|est vide}",
         "{en:?{name}: {en}}",
         "{fr:?{name} : {fr}}",
     ),

@@ -218,9 +218,17 @@ class Binder:
 
     def _given(self, a: Argument, operand: Operand) -> Any:
         if a.range is not ANY_NUMBER and (wrong := a.range.flaw(operand.value, a.name)):
-            data = {"operator": self.call.name, "name": a.name, "en": a.en, "fr": a.fr}
-            raise SsiError(wrong[0], operand.span, **data, **wrong[1])
+            raise self._told(wrong[0], a, operand, wrong[1])
+        if a.usual is not ANY_NUMBER and (odd := a.usual.flaw(operand.value, a.name)):
+            warning = self._told("unusual", a, operand, odd[1])
+            self.call.session.report(warning)
         return operand if a.whole else operand.value
+
+    def _told(
+        self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
+    ) -> SsiError:
+        said = {"operator": self.call.name, "name": a.name, "en": a.en, "fr": a.fr}
+        return SsiError(code, operand.span, **said, **data)
 
     def _lacking(self, a: Argument) -> SsiError:
         """The error of an operand that is not there: a word stands where another must be said."""

@@ -6,7 +6,7 @@ of its full name. A section says where an entry stands, as a script would write 
     [TAB1.times.TEMPS_CALCULES]              argument, theme, index
     types = ["LISTREEL"]
     unit = "s"
-    range = "increasing"                     also "> 0", "0 <= x < 0.5"; `usual` is told, not refused
+    range = "increasing"                     also "> 0", "0 <= x < 0.5"; outside of `usual` told
     en = "instants of the calculation"
     fr = "instants du calcul"
 

@@ -131,16 +131,16 @@ def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> R
         meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
     for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
         if bound != ANY_NUMBER:
-            meaning += "\n" + range_told(bound, entry.index, code, language)
+            told = bounds_told(bound, entry.index, language)
+            meaning += f"\n{teller(language)(code)}{COLON[language]}{told}"
     types = " | ".join(entry.types) or teller(language)("help.any")
     return index, types, entry.unit, _default(entry, language), meaning
 
 
-def range_told(bound: Range, name: str, code: str, language: str) -> str:
-    """'range: 0 <= NU < 0.5, increasing'."""
-    told = teller(language)
-    words = [bound.text(name), told("help.increasing") if bound.increasing else ""]
-    return f"{told(code)}{COLON[language]}{', '.join(filter(None, words))}"
+def bounds_told(bound: Range, name: str, language: str) -> str:
+    """'0 <= NU < 0.5', 'increasing'."""
+    words = [bound.text(name), teller(language)("help.increasing") if bound.increasing else ""]
+    return ", ".join(filter(None, words))
 
 
 def _index(index: str, language: str) -> str:

@@ -48,7 +48,8 @@ MADE_BY = {
 
 def shown(path: tuple[object, ...]) -> str:
     """Indices as a script writes them, the argument left out: 'SOL' . 'ITERATION' . 1."""
-    return " . ".join(str(i) if isinstance(i, int) else f"'{str(i).rstrip()}'" for i in path[1:])
+    words = (f"'{i.rstrip()}'" if isinstance(i, str) else i for i in path[1:])
+    return " . ".join(str(w) if isinstance(w, str | int | float) else type_of(w) for w in words)
 
 
 def allowed(entry: TableEntry) -> str:

@@ -134,6 +134,7 @@ ANY_NUMBER = Range()
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
 NOT_POSITIVE = Range(high=0.0)
+RISING = Range(0.0, increasing=True)
 
 
 def between(low: float, high: float) -> Range:

@@ -20,6 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
@@ -124,7 +125,9 @@ Subtracted = ListReel | ListEnti | ListMots
     "SAUF",
     arg("first", *_SUBTRACTED, en="list", fr="liste"),
     arg("second", *_SUBTRACTED, en="items to leave out", fr="éléments à omettre"),
-    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    opt(
+        "tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance", fr="tolérance absolue"
+    ),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
     gives=Like("first"),
     family="lists",

@@ -25,6 +25,7 @@ from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.language.registry import Help, arg, choice, flag, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 
@@ -91,7 +92,13 @@ _AT_NODES = (
         en="all translations (default), all rotations, or unknowns",
         fr="toutes les translations (par défaut), toutes les rotations, ou des inconnues",
     ),
-    arg("amount", "FLOTTANT", en="value at each node", fr="valeur en chaque noeud"),
+    arg(
+        "amount",
+        "FLOTTANT",
+        usual=NOT_NEGATIVE,
+        en="value at each node",
+        fr="valeur en chaque noeud",
+    ),
     arg("place", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
 )
 

@@ -5,9 +5,10 @@
 
     t = KPOS u + QD z ,   uy dz = du - |z|^(ETA - 2) (z . du) c z ,   c = 1 loading, 1 - 2 BETA not
 
-(c = gamma + BETA sign(z . du), gamma = 1 - BETA: beta is that of |du|, as Wen has it.) Backward Euler: z = zeta a / |a|, a = z0 + d,
-d = du / uy, is along a, with `zeta + c (a . d) / |a| zeta^ETA = |a|`: one equation whose left side
-grows. The vertical spring KN is elastic both ways.
+(c = gamma + BETA sign(z . du), gamma = 1 - BETA: beta is that of |du|, as Wen has it.)
+Backward Euler: z = zeta a / |a|, a = z0 + d, d = du / uy, is along a, with
+`zeta + c (a . d) / |a| zeta^ETA = |a|`: one equation whose left side grows.
+The vertical spring KN is elastic both ways.
 
 `PENDULUM` (APPUI_PENDULE): a slider on a bowl of radius R = RAYO. The bowl lifts it by u^2 / 2 R:
 with the gap g = w - u^2 / 2 R above the bowl, N = -KN g where g < 0 and nothing where it has
