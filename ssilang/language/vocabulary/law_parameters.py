@@ -90,7 +90,7 @@ _BEARINGS = (
     _p("ETA", "", "Exponent of Bouc and Wen: 1 rounds the yielding, more makes it sharp",
        "Exposant de Bouc et Wen : 1 arrondit la plastification, plus la rend vive",
        ("APPUI_PLOMB",), range=Range(1.0), default=1.0),
-    _p("BETA", "", "Bouc and Wen's beta, of the term in |du|; gamma is 1 - beta; 0.5: unloads elastic",
+    _p("BETA", "", "Wen's beta, of the term in |du|, gamma being 1 - beta; 0.5: elastic unloading",
        "Bêta de Bouc et Wen, du terme en |du| ; gamma est 1 - bêta ; 0,5 : décharge élastique",
        ("APPUI_PLOMB",), range=between(0.5, 1.0), default=0.5),
     _p("RAYO", "m", "Radius of the bowl of a pendulum", "Rayon de la cuvette d'un pendule",

@@ -492,9 +492,10 @@ MESSAGES: dict[str, Message] = {
         "after them depends on the step",
         "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
         "mouvement qui les suit dépend du pas",
-        "shorter steps, 'CONSERVATIF' = VRAI, or joints 'JOINT_SDM' in place of the relations",
-        "des pas plus courts, 'CONSERVATIF' = VRAI, ou des joints 'JOINT_SDM' à la place des "
-        "relations",
+        "{uncorrected:?'VITEUNIL' left to its default, }shorter steps, 'CONSERVATIF' = VRAI, or "
+        "joints 'JOINT_SDM' in place of the relations",
+        "{uncorrected:?'VITEUNIL' par défaut, }des pas plus courts, 'CONSERVATIF' = VRAI, ou des "
+        "joints 'JOINT_SDM' à la place des relations",
         severity="warning",
     ),
     "impacts-uncorrected": Message(

@@ -276,6 +276,13 @@ MESSAGES: dict[str, Message] = {
         "{text}: {described}",
         "{text}: {described}",
     ),
+    "friction-negative": Message(
+        "FROT = {value:g}: below zero the shear has no bound",
+        "FROT = {value:g} : sous zéro, le cisaillement n'a pas de borne",
+        "if that is meant write -1.",
+        "si c'est voulu, écrivez -1.",
+        severity="warning",
+    ),
     "friction-as-angle": Message(
         "{name} = {value:g} is an unusually large coefficient of friction",
         "{name} = {value:g} est un coefficient de frottement anormalement grand",

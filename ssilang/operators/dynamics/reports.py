@@ -114,8 +114,12 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float:
     share = float(windows.min(axis=1).max())
     if share <= CHANGED:
         return 0.0
-    code = "impacts-uncorrected" if damps else "impacts-change-energy"
-    entries.warn(f"operators.dynamics.{code}", share=100.0 * share)
+    if damps:
+        entries.warn("operators.dynamics.impacts-uncorrected", share=100.0 * share)
+    else:
+        code = "operators.dynamics.impacts-change-energy"
+        uncorrected = not penalty and options.correction == "FAUX"
+        entries.warn(code, share=100.0 * share, uncorrected=uncorrected)
     return share
 
 

@@ -30,6 +30,7 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         Parameters of the zone: their values, and what the script gave for them.
     """
     session, system = call.session, workspace(call.session).units
+    _warn_of_sign(call, given)
     if system is None:
         _warn_of_friction(call, zone, given)
     if system is None or session.frame.procedure in session.library.standard_names:
@@ -44,6 +45,16 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         unusual = next((v for v in ends if v * here not in meant.usual), None)
         if unusual is not None:
             _warn(call, meant, unusual, said, system)
+
+
+def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:
+    """Warn of negative coefficients of friction but -1: the shear has no bound there."""
+    array, said = given.get("FROT", (np.empty(0), None))
+    wrong = array[(array < 0.0) & (array != -1.0)] if array.dtype == float else array[:0]
+    if wrong.size:
+        warning = call.error("operators.models.friction-negative", said, value=float(wrong[0]))
+        warning.warns = True
+        call.session.report(warning)
 
 
 def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
