@@ -119,4 +119,4 @@ def test_a_suite_matched_by_wavelets_has_the_target_and_its_mean_stays_above_the
 def test_what_no_suite_is_is_refused(more, refused):
     text = SUITE + "T . 'CIBLE' = EVOL 'MANU' 'FREQ' (PROG 0.3 10.) 'ACCE' (PROG 1. 5.) ;"
     result = run_text(text + more + "S = @ACCORD T ;")
-    assert result.errors[0].code == f"stdlib.{refused}"
+    assert result.errors[0].code.removeprefix("stdlib.") == refused
