@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+
+import numpy as np
 
 from ssilang.language.values import ListEnti, ListReel
 from ssilang.messages.message import spoken
@@ -62,6 +63,9 @@ UNITS: dict[str, Unit] = {
 }
 
 
+_HUGE = 1e300  # integers may be past all reals
+
+
 @dataclass(frozen=True, slots=True)
 class Range:
     """Numbers from `low` to `high`; an open end does not belong to it.
@@ -83,21 +87,29 @@ class Range:
         if self == ANY_NUMBER or isinstance(value, bool):
             return None
         single = isinstance(value, int | float)
-        if not single and not isinstance(value, ListReel | ListEnti):
+        if isinstance(value, int | float):
+            near = float(value) if abs(value) < _HUGE else math.copysign(math.inf, value)
+            numbers = np.array([near])
+        elif isinstance(value, ListReel | ListEnti):
+            numbers = np.asarray(value.values, dtype=float)
+        else:
             return None
-        numbers = [value] if isinstance(value, int | float) else value.values.tolist()
-        wrong = next((v for v in numbers if not (math.isfinite(v) and v in self)), None)
-        if wrong is not None:
+        with np.errstate(invalid="ignore"):
+            above = numbers > self.low if self.open_low else numbers >= self.low
+            below = numbers < self.high if self.open_high else numbers <= self.high
+        wrong = numbers[~(np.isfinite(numbers) & above & below)]
+        if wrong.size:
             bound = self.text(name) or f"|{name}| < inf"
-            return "out-of-range", {"value": wrong, "range": bound}
+            return "out-of-range", {"value": float(wrong[0]), "range": bound}
         if single or not self.increasing:
             return None
-        falls = next((i for i, (a, b) in enumerate(pairwise(numbers), 1) if not b > a), 0)
-        if numbers and not falls:
+        falls = np.flatnonzero(np.diff(numbers) <= 0.0)
+        if numbers.size and not falls.size:
             return None
-        place = {"place": falls, "next_place": falls + 1, "count": len(numbers)}
-        before, after = numbers[falls - 1 : falls + 1] if numbers else (0.0, 0.0)
-        return "not-increasing", {"value": after, "before": before, **place}
+        place = int(falls[0]) + 1 if falls.size else 0
+        before, after = numbers[place - 1 : place + 1].tolist() if place else (0.0, 0.0)
+        told = {"value": after, "before": before, "place": place, "next_place": place + 1}
+        return "not-increasing", {**told, "count": numbers.size}
 
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low
@@ -127,7 +139,7 @@ def read_range(text: str) -> Range:
             low, opens[0] = float(number), sign == ">"
         else:
             high, opens[1] = float(number), sign == "<"
-    return Range(low, high, *opens, increasing)
+    return Range(low, high, opens[0], opens[1], increasing)
 
 
 ANY_NUMBER = Range()
