@@ -5,7 +5,8 @@
 The pages are made, not kept: the repository has what they are made from. One page an operator and a
 procedure: syntax, arguments, help, each example with what it printed
 when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
-every word of Cast3M whether it is built, `ranges.md` which numbers entries and operands take, `published.md` what the decks of `cases/published` obtain.
+every word of Cast3M whether it is built, `ranges.md` which numbers entries and operands take,
+`published.md` what the decks of `cases/published` obtain.
 """
 
 from __future__ import annotations
@@ -270,8 +271,8 @@ def ranges_markdown() -> str:
         shown = " ".join(f"{v:g}" for v in wrong)
         rows.append(f"| {where} | {bounds[0]} | {bounds[1]} | {shown} |")
     head = (
-        f"# Ranges of numbers\n\n{numbers} entries of tables and operands take numbers, {ranged} of "
-        f"them declare a range; of {tried} numbers tried on these, {told} lie outside and are "
+        f"# Ranges of numbers\n\n{numbers} entries of tables and operands take numbers, {ranged} "
+        f"of them declare a range; of {tried} numbers tried on these, {told} lie outside and are "
         "refused, or told where only the usual range is left; the others make sense there. "
         "Parameters of materials have theirs on the pages of MATE.\n\n"
         "| entry | range | usual | told of what was tried |\n| --- | --- | --- | --- |\n"

@@ -139,7 +139,8 @@ class History:
         work = kept[:, 5]
         reach = np.maximum.accumulate(work) - np.minimum.accumulate(work)
         least = LITTLE * np.abs(kept).max(initial=0.0)
-        return np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
+        found: FloatArray = np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
+        return found
 
 
 @dataclass(eq=False)

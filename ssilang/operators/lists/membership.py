@@ -70,7 +70,7 @@ def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
 @DANS.form(
     _WAY,
     arg("part", "LISTENTI", en="list of integers", fr="liste d'entiers"),
-    arg("whole", "LISTENTI", **_SECOND),
+    arg("whole", "LISTENTI", en=_SECOND["en"], fr=_SECOND["fr"]),
 )
 def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
     return _as_stretch(part.values, whole.values)
@@ -88,7 +88,7 @@ def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
 @DANS.form(
     _WAY,
     arg("part", "LISTREEL", en="list of reals", fr="liste de réels"),
-    arg("whole", "LISTREEL", **_SECOND),
+    arg("whole", "LISTREEL", en=_SECOND["en"], fr=_SECOND["fr"]),
 )
 def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
     left, right = part.values, whole.values
