@@ -153,8 +153,8 @@ BEARING = (
 )
 PROBES = {
     BODY: """B = MATE M 'YOUN' 1.E8 'NU' 0.3 'RHO' -2. ;| B = MATE M 'YOUN' 1.E8 'NU' 0.7 ;
-B = MATE M 'YOUN' -1. 'NU' 0.3 ;| C = APPU 'UX' -1.E5 S ;| C = MASS 'DEPL' -10. S ;
-C = RIGI 'DEPL' -10. S ;| C = AMOR 'DEPL' -10. S ;| ELIM S -1.E-3 ;| D = DROI 0 (0. 0.) (1. 0.) ;
+B = MATE M 'YOUN' -1. 'NU' 0.3 ;| C = MASS 'DEPL' -10. S ;
+C = AMOR 'DEPL' -10. S ;| ELIM S -1.E-3 ;| D = DROI 0 (0. 0.) (1. 0.) ;
 DENS -1. ;| B = VIBR 'SIMUL' 1. 0 K MA ;| B = VIBR 'SIMUL' 1. -2 K MA ;
 B = VIBR 'SIMUL' -1. 2 K MA ;| B = VIBR 'SIMUL' 1. 2 K MA ; C = AMOR B (PROG -5. 5.) ;
 SORT 'BILA' 'x' 1. 1. -0.1 ;| L1 = DROI (0. 0.) (1. 0.) 'DINI' -0.1 'DFIN' 0.2 ;

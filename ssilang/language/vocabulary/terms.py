@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,7 +64,7 @@ UNITS: dict[str, Unit] = {
 }
 
 
-_HUGE = 1e300  # integers may be past all reals
+_HUGE = sys.float_info.max  # integers may be past all reals
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +89,7 @@ class Range:
             return None
         single = isinstance(value, int | float)
         if isinstance(value, int | float):
-            near = float(value) if abs(value) < _HUGE else math.copysign(math.inf, value)
+            near = float(value) if abs(value) <= _HUGE else math.copysign(math.inf, value)
             numbers = np.array([near])
         elif isinstance(value, ListReel | ListEnti):
             numbers = np.asarray(value.values, dtype=float)

@@ -437,9 +437,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg(
-    "stiffness", "FLOTTANT", usual=NOT_NEGATIVE, en="stiffness of each", fr="raideur de chacun"
-)
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", fr="raideur de chacun")
 
 
 @operator(
