@@ -5,23 +5,25 @@
 The pages are made, not kept: the repository has what they are made from. One page an operator and a
 procedure: syntax, arguments, help, each example with what it printed
 when it ran here, and the pictures it drew. `index.md` lists them by family, `coverage.md` says of
-every word of Cast3M whether it is built, `published.md` what the decks of `cases/published` obtain.
+every word of Cast3M whether it is built, `ranges.md` which numbers entries and operands take,
+`published.md` what the decks of `cases/published` obtain.
 """
 
 from __future__ import annotations
 
+import math
 import re
 import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.cast3m import IN_SCOPE, Cast3mWord, cast3m_words
-from ssilang.language.registry import OPERATORS, operators_by_family
+from ssilang.language.registry import OPERATORS, Argument, arguments_in, operators_by_family
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
     Page,
@@ -31,8 +33,13 @@ from ssilang.language.say.reference import (
     operator_page,
     procedure_page,
 )
-from ssilang.language.vocabulary.entries import read_declaration
-from ssilang.language.vocabulary.entries_table import entries_markdown, tables_markdown
+from ssilang.language.vocabulary.entries import TableEntry, declared_names, read_declaration
+from ssilang.language.vocabulary.entries_table import (
+    bounds_told,
+    entries_markdown,
+    tables_markdown,
+)
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
@@ -247,6 +254,48 @@ def published_markdown(decks: Iterable[Path]) -> str:
 # ---- writing ---------------------------------------------------------------------------------
 
 
+_TRIED = (math.nan, math.inf, -1e300, -1.0, 0.0, 0.3, 1.0, 91.0, 1e300)
+
+
+def ranges_markdown() -> str:
+    """Numbers that entries of tables and operands take: range, what is usual, what is refused."""
+    numbers, ranged, tried, told, rows = 0, 0, 0, 0, []
+    for where, index, one in _numbers():
+        numbers += 1
+        if one.range == ANY_NUMBER and one.usual == ANY_NUMBER:
+            continue
+        ranged += 1
+        wrong = [v for v in _TRIED if one.range.flaw(v, index) or one.usual.flaw(v, index)]
+        tried, told = tried + len(_TRIED), told + len(wrong)
+        bounds = [bounds_told(b, index, "en") for b in (one.range, one.usual)]
+        shown = " ".join(f"{v:g}" for v in wrong)
+        rows.append(f"| {where} | {bounds[0]} | {bounds[1]} | {shown} |")
+    head = (
+        f"# Ranges of numbers\n\n{numbers} entries of tables and operands take numbers, {ranged} "
+        f"of them declare a range; of {tried} numbers tried on these, {told} lie outside and are "
+        "refused, or told where only the usual range is left; the others make sense there. "
+        "Parameters of materials have theirs on the pages of MATE.\n\n"
+        "| entry | range | usual | told of what was tried |\n| --- | --- | --- | --- |\n"
+    )
+    return head + "\n".join(rows) + "\n"
+
+
+def _numbers() -> Iterator[tuple[str, str, TableEntry | Argument]]:
+    """Entries and operands that are numbers or lists of them, with where they stand."""
+    kinds = {"FLOTTANT", "ENTIER", "LISTREEL", "LISTENTI"}
+    for name in declared_names():
+        declared = read_declaration(name)
+        for e in declared.entries if declared is not None else ():
+            if e.is_read and kinds & set(e.types):
+                yield f"`{name}` {' . '.join(e.path)}", e.index, e
+    seen: set[tuple[str, int]] = set()
+    for o in (o for group in operators_by_family().values() for o in group):
+        for a in (a for form in o.forms for a in arguments_in(form.entries or ())):
+            if kinds & set(a.types) and (o.name, id(a)) not in seen:
+                seen.add((o.name, id(a)))
+                yield f"`{o.name}` {a.name}", a.name, a
+
+
 def build(target: Path, only: Collection[str] = ()) -> list[str]:
     """Write everything below `target`; returns the examples that failed.
 
@@ -273,6 +322,7 @@ def build(target: Path, only: Collection[str] = ()) -> list[str]:
         (target / file_name(page.name)).write_text(text, encoding="utf-8")
     (target / "index.md").write_text(index_markdown(pages), encoding="utf-8")
     (target / "coverage.md").write_text(coverage_markdown(), encoding="utf-8")
+    (target / "ranges.md").write_text(ranges_markdown(), encoding="utf-8")
     return failed
 
 

@@ -343,6 +343,14 @@ class Result(Mapping[str, Any]):
         return [Notice.of(w, self.language) for w in self.session.warnings]
 
     @property
+    def calculations(self) -> list[dict[str, Any]]:
+        """What each motion and each sequence of load steps took, as in `summary.json`.
+
+        `energy_imbalance` is the largest energy from nowhere, a share of what there was.
+        """
+        return [dict(c) for c in self.session.statistics.get("calculations", [])]
+
+    @property
     def checks(self) -> Checks:
         """Figures that the script reports, with what was expected: by place or by name."""
         found = [

@@ -247,8 +247,9 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
     seconds = time.perf_counter() - session.started - session.away()
     result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
-    if summary and not refused:  # what stands there is the other run's
+    if not refused:
         _tell_imbalance(session)
+    if summary and not refused:  # what stands there is the other run's
         _summarise(result, source, err, options.quiet)
         if options.report:
             _report(result, err, options.quiet)
@@ -506,22 +507,20 @@ def _imbalance(calculation: dict[str, Any]) -> float:
 def _energy(session: Session, calculations: list[dict[str, Any]]) -> dict[str, str]:
     """The worst imbalance: per cent, where OPTI 'UNIT' names units an energy, what makes it.
 
-    Motions beyond the limit come before load steps of statics, whose work is only approximate.
+    Load steps of statics have none: the work of loads is taken along straight lines between them.
     """
     from ssilang.operators.workspace import workspace
 
-    found = [c for c in calculations if c.get("energy_imbalance")]
+    found = [c for c in calculations if c.get("energy_imbalance") and not c["static"]]
     if not found:
-        return {"energy": "", "amount": "", "off": "", "steps": ""}
-    off = [c for c in found if "energy_imbalance_from" in c]
-    worst = max([c for c in off if not c["static"]] or found, key=_imbalance)
+        return {"energy": "", "amount": "", "off": ""}
+    worst = max(found, key=_imbalance)
     units = workspace(session).units
     share = 100.0 * worst["energy_imbalance"]
     told = {
         "energy": f"{share:.0f}" if 10.0 <= share < 1e6 else f"{share:.2g}",
         "amount": "",
-        "off": "off" if worst in off and not worst["static"] else "",
-        "steps": worst["energy_imbalance_from"] if worst in off and worst["static"] else "",
+        "off": "off" if "energy_imbalance_from" in worst else "",
     }
     if units is not None:
         amount = worst["energy_imbalance_joules"] / units.factor("J")

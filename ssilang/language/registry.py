@@ -16,6 +16,7 @@ from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
+from ssilang.language.vocabulary.terms import ANY_NUMBER, Range
 from ssilang.messages.message import spoken
 
 ANY = "*"
@@ -37,7 +38,7 @@ class Argument:
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
-    with its name and its place.
+    with its name and its place. Numbers outside of `range` are refused, of `usual` told.
     """
 
     name: str
@@ -55,6 +56,8 @@ class Argument:
     behind: bool = False
     leads: bool = False
     whole: bool = False
+    range: Range = ANY_NUMBER
+    usual: Range = ANY_NUMBER
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,10 +149,19 @@ Entry = Argument | Keyword | Select | Group | Either
 
 
 def arg(
-    name: str, *types: str, en: str = "", fr: str = "", unit: str = "", kind: str = ""
+    name: str,
+    *types: str,
+    en: str = "",
+    fr: str = "",
+    unit: str = "",
+    kind: str = "",
+    range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind)
+    return Argument(
+        name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind, range=range, usual=usual
+    )
 
 
 def lead(
@@ -180,11 +192,15 @@ def opt(
     fr: str = "",
     unit: str = "",
     kind: str = "",
+    range: Range = ANY_NUMBER,
+    usual: Range = ANY_NUMBER,
 ) -> Argument:
     """An optional operand."""
     return Argument(
-        name, types or (ANY,), optional=True, default=default, en=en, fr=fr, unit=unit, kind=kind
-    )
+        name, types or (ANY,), optional=True, default=default, en=en, fr=fr, unit=unit, kind=kind,
+        range=range,
+        usual=usual,
+    )  # fmt: skip
 
 
 def many(

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.messages.message import name_of_type
+
 if TYPE_CHECKING:
     from ssilang.language.text.tree import Definition, Item
 
@@ -401,6 +403,9 @@ def type_of(value: object) -> str:
         if word is not None:
             return word
     return type(value).__name__.upper()[:8]
+
+
+name_of_type.append(type_of)
 
 
 def known_types() -> frozenset[str]:

@@ -102,10 +102,10 @@ MESSAGES: dict[str, Message] = {
     "files-written": Message(
         "{count} {count:file|files} in {folder}, {warnings} {warnings:warning|warnings}"
         "{energy:?, {off:?energies out of balance by|energy within} {energy} %}"
-        "{amount:? ({amount})}{steps:?: {steps}}",
+        "{amount:? ({amount})}",
         "{count} {count:fichier|fichiers} dans {folder}, {warnings} "
         "{warnings:avertissement|avertissements}{energy:?, {off:?écart des énergies de {energy} %|"
-        "énergie à {energy} % près}}{amount:? ({amount})}{steps:? : {steps}}",
+        "énergie à {energy} % près}}{amount:? ({amount})}",
     ),
     "runs": Message("runs", "calculs"),
     # ---- the interactive session

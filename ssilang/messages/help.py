@@ -134,6 +134,8 @@ MESSAGES: dict[str, Message] = {
     "unit": Message("Unit", "Unité"),
     "default": Message("Default", "Défaut"),
     "range": Message("Range", "Domaine"),
+    "usual-range": Message("Usual", "Usuel"),
+    "increasing": Message("increasing", "croissant"),
     "usual": Message("Usual (SI)", "Usuel (SI)"),
     "dual": Message("Dual", "Duale"),
     "of-laws": Message("Of laws", "Des lois"),

@@ -397,6 +397,48 @@ MESSAGES: dict[str, Message] = {
         "did you mean '{near}'? It may be {allowed}",
         "vouliez-vous dire '{near}' ? Valeurs possibles : {allowed}",
     ),
+    "entry-out-of-range": Message(
+        "{procedure}: {where} is {value:g}, where {range}",
+        "{procedure} : {where} vaut {value:g}, or {range}",
+        "{where}: {en}",
+        "{where} : {fr}",
+    ),
+    "entry-not-increasing": Message(
+        "{procedure}: {where} {count:?does not increase: {value:g} follows "
+        "{before:g} (values {place} and {next_place})|is empty}",
+        "{procedure} : {where} {count:?ne croît pas : {value:g} suit "
+        "{before:g} (valeurs {place} et {next_place})|est vide}",
+        "{where}: {en}",
+        "{where} : {fr}",
+    ),
+    "entry-unusual": Message(
+        "{procedure}: {where} is {value:g}, mostly {range}",
+        "{procedure} : {where} vaut {value:g}, d'ordinaire {range}",
+        "{where}: {en}; is it in another unit, a percentage?",
+        "{where} : {fr} ; est-ce une autre unité, un pourcentage ?",
+        severity="warning",
+    ),
+    "out-of-range": Message(
+        "{operator}: {name} is {value:g}, where {range}",
+        "{operator} : {name} vaut {value:g}, or {range}",
+        "{en:?{name}: {en}}",
+        "{fr:?{name} : {fr}}",
+    ),
+    "unusual": Message(
+        "{operator}: {name} is {value:g}, mostly {range}",
+        "{operator} : {name} vaut {value:g}, d'ordinaire {range}",
+        "{en:?{name}: {en}}",
+        "{fr:?{name} : {fr}}",
+        severity="warning",
+    ),
+    "not-increasing": Message(
+        "{operator}: {name} {count:?does not increase: {value:g} follows "
+        "{before:g} (values {place} and {next_place})|is empty}",
+        "{operator} : {name} {count:?ne croît pas : {value:g} suit "
+        "{before:g} (valeurs {place} et {next_place})|est vide}",
+        "{en:?{name}: {en}}",
+        "{fr:?{name} : {fr}}",
+    ),
     "entry-not-finite": Message(
         "{procedure}: {where} has values that are not finite numbers",
         "{procedure} : {where} a des valeurs qui ne sont pas des nombres finis",

@@ -20,10 +20,19 @@ One is singular in English; in French nought is, too.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import (
+    Callable,
+    Collection,
+    KeysView,
+    Mapping,
+    Sequence,
+    Set,
+    ValuesView,
+)
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
+from pathlib import PurePath
 from string import Formatter
 from typing import Any, Literal, Protocol, TypeGuard, runtime_checkable
 
@@ -36,6 +45,8 @@ _BETWEEN = {
     "words": {"en": " ", "fr": " "},
     ";": {"en": "; ", "fr": " ; "},
 }
+name_of_type: list[Callable[[object], str]] = []
+"""Names what has no text of its own, an object of the language: by its type word."""
 _LONGEST = 40  # letters of a value that has not the form it should be shown in
 COLON = {"en": ": ", "fr": " : "}
 
@@ -184,7 +195,8 @@ def filled(template: str, data: Mapping[str, Any], language: str, script: bool =
             elif conversion == "h" and isinstance(value, Said):
                 made.append(hint(value.code, value.data, language, script))
             else:
-                made.append(repr(value) if conversion == "r" else _shown(value, spec, language))
+                quoted = conversion == "r" and _has_text(value)
+                made.append(repr(value) if quoted else _shown(value, spec, language))
     return "".join(made)
 
 
@@ -213,9 +225,19 @@ def _is_several(value: object) -> TypeGuard[Collection[object]]:
     return several and getattr(value, "ndim", 1) > 0
 
 
+def _has_text(value: object) -> bool:
+    """Whether a value is told as it is: words, numbers, paths, errors and collections of these."""
+    plain = isinstance(value, str | int | float | complex | PurePath | BaseException | Mapping)
+    if plain or value is None or type(value).__module__ in ("numpy", "builtins"):
+        return True
+    return isinstance(value, Set | Sequence | KeysView | ValuesView) or hasattr(value, "__index__")
+
+
 def _shown(value: object, spec: str, language: str) -> str:
     if isinstance(value, Said):
         return sentence(value.code, value.data, language)
+    if not _has_text(value):
+        return name_of_type[0](value) if name_of_type else type(value).__name__
     if not _is_several(value):
         return _formatted(value, spec)
     joint, _, form = spec.partition(" ")

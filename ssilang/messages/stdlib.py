@@ -67,17 +67,9 @@ MESSAGES: dict[str, Message] = {
         "@CIBLE: SOL is A, B, C, D or E, not {1}",
         "@CIBLE : SOL est A, B, C, D ou E, pas {1}",
     ),
-    "cible-type": Message(
-        "@CIBLE: TYPE is 1 or 2, not {1}",
-        "@CIBLE : TYPE est 1 ou 2, pas {1}",
-    ),
     "cible-needs": Message(
         "@CIBLE: the spectrum of {1} needs {2}",
         "@CIBLE : le spectre {1} demande {2}",
-    ),
-    "cible-above-zero": Message(
-        "@CIBLE: {1} must be above zero, it is {2}",
-        "@CIBLE : {1} doit être positif, il vaut {2}",
     ),
     "cible-frequency": Message(
         "@CIBLE: {1} Hz is a period beyond 4 s, where EN 1998-1 3.2.2.2 ends",
@@ -110,10 +102,6 @@ MESSAGES: dict[str, Message] = {
         "@BILANSSI: the pressure at the first instant, {1} Pa, exceeds the capacity, {2} Pa",
         "@BILANSSI : la pression au premier instant, {1} Pa, dépasse la capacité, {2} Pa",
         severity="warning",
-    ),
-    "bilanssi-above-zero": Message(
-        "@BILANSSI: {1} must be above zero, it is {2}",
-        "@BILANSSI : {1} doit être positif, il vaut {2}",
     ),
     "bilanssi-broadening": Message(
         "@BILANSSI: ELARGISSEMENT is from 0 to below 1, not {1}",
@@ -205,10 +193,6 @@ MESSAGES: dict[str, Message] = {
     "impedsol-size-missing": Message(
         "IMPEDSOL: {1} needs {2}",
         "IMPEDSOL : {1} demande {2}",
-    ),
-    "impedsol-size": Message(
-        "IMPEDSOL: {1} must be above zero, it is {2}",
-        "IMPEDSOL : {1} doit être positif, il vaut {2}",
     ),
     "impedsol-not-negative": Message(
         "IMPEDSOL: {1} must not be negative, it is {2}",

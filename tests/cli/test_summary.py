@@ -215,7 +215,6 @@ def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path: Path) 
     0: the balance is open by 0.45 of 0.5 J.
     """
     told, made = closing(tmp_path, PULL)
-    last = told.splitlines()[-1]
-    assert "0 warnings, energy within 90 %: the work of loads is taken along straight " in last
+    assert told.splitlines()[-1].endswith("0 warnings")
     assert made["statistics"]["calculations"][0]["energy_imbalance"] == pytest.approx(0.9)
     assert made["warnings"] == []

@@ -44,5 +44,24 @@ def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, w
     assert ("'VITEUNIL' has no effect" in said) is warned
 
 
+@pytest.mark.parametrize(
+    ("entries", "told"),
+    [
+        ("", False),
+        ("T . 'CONSERVATIF' = VRAI ; ", False),
+        ("T . 'VITEUNIL' = FAUX ; ", True),
+        ("T . 'CONTACT' = MOT 'PENALITE' ; T . 'COEFFICIENT' = 1.E9 ; ", True),
+    ],
+)
+def test_energy_that_impacts_create_is_told_in_every_method(entries, told):
+    """The block gains more than it had: measured by what it was given, not by its later fall."""
+    text = BLOCK.replace("T . 'CONSERVATIF' = VRAI ;", entries).replace("1.E-3 3.", "1.E-2 3.")
+    result = run_text(text + END)
+    codes = [w.code for w in result.session.warnings]
+    assert ("operators.dynamics.impacts-change-energy" in codes) is told, codes
+    share = result.session.statistics["calculations"][0]["energy_imbalance"]
+    assert (share > 0.3) is told
+
+
 def test_persistent_contact_and_the_conserving_step_exclude_each_other(refused):
     assert "exclude each other" in refused(BLOCK + "T . 'CONTACT_PERSISTANT' = VRAI ; " + END)

@@ -46,14 +46,14 @@ def test_spectra_of_codes_at_and_between_their_corners(code, more, values):
     [
         ("EC8", "0.2 1.", "T . 'AG' = 2. ; T . 'SOL' = 'B' ;", "cible-frequency"),
         ("EC8", "1.", "T . 'SOL' = 'B' ;", "cible-needs"),
-        ("EC8", "1.", "T . 'AG' = 2. ; T . 'SOL' = 'B' ; T . 'TYPE' = 3 ;", "cible-type"),
+        ("EC8", "1.", "T . 'AG' = 2. ; T . 'SOL' = 'B' ; T . 'TYPE' = 3 ;", "entry-out-of-range"),
         ("ASCE7", "1.", "T . 'SDS' = 1. ; T . 'SD1' = 2. ; T . 'TL' = 1. ;", "cible-corners"),
-        ("ASCE7", "1.", "T . 'SDS' = 1. ; T . 'SD1' = 0.6 ; T . 'TL' = 0. ;", "cible-above-zero"),
+        ("ASCE7", "1.", "T . 'SDS' = 1. ; T . 'SD1' = 0.6 ; T . 'TL' = 0. ;", "entry-out-of-range"),
     ],
 )
 def test_codes_do_not_go_beyond_their_text(code, f, more, refused):
     result = run_text(TARGET.format(code=code, f=f, more=more))
-    assert result.errors[0].code == f"stdlib.{refused}"
+    assert result.errors[0].code.removeprefix("stdlib.") == refused
 
 
 SUITE = """
@@ -110,7 +110,8 @@ def test_a_suite_matched_by_wavelets_has_the_target_and_its_mean_stays_above_the
     ("more", "refused"),
     [
         ("T . 'SIGNAUX' . 2 = A ;", "accord-records"),
-        ("T . 'SIGNAUX' . 1 = A ; T . 'PERIODES' = PROG 1. 0.2 ;", "accord-band"),
+        ("T . 'SIGNAUX' . 1 = A ; T . 'PERIODES' = PROG 1. 0.2 ;", "entry-not-increasing"),
+        ("T . 'SIGNAUX' . 1 = A ; T . 'PERIODES' = PROG 1. ;", "accord-band"),
         ("T . 'SIGNAUX' . 1 = A ; T . 'PERIODES' = PROG 0.01 0.2 ;", "accord-target"),
         ("T . 'SIGNAUX' . 1 = A ; T . 'PLANCHER' = 3. ;", "accord-floor"),
     ],
@@ -118,4 +119,4 @@ def test_a_suite_matched_by_wavelets_has_the_target_and_its_mean_stays_above_the
 def test_what_no_suite_is_is_refused(more, refused):
     text = SUITE + "T . 'CIBLE' = EVOL 'MANU' 'FREQ' (PROG 0.3 10.) 'ACCE' (PROG 1. 5.) ;"
     result = run_text(text + more + "S = @ACCORD T ;")
-    assert result.errors[0].code == f"stdlib.{refused}"
+    assert result.errors[0].code.removeprefix("stdlib.") == refused

@@ -162,7 +162,7 @@ def test_floor_spectra_are_broadened_and_have_the_ground_added(tmp_path):
     ("text", "code"),
     [
         ("V . 'DEBUT' = 9. ;", "stdlib.bilanssi-no-instants"),
-        ("V . 'CAPACITE' = -1. ;", "stdlib.bilanssi-above-zero"),
+        ("V . 'CAPACITE' = -1. ;", "entry-out-of-range"),
         (
             "W = TABL ; W . 1 = TABL ; W . 1 . 'TEMP' = 0. ; V . 'RESULTATS' = W ;"
             "W . 1 . 'CONTRAINTES' = T . 'CONTRAINTES' . 1 ;"

@@ -174,7 +174,7 @@ ROUND = {"FORME": "'DISQUE'", "RAYON": B}
         ({**SQUARE, "FORMULE": "'KAUSEL'"}, "formula-of-shape"),
         ({"FORME": "'RECTANGLE'", "DEMI_LARGEUR": B}, "size-missing"),
         ({"FORME": "'BANDE'", "DEMI_LARGEUR": B}, "size-missing"),
-        ({**ROUND, "RAYON": -1.0}, "size"),
+        ({**ROUND, "RAYON": -1.0}, "entry-out-of-range"),
         ({**ROUND, "ENFONCEMENT": 2.0, "FORMULE": "'CONES'"}, "no-embedment"),
         ({**ROUND, "ENFONCEMENT": 2.0, "FREQUENCES": "(PROG 1. 2.)"}, "static"),
         ({**ROUND, "EPAISSEUR": 8.0, "ENFONCEMENT": 9.0}, "rests-on-rock"),
@@ -184,7 +184,7 @@ ROUND = {"FORME": "'DISQUE'", "RAYON": B}
 def test_what_no_formula_has_is_refused_by_name(entries, code):
     result = run_text(script(0.3, **entries))
     assert result.exit_code == 1
-    assert result.errors[0].code == f"stdlib.impedsol-{code}"
+    assert result.errors[0].code.removeprefix("stdlib.impedsol-") == code
 
 
 def test_ranges_are_told():

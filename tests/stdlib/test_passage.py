@@ -87,9 +87,18 @@ def test_what_is_doubtful_is_told(more, words):
     [
         ("T . 'INCOHERENCE' = 0.2 ;", "FREQUENCES for factors is missing, or ACCELERATION"),
         ("T . 'FORME' = 'BANDE' ; T . 'FREQUENCES' = PROG 1. ;", "BANDE needs DEMI_LARGEUR"),
-        ("T . 'FREQUENCES' = PROG 1. -2. ; T . 'INCOHERENCE' = 0.2 ;", "-2 Hz is negative"),
-        ("T . 'FREQUENCES' = PROG 1. ; T . 'VITESSE_APPARENTE' = 0. ;", "a speed is not zero"),
-        ("T . 'POISSON' = 0.5 ; T . 'FREQUENCES' = PROG 1. ;", "POISSON between -1 and 0.5"),
+        (
+            "T . 'FREQUENCES' = PROG 1. -2. ; T . 'INCOHERENCE' = 0.2 ;",
+            "'FREQUENCES' is -2, where FREQUENCES >= 0",
+        ),
+        (
+            "T . 'FREQUENCES' = PROG 1. ; T . 'VITESSE_APPARENTE' = 0. ;",
+            "where VITESSE_APPARENTE > 0",
+        ),
+        (
+            "T . 'POISSON' = 0.5 ; T . 'FREQUENCES' = PROG 1. ;",
+            "'POISSON' is 0.5, where -1 < POISSON < 0.5",
+        ),
         (
             "T . 'ACCELERATION' = EVOL 'MANU' (PROG 0. 1. 3.) (PROG 0. 1. 0.) ; "
             "T . 'INCOHERENCE' = 0.2 ;",

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")
-OTHER_FORMULATIONS = (
-    "LIQUIDE", "POREUX", "THERMIQUE", "DARCY", "MAGNETODYNAMIQUE", "NAVIER_STOKES",
-    "EULER", "MELANGE", "FISSURE", "THERMOHYDRIQUE", "LIAISON", "DIFFUSION",
-    "FROTTEMENT", "CHANGEMENT_PHASE", "METALLURGIE", "CONVECTION", "RAYONNEMENT",
-)  # fmt: skip
+OTHER_FORMULATIONS = {
+    "LIQUIDE": "fluids", "NAVIER_STOKES": "fluids", "EULER": "fluids",
+    "POREUX": "porous", "DARCY": "porous", "THERMOHYDRIQUE": "porous",
+    "THERMIQUE": "heat", "CONVECTION": "heat", "RAYONNEMENT": "heat", "CHANGEMENT_PHASE": "heat",
+    "MAGNETODYNAMIQUE": "electromagnetism", "FISSURE": "fracture",
+    "DIFFUSION": "chemistry", "METALLURGIE": "chemistry",
+    "MELANGE": "mechanics", "LIAISON": "mechanics", "FROTTEMENT": "mechanics",
+}  # fmt: skip
+"""Formulations that are not built, by their subject; what is not mechanics is out of scope."""
 
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
@@ -97,7 +103,7 @@ CHANGED_LAWS = ("ISS_GRANGE",)
 """Laws of footings whose notice says that they differ from the published model, and not how."""
 
 
-def full_word(word: str, known: tuple[str, ...]) -> str | None:
+def full_word(word: str, known: Collection[str]) -> str | None:
     """The known word that `word` writes in full, or at least by its first four letters."""
     said = word.upper().rstrip()
     if said in known:

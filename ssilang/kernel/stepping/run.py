@@ -56,6 +56,7 @@ LOOKED_AT = 400_000  # those that are looked at and let go: their memory is take
 CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
 GRID = 64  # steps at whose multiples chunks begin
 EVEN = 50_000  # unknowns; larger problems may begin a chunk anywhere, else Ctrl-C waits for minutes
+LITTLE = 0.01  # of the largest energy: what is given may be this small beside it
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
 Progress = Callable[[int, int], None]
@@ -124,6 +125,21 @@ class History:
         kept = self.energies.T
         total = kept[0] + kept[1] + kept[2] + kept[3] + kept[4] - kept[5]
         found: FloatArray = total - total[0]
+        return found
+
+    @property
+    def given(self) -> FloatArray:
+        """Energy that the structure has been given until each instant, shape (n_times,).
+
+        That of the start, and the range of the work of loads and supports: what a body that falls
+        later gets of its weight was not there when an impact changed its energy. No less than
+        `LITTLE` of the largest energy: the first steps of a load have next to none.
+        """
+        kept = self.energies
+        work = kept[:, 5]
+        reach = np.maximum.accumulate(work) - np.minimum.accumulate(work)
+        least = LITTLE * np.abs(kept).max(initial=0.0)
+        found: FloatArray = np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
         return found
 
 

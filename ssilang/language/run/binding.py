@@ -30,6 +30,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 Heads = tuple[tuple[int, Mapping[str, tuple[tuple[int, Keyword | Select, str], ...]]], ...]
 """Keywords, with their place and their word, by what it begins with; by the length compared."""
@@ -210,10 +211,24 @@ class Binder:
             return a.default  # the ET, EGA ... behind the phrase is no name
         operand = self.call.read(*a.types, after=after)
         if operand is not None:
-            return _given(a, operand)
+            return self._given(a, operand)
         if a.optional:
             return a.default
         raise self._lacking(a)
+
+    def _given(self, a: Argument, operand: Operand) -> Any:
+        if a.range is not ANY_NUMBER and (wrong := a.range.flaw(operand.value, a.name)):
+            raise self._told(wrong[0], a, operand, wrong[1])
+        if a.usual is not ANY_NUMBER and (odd := a.usual.flaw(operand.value, a.name)):
+            warning = self._told("unusual", a, operand, odd[1])
+            self.call.session.report(warning)
+        return operand if a.whole else operand.value
+
+    def _told(
+        self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
+    ) -> SsiError:
+        said = {"operator": self.call.name, "name": a.name, "en": a.en, "fr": a.fr}
+        return SsiError(code, operand.span, **said, **data)
 
     def _lacking(self, a: Argument) -> SsiError:
         """The error of an operand that is not there: a word stands where another must be said."""
@@ -232,7 +247,7 @@ class Binder:
             kept = set(left[-a.leaving :])
             # indices shift as operands are taken
             values = [
-                _given(a, call.take(i - n, *a.types))
+                self._given(a, call.take(i - n, *a.types))
                 for n, i in enumerate(i for i in found if i not in kept)
             ]
         else:
@@ -247,7 +262,7 @@ class Binder:
                         continue
                     break
                 only = True
-                values.append(_given(a, operand))
+                values.append(self._given(a, operand))
                 if words and self._levels:
                     self._keywords()
         if not values and not a.optional:
@@ -357,10 +372,6 @@ class Binder:
 
 def _place_of(known: tuple[int, Keyword | Select, str]) -> int:
     return known[0]
-
-
-def _given(a: Argument, operand: Operand) -> Any:
-    return operand if a.whole else operand.value
 
 
 def _choice_of(entries: Sequence[Entry]) -> Keyword | None:

@@ -24,7 +24,8 @@ from ssilang.language.registry import (
 )
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
-from ssilang.language.vocabulary.entries_table import entries_text, tables_text
+from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import spoken, teller
 
 WIDTH = 88
@@ -231,7 +232,13 @@ def _said(a: Argument, language: str) -> str:
     """Meaning, unit and default of an operand."""
     unit = f" [{a.unit}]" if a.unit else ""
     default = f" (= {a.default})" if a.optional and a.default not in (None, ()) else ""
-    return f"{_meaning(a, language)}{unit}{default}"
+    bounds = [("", a.range), ("help.usual-range", a.usual)]
+    told = [
+        f"; {teller(language)(code) + ' ' if code else ''}{bounds_told(b, a.name, language)}"
+        for code, b in bounds
+        if b != ANY_NUMBER
+    ]
+    return f"{_meaning(a, language)}{unit}{default}{''.join(told)}"
 
 
 def _types(a: Argument, language: str) -> str:

@@ -6,6 +6,7 @@ of its full name. A section says where an entry stands, as a script would write 
     [TAB1.times.TEMPS_CALCULES]              argument, theme, index
     types = ["LISTREEL"]
     unit = "s"
+    range = "increasing"                     also "> 0", "0 <= x < 0.5"; outside of `usual` told
     en = "instants of the calculation"
     fr = "instants du calcul"
 
@@ -28,6 +29,7 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
+from ssilang.language.vocabulary.terms import ANY_NUMBER, Range, read_range
 from ssilang.messages.message import spoken
 from ssilang.resources import resource
 
@@ -86,6 +88,8 @@ class TableEntry:
         Whether the procedure cannot do without it.
     means : tuple of str
         What other procedures, or habit, call the same thing.
+    range, usual : Range
+        Numbers outside of `range` are refused, outside of `usual` told.
     """
 
     path: tuple[str, ...]
@@ -102,6 +106,8 @@ class TableEntry:
     needed: bool = False
     means: tuple[str, ...] = ()
     taken_over: bool = False
+    range: Range = ANY_NUMBER
+    usual: Range = ANY_NUMBER
 
     @property
     def index(self) -> str:
@@ -268,6 +274,8 @@ def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntr
         said.get("length", 0),
         said.get("needed", False),
         tuple(said.get("means", ())),
+        range=read_range(said.get("range", "")),
+        usual=read_range(said.get("usual", "")),
     )
 
 

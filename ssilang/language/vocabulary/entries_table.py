@@ -14,7 +14,8 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.messages.message import spoken, teller
+from ssilang.language.vocabulary.terms import ANY_NUMBER, Range
+from ssilang.messages.message import COLON, spoken, teller
 
 _COLUMNS = (
     "help.column-index",
@@ -108,25 +109,38 @@ def _blocks(declared: Declaration, argument: str, language: str) -> Iterator[tup
     """Rows of an argument by theme."""
     for theme, members in groupby(declared.of(argument), key=lambda e: e.theme):
         alike = groupby(members, key=_sameness)
-        yield theme, [_row(list(group), language) for _, group in alike]
+        yield theme, [_row(list(group), declared, language) for _, group in alike]
 
 
 def _sameness(entry: TableEntry) -> tuple[object, ...]:
     """What entries that share a row have in common."""
-    return (entry.path[:-1], entry.types, entry.unit, str(entry.default), entry.en, entry.needed)
+    table = entry.path[:-2] if entry.index == ANYTHING else entry.path[:-1]
+    return (table, entry.types, entry.unit, str(entry.default), entry.en, entry.needed, entry.range)
 
 
-def _row(group: Sequence[TableEntry], language: str) -> Row:
+def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> Row:
     entry = group[0]
-    deep = len(entry.path) - 2
+    deep, names = len(entry.path) - 2, [_index(e.index, language) for e in group]
+    if deep and declared.at(entry.path[:-2], entry.path[-2]) is None:  # the table has no row
+        deep -= 1
+        names = [f"{e.path[-2]} . {name}" for e, name in zip(group, names, strict=True)]
     before = "  " * deep + (". " if deep else "")
-    names = [_index(e.index, language) for e in group]
     index = " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
     meaning = entry.said(language)
     if entry.values:
         meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
+    for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
+        if bound != ANY_NUMBER:
+            told = bounds_told(bound, entry.index, language)
+            meaning += f"\n{teller(language)(code)}{COLON[language]}{told}"
     types = " | ".join(entry.types) or teller(language)("help.any")
     return index, types, entry.unit, _default(entry, language), meaning
+
+
+def bounds_told(bound: Range, name: str, language: str) -> str:
+    """'0 <= NU < 0.5', 'increasing'."""
+    words = [bound.text(name), teller(language)("help.increasing") if bound.increasing else ""]
+    return ", ".join(filter(None, words))
 
 
 def _index(index: str, language: str) -> str:

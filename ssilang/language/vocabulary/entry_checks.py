@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 _TRUTH = "LOGIQUE"
 
 
+_OF_ENTRIES = {"out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing"}
+
 MADE_BY = {
     "CHARGEME": "CHAR 'MECA' CHPO1 EVOL1",
     "CHPOINT": "MANU 'CHPO' MAIL1 'UX' X1",
@@ -46,7 +48,8 @@ MADE_BY = {
 
 def shown(path: tuple[object, ...]) -> str:
     """Indices as a script writes them, the argument left out: 'SOL' . 'ITERATION' . 1."""
-    return " . ".join(str(i) if isinstance(i, int) else f"'{str(i).rstrip()}'" for i in path[1:])
+    words = (f"'{i.rstrip()}'" if isinstance(i, str) else i for i in path[1:])
+    return " . ".join(str(w) if isinstance(w, str | int | float) else type_of(w) for w in words)
 
 
 def allowed(entry: TableEntry) -> str:
@@ -77,7 +80,7 @@ def checked(
                 "entry-type", None, where=place, kinds=kinds, found=found, made=made,
                 en=entry.en, fr=entry.fr, **data,
             )  # fmt: skip
-        return float(value)
+        value = float(value)
     if entry.values and found == "MOT":
         word = entry.word(str(value))
         if word is None:
@@ -91,6 +94,12 @@ def checked(
     flaw = session.flaw_of(value)
     if flaw:
         raise SsiError(flaw, None, where=place, **data)
+    said = entry.range.flaw(value, entry.index)
+    if said is not None:
+        code, told = said
+        raise SsiError(
+            _OF_ENTRIES[code], None, where=place, en=entry.en, fr=entry.fr, **told, **data
+        )
     return value
 
 
@@ -167,6 +176,12 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
+        said = entry.usual.flaw(value, entry.index)
+        if said is not None:
+            self.session.warn(
+                "entry-unusual", self.place, procedure=name, operator=name, where=shown(where),
+                en=entry.en, fr=entry.fr, **said[1],
+            )  # fmt: skip
         if isinstance(value, Table) and self.declared.inside(entry.path):
             self.run(value, entry.path, where)
 

@@ -90,9 +90,9 @@ _BEARINGS = (
     _p("ETA", "", "Exponent of Bouc and Wen: 1 rounds the yielding, more makes it sharp",
        "Exposant de Bouc et Wen : 1 arrondit la plastification, plus la rend vive",
        ("APPUI_PLOMB",), range=Range(1.0), default=1.0),
-    _p("BETA", "", "Bouc and Wen's beta, gamma being 1 - beta; 0.5: unloading is elastic",
-       "Bêta de Bouc et Wen, gamma étant 1 - bêta ; 0,5 : la décharge est élastique",
-       ("APPUI_PLOMB",), range=between(0.0, 0.5), default=0.5),
+    _p("BETA", "", "Wen's beta, of the term in |du|, gamma being 1 - beta; 0.5: elastic unloading",
+       "Bêta de Bouc et Wen, du terme en |du| ; gamma est 1 - bêta ; 0,5 : décharge élastique",
+       ("APPUI_PLOMB",), range=between(0.5, 1.0), default=0.5),
     _p("RAYO", "m", "Radius of the bowl of a pendulum", "Rayon de la cuvette d'un pendule",
        ("APPUI_PENDULE",), range=POSITIVE, usual=between(0.1, 100.0)),
     # the law itself refuses a slider without FROT, or below 0

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 
+import numpy as np
+
+from ssilang.language.values import ListEnti, ListReel
 from ssilang.messages.message import spoken
 
 
@@ -60,14 +64,53 @@ UNITS: dict[str, Unit] = {
 }
 
 
+_HUGE = sys.float_info.max  # integers may be past all reals
+
+
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Numbers from `low` to `high`; an open end does not belong to it."""
+    """Numbers from `low` to `high`; an open end does not belong to it.
+
+    Lists of `increasing` ones have at least one number, and each is above the one before.
+    """
 
     low: float = -math.inf
     high: float = math.inf
     open_low: bool = False
     open_high: bool = False
+    increasing: bool = False
+
+    def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
+        """What is wrong with a number or a list of them: a code and data; None if nothing is.
+
+        What is neither, as a field where a number would do too, is not judged.
+        """
+        if self == ANY_NUMBER or isinstance(value, bool):
+            return None
+        single = isinstance(value, int | float)
+        if isinstance(value, int | float):
+            near = float(value) if abs(value) <= _HUGE else math.copysign(math.inf, value)
+            numbers = np.array([near])
+        elif isinstance(value, ListReel | ListEnti):
+            numbers = np.asarray(value.values, dtype=float)
+        else:
+            return None
+        with np.errstate(invalid="ignore"):
+            above = numbers > self.low if self.open_low else numbers >= self.low
+            below = numbers < self.high if self.open_high else numbers <= self.high
+        wrong = numbers[~(np.isfinite(numbers) & above & below)]
+        if wrong.size:
+            bound = self.text(name) or f"|{name}| < inf"
+            return "out-of-range", {"value": float(wrong[0]), "range": bound}
+        if single or not self.increasing:
+            return None
+        falls = np.flatnonzero(np.diff(numbers) <= 0.0)
+        if numbers.size and not falls.size:
+            return None
+        place = int(falls[0]) + 1 if falls.size else 0
+        before, after = numbers[place - 1 : place + 1].tolist() if place else (0.0, 0.0)
+        told = {"value": after, "before": before, "place": place, "next_place": place + 1}
+        return "not-increasing", {**told, "count": numbers.size}
 
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low
@@ -85,10 +128,26 @@ class Range:
         return f"{name} {right} {self.high:g}" if bounded[1] else ""
 
 
+def read_range(text: str) -> Range:
+    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0'."""
+    increasing = text.startswith("increasing")
+    low, high, opens = -math.inf, math.inf, [False, False]
+    left, named, right = text.removeprefix("increasing").partition("x")
+    turned = {"<": ">", "<=": ">="}
+    parts = left.split() if not named else [turned[left.split()[1]], left.split()[0]]
+    for sign, number in (parts, right.split()) if named else (parts,) if parts else ():
+        if sign[0] == ">":
+            low, opens[0] = float(number), sign == ">"
+        else:
+            high, opens[1] = float(number), sign == "<"
+    return Range(low, high, opens[0], opens[1], increasing)
+
+
 ANY_NUMBER = Range()
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
 NOT_POSITIVE = Range(high=0.0)
+RISING = Range(0.0, increasing=True)
 
 
 def between(low: float, high: float) -> Range:

@@ -131,27 +131,9 @@ MESSAGES: dict[str, Message] = {
         "FREQUENCES for factors is missing, or ACCELERATION for the record of the base",
         "il manque FREQUENCES pour les facteurs, ou ACCELERATION pour le signal de la base",
     ),
-    "negative-frequency": Message(
-        "the frequency {frequency:.4g} Hz is negative",
-        "la fréquence {frequency:.4g} Hz est négative",
-    ),
-    "ground-not-elastic": Message(
-        "the ground has YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g}: "
-        "the first two are above 0, POISSON between -1 and 0.5",
-        "le sol a YOUNG = {young:g}, MASSE_VOLUMIQUE = {density:g}, POISSON = {poisson:g} : les "
-        "deux premiers sont positifs, POISSON entre -1 et 0.5",
-    ),
     "size-of-base": Message(
-        "the base {shape} needs {name}, in metres, above zero{given:?, not {given}}",
-        "la base {shape} demande {name}, en mètres, positif{given:?, pas {given}}",
-    ),
-    "incoherence-sign": Message(
-        "INCOHERENCE {gamma:.4g} and VITESSE_APPARENTE {speed:.4g} are not negative; a speed is "
-        "not zero",
-        "INCOHERENCE {gamma:.4g} et VITESSE_APPARENTE {speed:.4g} ne sont pas négatives ; une "
-        "vitesse n'est pas nulle",
-        "without VITESSE_APPARENTE the waves come from below",
-        "sans VITESSE_APPARENTE les ondes viennent d'en dessous",
+        "the base {shape} needs {name}, in metres, above zero",
+        "la base {shape} demande {name}, en mètres, positif",
     ),
     "incoherence-large": Message(
         "INCOHERENCE {gamma:.3g} is beyond what arrays have shown (0 to {most:.3g})",
@@ -495,9 +477,10 @@ MESSAGES: dict[str, Message] = {
         "after them depends on the step",
         "les chocs sur les relations 'MINI' ou 'MAXI' ont changé l'énergie de {share:.2g} % : le "
         "mouvement qui les suit dépend du pas",
-        "shorter steps, 'CONSERVATIF' = VRAI, or joints 'JOINT_SDM' in place of the relations",
-        "des pas plus courts, 'CONSERVATIF' = VRAI, ou des joints 'JOINT_SDM' à la place des "
-        "relations",
+        "{uncorrected:?'VITEUNIL' left to its default, }shorter steps, 'CONSERVATIF' = VRAI, or "
+        "joints 'JOINT_SDM' in place of the relations",
+        "{uncorrected:?'VITEUNIL' par défaut, }des pas plus courts, 'CONSERVATIF' = VRAI, ou des "
+        "joints 'JOINT_SDM' à la place des relations",
         severity="warning",
     ),
     "impacts-uncorrected": Message(

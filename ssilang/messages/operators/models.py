@@ -205,10 +205,12 @@ MESSAGES: dict[str, Message] = {
         "les éléments {cell_type} ne peuvent porter une pression dans cet espace",
     ),
     "formulation-not-available": Message(
-        "the formulation {said} is not available",
-        "la formulation {said} n'est pas disponible",
-        "'MECANIQUE' 'ELASTIQUE' is, with {words:words}",
-        "'MECANIQUE' 'ELASTIQUE' l'est, avec {words:words}",
+        "{outside:?the formulation {said} ({outside}) is out of ssilang's scope|"
+        "the formulation {said} is not built}",
+        "{outside:?la formulation {said} ({outside}) est hors du champ de ssilang|"
+        "la formulation {said} n'est pas disponible}",
+        "formulations are {known:and}; `ssilang help MODE` says what each takes",
+        "les formulations sont {known:and} ; `ssilang help MODE` dit ce que chacune prend",
     ),
     "behaviour-not-available": Message(
         "the behaviour {said} is not available",

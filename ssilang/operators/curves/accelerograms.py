@@ -16,6 +16,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE, Range
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
 
 _KINDS = ("DEPL", "VITE", "ACCE")
@@ -158,7 +159,7 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
 
 @operator(
     "DSPR",
-    arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points"),
+    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points"),
     CURVE,
     *LIMITS,
     COLOUR,
@@ -208,6 +209,7 @@ KIND = choice(
 PERIODS = opt(
     "periods",
     "LISTREEL",
+    range=POSITIVE,
     en="periods, 75 from 0.04 s to the duration without it",
     fr="périodes, 75 de 0,04 s à la durée sans elle",
     unit="s",
@@ -217,8 +219,14 @@ PERIODS = opt(
 @operator(
     "PSRS",
     arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
-    arg("duration", "FLOTTANT", en="duration", fr="durée", unit="s"),
-    arg("dampings", "LISTREEL", en="dampings", fr="amortissements"),
+    arg("duration", "FLOTTANT", range=POSITIVE, en="duration", fr="durée", unit="s"),
+    arg(
+        "dampings",
+        "LISTREEL",
+        range=Range(0.0, 1.0, open_high=True),
+        en="dampings",
+        fr="amortissements",
+    ),
     PERIODS,
     ABSCISSA,
     KIND,

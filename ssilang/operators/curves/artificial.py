@@ -12,6 +12,7 @@ from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
 from ssilang.language.registry import ANY, Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, RISING
 from ssilang.operators.curves.words import one_part
 from ssilang.operators.numbers.noise import session_generator
 
@@ -33,12 +34,26 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         en="modulations in time by bands of frequencies",
         fr="modulations en temps par bandes de fréquence",
     ),
-    opt("limits", "LISTREEL", en="limits of the bands", fr="bornes des bandes", unit="Hz"),
-    opt("duration", "FLOTTANT", en="end of the signals", fr="fin des signaux", unit="s"),
+    opt(
+        "limits",
+        "LISTREEL",
+        range=RISING,
+        en="limits of the bands",
+        fr="bornes des bandes",
+        unit="Hz",
+    ),
+    opt(
+        "duration",
+        "FLOTTANT",
+        range=POSITIVE,
+        en="end of the signals",
+        fr="fin des signaux",
+        unit="s",
+    ),
     key(
         "start",
         "TINI",
-        arg("start", "FLOTTANT", unit="s"),
+        arg("start", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
         en="start of the signals",
         fr="instant initial",
     ),
@@ -48,7 +63,7 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
     key(
         "n_signals",
         "NCOU",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         default=1,
         en="number of signals, 1 without it",
         fr="nombre de signaux, 1 sans lui",
@@ -56,14 +71,14 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
     key(
         "n_instants",
         "NPOI",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         en="number of instants, steps of 0.02 s without it",
         fr="nombre d'instants, pas de 0,02 s sans lui",
     ),
     key(
         "n_sines",
         "NSIN",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         en="number of sines, slices of 0.1 Hz without it",
         fr="nombre de sinus, bandes de 0,1 Hz sans lui",
     ),

@@ -39,6 +39,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -120,7 +121,13 @@ _ENTRIES: dict[str, list[Entry]] = {
         ),
         opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
         _BASIS,
-        opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+        opt(
+            "count",
+            "ENTIER",
+            range=POSITIVE,
+            en="number of shapes, all without it",
+            fr="nombre de déformées",
+        ),
         opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes"),
         choice(
             "quantity",

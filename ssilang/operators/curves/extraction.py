@@ -15,6 +15,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
@@ -69,7 +70,15 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commen
                     fr="numéro, numéros, ou nom d'un axe",
                 )
             ],
-            "PAS": [arg("step", "ENTIER", en="one point of so many", fr="un point sur tant")],
+            "PAS": [
+                arg(
+                    "step",
+                    "ENTIER",
+                    range=POSITIVE,
+                    en="one point of so many",
+                    fr="un point sur tant",
+                )
+            ],
             "AVAN": [_BY_PLACE, _HIGH],
             "APRE": [_BY_PLACE, _LOW, _ZERO],
             "COMP": [_BY_PLACE, _LOW, _HIGH, _ZERO],

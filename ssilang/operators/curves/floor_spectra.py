@@ -8,21 +8,42 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE, Range
 
 
 @operator(
     "ZSPP",
-    arg("modes", "LISTREEL", en="frequencies of modes", fr="fréquences des modes", unit="Hz"),
-    arg("dampings", "LISTREEL", en="their dampings", fr="leurs amortissements"),
+    arg(
+        "modes",
+        "LISTREEL",
+        range=POSITIVE,
+        en="frequencies of modes",
+        fr="fréquences des modes",
+        unit="Hz",
+    ),
+    arg(
+        "dampings",
+        "LISTREEL",
+        range=Range(0.0, 1.0, open_high=True),
+        en="their dampings",
+        fr="leurs amortissements",
+    ),
     arg("shares", "LISTREEL", en="their participations", fr="leurs participations"),
     arg(
         "frequencies",
         "LISTREEL",
+        range=POSITIVE,
         en="frequencies of the spectrum",
         fr="fréquences du spectre",
         unit="Hz",
     ),
-    arg("damping", "FLOTTANT", en="its damping", fr="son amortissement"),
+    arg(
+        "damping",
+        "FLOTTANT",
+        range=Range(0.0, 1.0, open_high=True),
+        en="its damping",
+        fr="son amortissement",
+    ),
     arg("power", "EVOLUTIO", en="power density", fr="densité de puissance"),
     arg("envelope", "EVOLUTIO", en="envelope", fr="enveloppe"),
     family="signals",

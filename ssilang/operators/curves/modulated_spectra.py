@@ -13,6 +13,7 @@ from ssilang.kernel.records.modulated import (
 from ssilang.language.registry import Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, RISING, Range
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 
@@ -21,11 +22,19 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
     "PRNS",
     arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
     arg("modulation", "EVOLUTIO", en="a curve for each band", fr="une courbe par bande"),
-    arg("bands", "LISTREEL", en="limits of the bands", fr="bornes des bandes", unit="Hz"),
+    arg(
+        "bands",
+        "LISTREEL",
+        range=RISING,
+        en="limits of the bands",
+        fr="bornes des bandes",
+        unit="Hz",
+    ),
     PERIODS,
     opt(
         "damping",
         "FLOTTANT",
+        range=Range(0.0, 1.0, open_high=True),
         default=0.05,
         en="damping, 0.05 without it",
         fr="amortissement, 0,05 sans lui",
@@ -36,14 +45,14 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
     key(
         "n_processes",
         "NBPR",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         en="number of processes, of about 2 s without it",
         fr="nombre de processus, d'environ 2 s sans lui",
     ),
     key(
         "n_instants",
         "NBIN",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         default=10,
         en="instants of each, 10 without it",
         fr="instants de chacun, 10 sans lui",
@@ -51,7 +60,7 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
     key(
         "rest",
         "TPLU",
-        arg("rest", "FLOTTANT", unit="s"),
+        arg("rest", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
         default=20.0,
         en="time behind the end, 20 without it",
         fr="temps au-delà de la fin, 20 sans lui",
@@ -59,7 +68,7 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
     key(
         "precision",
         "PREC",
-        arg("precision", "FLOTTANT"),
+        arg("precision", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="precision of the levels, 1.E-3 without it",
         fr="précision des niveaux, 1.E-3 sans elle",

@@ -11,6 +11,7 @@ from ssilang.kernel.records.matching import matched
 from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, flag, key, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import CURVE, check_together, one_part
 from ssilang.operators.mesh.copies.images import tour
@@ -18,11 +19,11 @@ from ssilang.operators.mesh.copies.images import tour
 
 @filt.form(
     CURVE,
-    key("order", "ORDR", arg("n", "ENTIER"), default=4, en="order, 4 without it",
+    key("order", "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it",
         fr="ordre, 4 sans elle"),
-    key("low", "PHAU", arg("f", "FLOTTANT", unit="Hz"), en="slower is taken off",
+    key("low", "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off",
         fr="le plus lent est ôté"),
-    key("high", "PBAS", arg("f", "FLOTTANT", unit="Hz"), en="faster is taken off",
+    key("high", "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off",
         fr="le plus rapide est ôté"),
     flag("causal", "CAUS", en="one pass, as a device does", fr="un passage, comme un appareil"),
     en="A record itself, filtered by Butterworth's of order N1 (4): without what is slower than F1 "

@@ -13,6 +13,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 
 _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
@@ -122,13 +123,15 @@ def _start(part: CurvePart) -> float:
 @operator(
     "LSQF",
     CURVE,
-    arg("count", "ENTIER", en="number of intervals", fr="nombre d'intervalles"),
+    arg("count", "ENTIER", range=POSITIVE, en="number of intervals", fr="nombre d'intervalles"),
     flag("uniform", "UNIF", en="of equal length, the default", fr="de longueur égale, par défaut"),
-    key("best", "OPTI", arg("n", "ENTIER"), en="not available", fr="non disponible"),
+    key(
+        "best", "OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available", fr="non disponible"
+    ),
     key(
         "size",
         "REDU",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         en="steps of the signal in an interval",
         fr="pas du signal par intervalle",
     ),
@@ -208,7 +211,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     key(
         "duration",
         "ACQU",
-        arg("t", "FLOTTANT", unit="s"),
+        arg("t", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="time that a shock is recorded",
         fr="durée d'enregistrement d'un choc",
@@ -224,7 +227,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     key(
         "count",
         "NCHO",
-        arg("n", "ENTIER"),
+        arg("n", "ENTIER", range=POSITIVE),
         en="number of shocks kept, all without it",
         fr="nombre de chocs gardés, tous sans lui",
     ),

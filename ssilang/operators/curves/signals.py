@@ -33,6 +33,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
+from ssilang.language.vocabulary.terms import POSITIVE, between
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
 
 _SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
@@ -53,7 +54,7 @@ def spectrum(
     return Curve(parts, title, "COMPLEXE")
 
 
-_POWER = arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points")
+_POWER = arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points")
 _REIM = "real and imaginary parts, or modulus and phase"
 _REIM_FR = "parties réelle et imaginaire, ou module et phase"
 _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM, fr=_REIM_FR)
@@ -212,7 +213,7 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", fr="fréquence de coupure"
     key(
         "spacing",
         "DFRQ",
-        arg("spacing", "FLOTTANT", unit="Hz"),
+        arg("spacing", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="step of frequency",
         fr="pas de fréquence",
@@ -265,7 +266,7 @@ def filt(
 @operator(
     "HANN",
     CURVE,
-    arg("passes", "ENTIER", en="how many times", fr="nombre de fois"),
+    arg("passes", "ENTIER", range=POSITIVE, en="how many times", fr="nombre de fois"),
     COLOUR,
     family="signals",
     full_name="HANNING",
@@ -290,6 +291,7 @@ def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
 _PERCENT = opt(
     "percent",
     "FLOTTANT",
+    range=between(0.0, 100.0),
     default=1e-6,
     en="threshold, 1.E-6 without it",
     fr="seuil, 1.E-6 sans lui",
@@ -363,7 +365,7 @@ _AXIS = arg("name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
     key(
         "step",
         "CONS",
-        arg("step", "FLOTTANT", unit="s"),
+        arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="constant step",
         fr="pas constant",

@@ -14,6 +14,7 @@ from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 
 _TIMES = key(
@@ -33,7 +34,7 @@ _COLOUR = key(
     key(
         "damping",
         "AMOR",
-        arg("xi", "FLOTTANT"),
+        arg("xi", "FLOTTANT", range=NOT_NEGATIVE),
         optional=False,
         en="damping ratio",
         fr="amortissement réduit",
@@ -41,7 +42,7 @@ _COLOUR = key(
     key(
         "frequency",
         "FREQ",
-        arg("f", "FLOTTANT", unit="Hz"),
+        arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"),
         optional=False,
         en="frequency",
         fr="fréquence",
@@ -91,7 +92,7 @@ def osci(
     key(
         "dampings",
         "AMOR",
-        arg("xi", "LISTREEL", "FLOTTANT"),
+        arg("xi", "LISTREEL", "FLOTTANT", range=Range(0.0, 1.0, open_high=True)),
         optional=False,
         en="damping ratios",
         fr="amortissements réduits",
@@ -99,7 +100,7 @@ def osci(
     key(
         "frequencies",
         "FREQ",
-        arg("f", "LISTREEL", unit="Hz"),
+        arg("f", "LISTREEL", range=POSITIVE, unit="Hz"),
         en="frequencies; usual ones without it",
         fr="fréquences ; des valeurs usuelles sans elle",
     ),

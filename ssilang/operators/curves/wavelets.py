@@ -14,13 +14,14 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.kernel.records.wavelets import modulus_ridge, phase_ridge, scales, settled, transform
 from ssilang.language.registry import Help, arg, by, choice, key, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.words import COLOUR, CURVE, one_part, shade
 from ssilang.operators.workspace import workspace
 
 
 @operator(
     "ONDE",
-    arg("power", "ENTIER", en="2**N1 points", fr="2**N1 points"),
+    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points"),
     CURVE,
     choice(
         "form",
@@ -32,7 +33,7 @@ from ssilang.operators.workspace import workspace
     key(
         "lowest",
         "FMIN",
-        arg("lowest", "FLOTTANT", unit="Hz"),
+        arg("lowest", "FLOTTANT", range=NOT_NEGATIVE, unit="Hz"),
         default=0.0,
         en="lowest frequency",
         fr="fréquence minimale",
@@ -40,7 +41,7 @@ from ssilang.operators.workspace import workspace
     key(
         "highest",
         "FMAX",
-        arg("highest", "FLOTTANT", unit="Hz"),
+        arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="highest frequency",
         fr="fréquence maximale",

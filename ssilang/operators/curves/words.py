@@ -12,6 +12,7 @@ from ssilang.language.registry import arg, choice, key
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 CURVE = arg("curve", "EVOLUTIO", en="curves", fr="évolutions")
 COLOUR = choice("colour", NAMES, en="colour", fr="couleur")
@@ -19,7 +20,7 @@ LIMITS = (
     key(
         "lowest",
         "FMIN",
-        arg("lowest", "FLOTTANT", unit="Hz"),
+        arg("lowest", "FLOTTANT", unit="Hz", range=NOT_NEGATIVE),
         default=0.0,
         en="lowest frequency, 0 without it",
         fr="fréquence minimale, 0 sans elle",
@@ -27,7 +28,7 @@ LIMITS = (
     key(
         "highest",
         "FMAX",
-        arg("highest", "FLOTTANT", unit="Hz"),
+        arg("highest", "FLOTTANT", unit="Hz", range=POSITIVE),
         default=np.inf,
         en="highest frequency, all without it",
         fr="fréquence maximale, toutes sans elle",

@@ -10,7 +10,6 @@ import numpy as np
 from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
-from ssilang.operators.dynamics.scheme_entries import NORMS
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
@@ -88,31 +87,37 @@ def report(
     if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT and (told or not impacts):
         causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
         line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
-        line["energy_imbalance_told"] = told
+        line["energy_imbalance_told"] = bool(told)
+        line["energy_imbalance"] = max(line["energy_imbalance"], told)
 
 
-def warn_impacts(entries: Entries, problem: Problem, history: History) -> bool:
-    """Warn where impacts on relations alone have changed the energy for good; whether it did.
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> float:
+    """Warn where impacts on relations alone have changed the energy for good; by what share.
 
-    At an impact it is off for a step, see `kernel.contact.impact`. Schemes that damp take energy on
-    purpose; who asks for no correction, or for a penalty, knows.
+    A share of what the structure had been given by then. At an impact it is off for a step, see
+    `kernel.contact.impact`. Schemes that damp take energy on purpose, as impacts without correction
+    do; the springs of a penalty hold some.
     """
     if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
-        return False
-    given, penalty = entries.get("VITEUNIL"), problem.contact_options.method == "PENALITE"
-    if penalty or NORMS.get(given) == "FAUX" or not history.energies[:, 0].any():
-        return False
+        return 0.0
+    if not history.energies[:, 0].any():
+        return 0.0
     damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
-    change = history.imbalance if damps else np.abs(history.imbalance)
+    options = problem.contact_options
+    penalty = options.method == "PENALITE"
+    takes = damps or penalty or options.correction == "FAUX"
+    change = (history.imbalance if takes else np.abs(history.imbalance)) / history.given
     windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
-    share = _relative(float(windows.min(axis=1).max()), history.largest_energy)
-    if share is not None and share > CHANGED:
+    share = float(windows.min(axis=1).max())
+    if share <= CHANGED:
+        return 0.0
+    if damps:
+        entries.warn("operators.dynamics.impacts-uncorrected", share=100.0 * share)
+    else:
         code = "operators.dynamics.impacts-change-energy"
-        if damps:
-            code = "operators.dynamics.impacts-uncorrected"
-        entries.warn(code, share=100.0 * share)
-        return True
-    return False
+        uncorrected = not penalty and options.correction == "FAUX"
+        entries.warn(code, share=100.0 * share, uncorrected=uncorrected)
+    return share
 
 
 def _causes(problem: Problem, added: bool) -> list[str]:

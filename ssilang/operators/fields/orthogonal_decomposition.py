@@ -23,6 +23,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
@@ -48,7 +49,7 @@ _OPTIONS = (
     opt("numbers", "LISTENTI", en="fields to take, by number", fr="champs à prendre, par numéro"),
     opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
     opt("matrix", "RIGIDITE", en="scalar product, a mass", fr="produit scalaire, une masse"),
-    arg("count", "ENTIER", en="number of modes", fr="nombre de modes"),
+    arg("count", "ENTIER", range=POSITIVE, en="number of modes", fr="nombre de modes"),
     opt("support", "MAILLAGE", en="mesh told by the table", fr="maillage mis dans la table"),
 )
 

@@ -11,6 +11,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes", fr="champ aux noeuds")
 
@@ -35,6 +36,7 @@ _COUNT = opt(
 _TOLERANCE = opt(
     "tolerance",
     "FLOTTANT",
+    range=NOT_NEGATIVE,
     default=1e-5,
     en="how far outside of a cell a point counts, relative to the cell",
     fr="distance à un élément à laquelle un point compte encore, relative à l'élément",

@@ -20,6 +20,7 @@ from ssilang.language.registry import (
     select,
 )
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
@@ -41,6 +42,7 @@ _ENDS = many(
     opt(
         "reach",
         "FLOTTANT",
+        range=NOT_NEGATIVE,
         en="nodes farther away (largest coordinate) are left out",
         fr="les noeuds plus loin (plus grande coordonnée) sont exclus",
         unit="m",

@@ -12,6 +12,7 @@ from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt,
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
@@ -143,7 +144,13 @@ def _chai(call: Call, word: str) -> None:
     lead("name", "MOT", en="name of the figure", fr="nom du résultat"),
     arg("value", "FLOTTANT", en="figure", fr="résultat"),
     opt("expected", "FLOTTANT", en="value expected", fr="valeur attendue"),
-    opt("tolerance", "FLOTTANT", en="largest distance to it", fr="plus grand écart admis"),
+    opt(
+        "tolerance",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        en="largest distance to it",
+        fr="plus grand écart admis",
+    ),
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
     "and the tolerance on their distance if there are any.",

@@ -20,6 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
@@ -69,7 +70,7 @@ def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
 @DANS.form(
     _WAY,
     arg("part", "LISTENTI", en="list of integers", fr="liste d'entiers"),
-    arg("whole", "LISTENTI", **_SECOND),
+    arg("whole", "LISTENTI", en=_SECOND["en"], fr=_SECOND["fr"]),
 )
 def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
     return _as_stretch(part.values, whole.values)
@@ -87,7 +88,7 @@ def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
 @DANS.form(
     _WAY,
     arg("part", "LISTREEL", en="list of reals", fr="liste de réels"),
-    arg("whole", "LISTREEL", **_SECOND),
+    arg("whole", "LISTREEL", en=_SECOND["en"], fr=_SECOND["fr"]),
 )
 def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
     left, right = part.values, whole.values
@@ -124,7 +125,9 @@ Subtracted = ListReel | ListEnti | ListMots
     "SAUF",
     arg("first", *_SUBTRACTED, en="list", fr="liste"),
     arg("second", *_SUBTRACTED, en="items to leave out", fr="éléments à omettre"),
-    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    opt(
+        "tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance", fr="tolérance absolue"
+    ),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
     gives=Like("first"),
     family="lists",

@@ -26,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
 
@@ -61,7 +62,9 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     ),
     flag("every", "TOUS", en="all places", fr="tous les rangs"),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
-    opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+    opt(
+        "tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance", fr="tolérance absolue"
+    ),
     gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
@@ -178,7 +181,7 @@ _ORDER = (
 _DISTINCT = key(
     "distinct",
     "UNIQ",
-    opt("tolerance", "FLOTTANT", default=0.0),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0),
     en="without doubles, within a tolerance",
     fr="sans doublons, à une tolérance près",
 )
@@ -360,7 +363,11 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
     main("value", *SORTABLE, "MAILLAGE", en="list, or mesh", fr="liste, ou maillage"),
     many("others", *SORTABLE, "MAILLAGE", en="further ones", fr="d'autres"),
     opt(
-        "tolerance", "FLOTTANT", en="absolute tolerance of reals", fr="tolérance absolue des réels"
+        "tolerance",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        en="absolute tolerance of reals",
+        fr="tolérance absolue des réels",
     ),
     flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
     gives=Like("value", ("others",)),

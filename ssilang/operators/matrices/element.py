@@ -22,9 +22,10 @@ from ssilang.kernel.matrices.lumping import lumped_matrix
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Help, arg, choice, flag, key, many, operator, opt
+from ssilang.language.registry import Argument, Help, arg, choice, flag, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 
@@ -91,8 +92,18 @@ _AT_NODES = (
         en="all translations (default), all rotations, or unknowns",
         fr="toutes les translations (par défaut), toutes les rotations, ou des inconnues",
     ),
-    arg("amount", "FLOTTANT", en="value at each node", fr="valeur en chaque noeud"),
+    arg(
+        "amount",
+        "FLOTTANT",
+        usual=NOT_NEGATIVE,
+        en="value at each node",
+        fr="valeur en chaque noeud",
+    ),
     arg("place", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+)
+_OF_SPRINGS = tuple(  # negative ones stand for the moment of a weight
+    replace(entry, usual=ANY_NUMBER) if isinstance(entry, Argument) else entry
+    for entry in _AT_NODES
 )
 
 
@@ -151,7 +162,7 @@ def rigi(
     return _assembled(shown, [*blocks, *_shapes(shown, material, "RIGIDITE")], "RIGIDITE")
 
 
-@rigi.form(*_AT_NODES)
+@rigi.form(*_OF_SPRINGS)
 def springs(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
     """Springs at nodes."""
     return _additional(call, "RIGIDITE", names, amount, place)

@@ -7,14 +7,22 @@ from ssilang.kernel.matrices.filtering import filter_weights
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 
 @operator(
     "MFIL",
     arg("weights", "CHPOINT", en="weight of each node", fr="poids de chaque noeud"),
-    opt("radius", "FLOTTANT", default=0.0, en="radius", fr="rayon", unit="m"),
+    opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", fr="rayon", unit="m"),
     opt("power", "FLOTTANT", default=1.0, en="power", fr="puissance"),
-    opt("least", "FLOTTANT", default=0.0, en="least weight kept", fr="plus petit poids gardé"),
+    opt(
+        "least",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        default=0.0,
+        en="least weight kept",
+        fr="plus petit poids gardé",
+    ),
     opt("unknown", "MOT", kind="component", en="unknown, else SCAL", fr="inconnue, sinon SCAL"),
     opt("dual", "MOT", kind="component", en="dual, else the same", fr="duale, sinon la même"),
     family="matrix",

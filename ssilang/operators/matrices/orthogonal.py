@@ -12,6 +12,7 @@ from ssilang.kernel.statics.linear import product
 from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
+from ssilang.language.vocabulary.terms import POSITIVE
 
 _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 
@@ -29,8 +30,8 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
     arg("norms", "LISTREEL", en="products U K U", fr="produits U K U"),
     opt("loaded", "LISTCHPO", en="fields K U", fr="champs K U"),
     arg("matrix", "RIGIDITE", en="matrix K", fr="rigidité K"),
-    opt("precision", "FLOTTANT", en="precision", fr="précision"),
-    opt("passes", "ENTIER", default=2, en="passes at most", fr="passages au plus"),
+    opt("precision", "FLOTTANT", range=POSITIVE, en="precision", fr="précision"),
+    opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most", fr="passages au plus"),
     family="matrix",
     full_name="ORTHOGONALISER",
     help=Help(

@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
 from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
@@ -243,6 +244,7 @@ _UNKNOWNS = opt(
 _TOLERANCE = opt(
     "tolerance",
     "FLOTTANT",
+    range=NOT_NEGATIVE,
     default=1e-5,
     en="how far outside of a cell a node counts, relative to the cell",
     fr="distance à un élément à laquelle un noeud compte encore, relative à l'élément",

@@ -29,6 +29,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -335,6 +336,7 @@ def _plane(points: int) -> tuple[Entry, ...]:
         opt(
             "tolerance",
             "FLOTTANT",
+            range=NOT_NEGATIVE,
             en="distance up to which a node counts, else a tenth of the density",
             fr="distance de sélection, sinon un dixième de la densité",
             unit="m",

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.registry import opt
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import Workspace
 
 DISTANCE = opt(
@@ -14,13 +15,14 @@ DISTANCE = opt(
     en="how far off still counts, a tenth of the density by default",
     fr="écart admis, par défaut le dixième de la densité",
     unit="m",
+    range=NOT_NEGATIVE,
 )
 
 
 def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> float:
     """The given distance, else a tenth of the density, else a hair of the extent."""
     if given is not None:
-        return abs(given)
+        return given
     if ws.density > 0.0:
         return 0.1 * ws.density
     return 1e-9 * float(np.ptp(positions, axis=0).max(initial=0.0))

@@ -39,6 +39,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -114,6 +115,7 @@ _CUTS = (
         "thickness",
         "FLOTTANT",
         "CHPOINT",
+        range=POSITIVE,
         en="thickness to give to a shell",
         fr="épaisseur à donner à une coque",
         unit="m",

@@ -41,6 +41,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.modal.modes import filled
@@ -188,7 +189,13 @@ pjba = operator(
 @pjba.form(
     main("fields", "LISTCHPO", en="fields", fr="champs"),
     BASIS,
-    opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+    opt(
+        "count",
+        "ENTIER",
+        range=POSITIVE,
+        en="number of shapes, all without it",
+        fr="nombre de déformées",
+    ),
     opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
 )
 def project_list(
@@ -332,7 +339,7 @@ operator(
     key(
         "frequency",
         "FREQ",
-        arg("frequency", "FLOTTANT", unit="Hz"),
+        arg("frequency", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="frequency of the response",
         fr="fréquence de la réponse",

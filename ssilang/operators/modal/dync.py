@@ -14,6 +14,7 @@ from ssilang.kernel.modal.links import link_arrays
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.dyne import (
     TABLES,
     System,
@@ -264,8 +265,10 @@ _DUFFING = (
 operator(
     "DYNC",
     TABLES,
-    arg("harmonics", "ENTIER", en="number of harmonics", fr="nombre d'harmoniques"),
-    arg("samples", "ENTIER", en="instants of a period", fr="instants d'une période"),
+    arg("harmonics", "ENTIER", range=POSITIVE, en="number of harmonics", fr="nombre d'harmoniques"),
+    arg(
+        "samples", "ENTIER", range=POSITIVE, en="instants of a period", fr="instants d'une période"
+    ),
     family="modal",
     help=Help(
         "Branches of periodic motions of modes with links, by harmonic balance and continuation "

@@ -28,6 +28,7 @@ from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.language.registry import Help, arg, choice, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of
 from ssilang.operators.modal.modes import filled
@@ -310,11 +311,12 @@ operator(
     "DYNE",
     choice("scheme", SCHEMES, optional=False, en="how time is stepped", fr="schéma en temps"),
     TABLES,
-    arg("steps", "ENTIER", en="number of steps", fr="nombre de pas"),
-    arg("h", "FLOTTANT", en="time step", fr="pas de temps", unit="s"),
+    arg("steps", "ENTIER", range=POSITIVE, en="number of steps", fr="nombre de pas"),
+    arg("h", "FLOTTANT", range=POSITIVE, en="time step", fr="pas de temps", unit="s"),
     opt(
         "every",
         "ENTIER",
+        range=POSITIVE,
         default=1,
         en="one step of so many is kept, all without it",
         fr="un pas gardé sur tant, tous sans lui",

@@ -11,6 +11,7 @@ from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined
@@ -120,7 +121,13 @@ operator(
         fr="masse, rigidité, et amortissement",
     ),
     opt("basis", "TABLE", en="basis of the projection", fr="base de la projection"),
-    opt("pairs", "ENTIER", en="number of couples, all without it", fr="nombre de couples, tous"),
+    opt(
+        "pairs",
+        "ENTIER",
+        range=POSITIVE,
+        en="number of couples, all without it",
+        fr="nombre de couples, tous",
+    ),
     family="modal",
     full_name="VIBC",
     help=Help(

@@ -13,6 +13,7 @@ from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.language.registry import arg, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.matrices.element import amor, mass, rigi
 from ssilang.operators.modal.basis import Shape, shapes_of
 
@@ -125,7 +126,14 @@ def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matri
 
 @amor.form(
     _BASIS,
-    arg("ratios", "LISTREEL", en="damping ratios", fr="amortissements réduits", unit="%"),
+    arg(
+        "ratios",
+        "LISTREEL",
+        usual=NOT_NEGATIVE,
+        en="damping ratios",
+        fr="amortissements réduits",
+        unit="%",
+    ),
 )
 def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
     modes, masses, frequencies = _modal(call, basis)

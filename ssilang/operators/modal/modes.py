@@ -19,11 +19,14 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.workspace import solver_of, workspace
 
-_FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz")
-_COUNT = arg("count", "ENTIER", en="number of modes", fr="nombre de modes")
+_FREQUENCY = arg(
+    "frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", fr="fréquence", unit="Hz"
+)
+_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of modes", fr="nombre de modes")
 
 
 def _wanted(call: Call, method: Chosen) -> list[tuple[float, int]]:
@@ -192,7 +195,7 @@ operator(
     key(
         "lowest",
         "BASSE",
-        arg("count", "ENTIER"),
+        arg("count", "ENTIER", range=POSITIVE),
         default=0,
         en="so many from the low end",
         fr="nombre gardé du côté bas",
@@ -200,7 +203,7 @@ operator(
     key(
         "highest",
         "HAUTE",
-        arg("count", "ENTIER"),
+        arg("count", "ENTIER", range=POSITIVE),
         default=0,
         en="so many from the high end",
         fr="nombre gardé du côté haut",

@@ -19,6 +19,7 @@ from ssilang.kernel.stepping.problem.loading import terms_of
 from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
@@ -338,7 +339,13 @@ def reco_of_results(
 @reco.form(
     main("fields", "LISTCHPO", en="contributions", fr="contributions"),
     BASIS,
-    opt("count", "ENTIER", en="number of shapes, all without it", fr="nombre de déformées"),
+    opt(
+        "count",
+        "ENTIER",
+        range=POSITIVE,
+        en="number of shapes, all without it",
+        fr="nombre de déformées",
+    ),
 )
 def reco_of_list(call: Call, fields: ListChpo, basis: Chosen, count: int | None) -> ListChpo:
     """What each field of a list combines to."""

@@ -31,6 +31,7 @@ from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
+from ssilang.language.cast3m import IN_SCOPE
 from ssilang.language.near import nearest
 from ssilang.language.registry import (
     Chosen,
@@ -46,6 +47,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
 from ssilang.operators.vocabulary import words
@@ -466,9 +468,13 @@ def _unknown(call: Call, said: str) -> Exception:
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
     laws = (*ELASTICITIES, *JOINT_WORDS)
-    if full_word(said, OTHER_FORMULATIONS):
+    if (other := full_word(said, OTHER_FORMULATIONS)) is not None:
+        subject = OTHER_FORMULATIONS[other]
         code = "operators.models.formulation-not-available"
-        return call.error(code, written, said=said, words=laws)
+        return call.error(
+            code, written, said=other, known=FORMULATIONS,
+            outside="" if subject == IN_SCOPE else Sentence(f"help.subject-{subject}"),
+        )  # fmt: skip
     if full_word(said, OTHER_BEHAVIOURS):
         code = "operators.models.behaviour-not-available"
         return call.error(code, written, said=said, words=laws)

@@ -13,6 +13,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ _ENTRIES = (
     arg(
         "tolerance",
         "FLOTTANT",
+        range=POSITIVE,
         en="error allowed on the normal force, relative",
         fr="erreur relative admise sur l'effort normal",
     ),

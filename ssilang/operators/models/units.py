@@ -30,6 +30,7 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         Parameters of the zone: their values, and what the script gave for them.
     """
     session, system = call.session, workspace(call.session).units
+    _warn_of_sign(call, given)
     if system is None:
         _warn_of_friction(call, zone, given)
     if system is None or session.frame.procedure in session.library.standard_names:
@@ -46,6 +47,16 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
             _warn(call, meant, unusual, said, system)
 
 
+def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:
+    """Warn of negative coefficients of friction but -1: the shear has no bound there."""
+    array, said = given.get("FROT", (np.empty(0), None))
+    wrong = array[(array < 0.0) & (array != -1.0)] if array.dtype == float else array[:0]
+    if wrong.size:
+        warning = call.error("operators.models.friction-negative", said, name="FROT", value=wrong[0])
+        warning.warns = True
+        call.session.report(warning)
+
+
 def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
     """Warn of coefficients of friction that are angles, which shows in any system of units."""
     for name in ("FROT", "MU"):
@@ -54,8 +65,6 @@ def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> Non
             continue
         array, said = given[name]
         value = float(array.max()) if array.dtype == float and array.size else 0.0
-        if value < 0.0 and value not in (-1.0, meant.default):
-            call.warn("operators.models.friction-negative", name=name, value=value)
         if value > meant.usual.high:
             warning = call.error(
                 "operators.models.friction-as-angle",

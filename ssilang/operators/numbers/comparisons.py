@@ -15,6 +15,7 @@ from ssilang.language.registry import SCALAR_RULES, Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 _NUMBERS = (int, float)
@@ -110,7 +111,13 @@ def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
         sign,
         _FIRST,
         _SECOND,
-        opt("tolerance", "FLOTTANT", en="absolute tolerance", fr="tolérance absolue"),
+        opt(
+            "tolerance",
+            "FLOTTANT",
+            range=NOT_NEGATIVE,
+            en="absolute tolerance",
+            fr="tolérance absolue",
+        ),
         gives="LOGIQUE",
         family="comparisons",
         full_name=sign,

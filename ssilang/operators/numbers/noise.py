@@ -20,6 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -61,6 +62,7 @@ _NOISE = key("noise", "BLAN", optional=False, en="white noise", fr="bruit blanc"
 _SKIP = opt(
     "skip",
     "ENTIER",
+    range=NOT_NEGATIVE,
     en="terms that the generator, begun again, skips",
     fr="termes que saute le générateur, repris au début",
 )
@@ -70,7 +72,7 @@ _SKIP = opt(
     _NOISE,
     choice("law", ("POIS",), optional=False, en="Poisson's law", fr="loi de Poisson"),
     arg("mean", "ENTIER", en="mean", fr="moyenne"),
-    arg("count", "ENTIER", en="number of values", fr="nombre de valeurs"),
+    arg("count", "ENTIER", range=POSITIVE, en="number of values", fr="nombre de valeurs"),
     _SKIP,
 )
 def _poisson(
@@ -85,7 +87,13 @@ def _poisson(
     _NOISE,
     choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law", fr="loi"),
     arg("mean", "FLOTTANT", en="mean", fr="moyenne"),
-    arg("width", "FLOTTANT", en="deviation or half width", fr="écart-type ou amplitude"),
+    arg(
+        "width",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        en="deviation or half width",
+        fr="écart-type ou amplitude",
+    ),
     arg(
         "where",
         "ENTIER",

@@ -22,6 +22,7 @@ from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.language.registry import Help, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import MODEL
 
@@ -259,7 +260,7 @@ _STATE = (
     key(
         "step",
         "DT",
-        arg("step", "FLOTTANT", unit="s"),
+        arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         en="accepted: no law here has a viscosity",
         fr="accepté : aucune loi n'a ici de viscosité",
     ),

@@ -3,11 +3,12 @@
 `LEAD` (APPUI_PLOMB): rubber and a lead core, of hysteresis by Bouc and Wen in both directions
 (Park, Wen and Ang 1986). With z of length <= 1, uy = QD / (KS - KPOS):
 
-    t = KPOS u + QD z ,   uy dz = du - |z|^(ETA - 2) (z . du) c z ,   c = 1 loading, 2 BETA - 1 not
+    t = KPOS u + QD z ,   uy dz = du - |z|^(ETA - 2) (z . du) c z ,   c = 1 loading, 1 - 2 BETA not
 
-(c = BETA + GAMM sign(z . du) with GAMM = 1 - BETA.) Backward Euler: z = zeta a / |a|, a = z0 + d,
-d = du / uy, is along a, with `zeta + c (a . d) / |a| zeta^ETA = |a|`: one equation whose left side
-grows. The vertical spring KN is elastic both ways.
+(c = gamma + BETA sign(z . du), gamma = 1 - BETA: beta is that of |du|, as Wen has it.)
+Backward Euler: z = zeta a / |a|, a = z0 + d, d = du / uy, is along a, with
+`zeta + c (a . d) / |a| zeta^ETA = |a|`: one equation whose left side grows.
+The vertical spring KN is elastic both ways.
 
 `PENDULUM` (APPUI_PENDULE): a slider on a bowl of radius R = RAYO. The bowl lifts it by u^2 / 2 R:
 with the gap g = w - u^2 / 2 R above the bowl, N = -KN g where g < 0 and nothing where it has
@@ -70,7 +71,7 @@ def _lead_core(
             D[i, i] += p[Par.QD] / uy
         return 0.0
     along /= size
-    c = 1.0 if along > 0.0 else 2.0 * p[Par.BETA] - 1.0
+    c = 1.0 if along > 0.0 else 1.0 - 2.0 * p[Par.BETA]
     kappa, eta = c * along, p[Par.ETA]
     zeta = _radius(kappa, eta, size)
     down = 1.0 + kappa * eta * zeta ** (eta - 1.0)

@@ -101,7 +101,7 @@ def check_lead_parameters(parameters: FloatArray) -> None:
     _refuse(columns["KPOS"] < 0, columns["KPOS"], "KPOS", ">= 0")
     _refuse(columns["KPOS"] >= columns["KS1"], columns["KPOS"], "KPOS", "< KS")
     _refuse(columns["ETA"] < 1, columns["ETA"], "ETA", ">= 1")
-    _refuse((columns["BETA"] < 0) | (columns["BETA"] > 0.5), columns["BETA"], "BETA", "0 ... 0.5")
+    _refuse((columns["BETA"] < 0.5) | (columns["BETA"] > 1), columns["BETA"], "BETA", "0.5 ... 1")
 
 
 def check_pendulum_parameters(parameters: FloatArray) -> None:

@@ -61,8 +61,6 @@ def zbas(call: Call, table: Table) -> Table:
     result = Table()
     if frequencies is not None:
         over = np.asarray(frequencies.values, float)
-        if np.any(over < 0.0):
-            raise entries.error("operators.dynamics.negative-frequency", frequency=over.min())
         found = factors(base, ground, over)
         curves = {"TRANSLATION": found.translation, "ROTATION": found.rotation}
         if base.shape != "strip":
@@ -81,13 +79,8 @@ def _base(entries: Entries) -> RigidBase:
     sizes = []
     for name in _SIZES[shape]:
         size = entries.get(name)
-        if size is None or size <= 0.0:
-            raise entries.error(
-                "operators.dynamics.size-of-base",
-                shape=shape,
-                name=name,
-                given="" if size is None else f"{size:g}",
-            )
+        if size is None:
+            raise entries.error("operators.dynamics.size-of-base", shape=shape, name=name)
         sizes.append(float(size))
     return RigidBase(_SHAPES[shape], *sizes)
 
@@ -98,14 +91,8 @@ def _ground(entries: Entries) -> Ground:
     young, poisson, density = (
         float(entries.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
     )
-    if young <= 0 or density <= 0 or not -1 < poisson < 0.5:
-        raise entries.error(
-            "operators.dynamics.ground-not-elastic", young=young, density=density, poisson=poisson
-        )
     shear = float(np.sqrt(young / (2 * (1 + poisson)) / density))
     gamma, apparent = float(entries.get("INCOHERENCE")), entries.get("VITESSE_APPARENTE")
-    if gamma < 0.0 or (apparent is not None and apparent <= 0.0):
-        raise entries.error("operators.dynamics.incoherence-sign", gamma=gamma, speed=apparent or 0)
     if gamma > _MEASURED:
         entries.warn("operators.dynamics.incoherence-large", gamma=gamma, most=_MEASURED)
     if apparent is not None and apparent < _IMPOSSIBLE * shear:

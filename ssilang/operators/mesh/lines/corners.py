@@ -6,6 +6,7 @@ from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -18,7 +19,7 @@ from ssilang.operators.workspace import workspace
         en="number of elements; by the mesh sizes without it",
         fr="nombre d'éléments ; selon les densités sans lui",
     ),
-    opt("radius", "FLOTTANT", en="radius", fr="rayon", unit="m"),
+    opt("radius", "FLOTTANT", range=POSITIVE, en="radius", fr="rayon", unit="m"),
     arg("second", "MAILLAGE", en="line that follows", fr="ligne qui suit"),
     flag("double", "DOUBLE", en="two arcs: not available", fr="deux arcs : non disponible"),
     family="mesh",

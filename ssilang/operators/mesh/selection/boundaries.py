@@ -18,6 +18,7 @@ from ssilang.kernel.mesh.orientation import (
     orient,
 )
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
+from ssilang.language.vocabulary.terms import between
 
 
 def _whole_lines(mesh: Mesh) -> Mesh:
@@ -113,6 +114,7 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     opt(
         "angle",
         "FLOTTANT",
+        range=between(0.0, 180.0),
         default=20.0,
         en="turn of the skin from which on an edge is sharp",
         fr="angle de la peau à partir duquel une arête est vive",

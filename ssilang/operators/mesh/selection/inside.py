@@ -16,6 +16,7 @@ from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -74,6 +75,7 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
     opt(
         "margin",
         "FLOTTANT",
+        range=NOT_NEGATIVE,
         en="with 'VOLU' how far outside still counts, 1E-2 by default",
         fr="avec 'VOLU' l'écart encore admis, 1E-2 par défaut",
     ),

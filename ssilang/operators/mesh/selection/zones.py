@@ -24,6 +24,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE, between
 
 _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "
 
@@ -35,7 +36,7 @@ _FREE = flag(
     fr="la table n'a pas de sous-type",
 )
 _MESH = main("mesh", "MAILLAGE", en="mesh", fr="maillage")
-_COUNT = arg("count", "ENTIER", en="number of parts", fr="nombre de parties")
+_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts", fr="nombre de parties")
 
 
 @operator(
@@ -110,6 +111,7 @@ def part(mesh: Mesh, free: bool) -> Table:
                 opt(
                     "angle",
                     "FLOTTANT",
+                    range=between(0.0, 180.0),
                     default=20.0,
                     en="least angle",
                     fr="angle minimal",
@@ -154,6 +156,7 @@ def separated_parts(
     opt(
         "count",
         "ENTIER",
+        range=POSITIVE,
         default=2,
         en="number of parts, a power of 2",
         fr="nombre de parties, puissance de 2",

@@ -39,6 +39,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
@@ -98,6 +99,7 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
     opt(
         "criterion",
         "FLOTTANT",
+        range=NOT_NEGATIVE,
         en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
         fr="écart des lignes à leur plan, rapporté à leur étendue, 1E-3 par défaut",
     ),
@@ -258,8 +260,20 @@ def dall(
 
 _POLYNOMIAL = (
     said("POLYNOME"),
-    arg("columns", "ENTIER", en="number of columns of points", fr="nombre de colonnes de points"),
-    arg("rows", "ENTIER", en="number of rows of points", fr="nombre de lignes de points"),
+    arg(
+        "columns",
+        "ENTIER",
+        range=POSITIVE,
+        en="number of columns of points",
+        fr="nombre de colonnes de points",
+    ),
+    arg(
+        "rows",
+        "ENTIER",
+        range=POSITIVE,
+        en="number of rows of points",
+        fr="nombre de lignes de points",
+    ),
     many("points", "POINT", en="P1 P2 P3 ..., row by row", fr="P1 P2 P3 ..., ligne par ligne"),
     key(
         "limits",
