@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO
 
 from ssilang.io.errors import OutputError
+from ssilang.system import replace, usual_rights
 from ssilang.system_reasons import system_reason
 
 
@@ -35,7 +36,7 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
         with os.fdopen(handle, "wb") as stream:
             yield stream
         os.chmod(aside, usual_rights())
-        os.replace(aside, path)
+        replace(aside, path)
     except OSError as error:
         raise cannot_write(path, error) from error
     finally:
@@ -47,13 +48,6 @@ def write_text(path: Path, text: str) -> None:
     """Write `text` (UTF-8) to `path`, whole or not at all."""
     with replacing(path) as stream:
         stream.write(text.encode("utf-8"))
-
-
-def usual_rights() -> int:
-    """Rights of a file that is made in the usual way."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
 
 
 def cannot_write(path: Path, error: OSError) -> OutputError:

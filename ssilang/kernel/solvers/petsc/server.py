@@ -66,6 +66,7 @@ def connect(folder: str) -> tuple[socket.socket, str]:
     OSError
         If nobody listens: the client has ended. What it left is removed.
     """
+    assert sys.platform != "win32"
     place, secret = os.path.join(folder, "socket"), os.path.join(folder, "word")
     line = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
@@ -84,6 +85,7 @@ def connect(folder: str) -> tuple[socket.socket, str]:
 
 def receive(line: socket.socket) -> tuple[Message, list[int]]:
     """The next message and the descriptors that came with it; no message if the line ended."""
+    assert sys.platform != "win32"
     head, descriptors = b"", []
     while len(head) < 4:
         got, new, _, _ = socket.recv_fds(line, 4 - len(head), 4)
@@ -114,6 +116,7 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
     OSError
         If nobody is at the other end, also in programs that let a broken pipe end them (gmsh does).
     """
+    assert sys.platform != "win32"
     text, quiet = json.dumps(message).encode(), getattr(socket, "MSG_NOSIGNAL", 0)
     whole = struct.pack(">I", len(text)) + text
     # not `send_fds`, which leaves out the flags
@@ -124,6 +127,7 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
 
 def end_with(line: socket.socket, on: bool) -> None:
     """Let the system end this process, and by it all ranks, when the client ends (SIGIO)."""
+    assert sys.platform != "win32"
     import fcntl  # the client imports this file, on any system
 
     flags = fcntl.fcntl(line, fcntl.F_GETFL)
@@ -223,6 +227,7 @@ def lines_of(path: str) -> list[str]:
 
 def most_bytes() -> float:
     """The most memory that this process has held."""
+    assert sys.platform != "win32"
     import resource
 
     unit = 1 if sys.platform == "darwin" else 1024
@@ -507,6 +512,7 @@ def serve(desk: Desk | None, ranks: Ranks, factors: Factors) -> None:
 
 def main(folder: str) -> None:
     """Greet the client and serve it; whatever fails on one rank ends all."""
+    assert sys.platform != "win32"
     import resource
 
     from mpi4py import MPI
