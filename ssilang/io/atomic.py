@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from itertools import count
 from pathlib import Path
 from typing import IO
 
@@ -36,12 +37,41 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
         with os.fdopen(handle, "wb") as stream:
             yield stream
         os.chmod(aside, usual_rights())
-        replace(aside, path)
+        put(aside, path)
     except OSError as error:
         raise cannot_write(path, error) from error
     finally:
         with suppress(OSError):
             aside.unlink()
+
+
+def put(aside: Path, path: Path, keep: bool = True) -> None:
+    """Put a file that is whole in its place.
+
+    Parameters
+    ----------
+    keep : bool
+        Whether what cannot take the place of a file that another program holds stays beside it,
+        under another name.
+
+    Raises
+    ------
+    OSError
+        If it cannot be put there.
+    OutputError
+        If another program holds the file that is there.
+    """
+    try:
+        replace(aside, path)
+    except PermissionError as error:
+        if not path.is_file():
+            raise
+        other = path
+        if keep:
+            tried = (path.with_name(f"{path.stem}.new{n}{path.suffix}") for n in count(1))
+            other = next(p for p in tried if not os.path.lexists(p))
+            os.replace(aside, other)
+        raise OutputError("io.file-held", path=path, other=other if keep else "") from error
 
 
 def write_text(path: Path, text: str) -> None:

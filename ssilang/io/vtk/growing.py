@@ -23,9 +23,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.atomic import cannot_write
+from ssilang.io.atomic import cannot_write, put
+from ssilang.io.errors import OutputError
 from ssilang.io.vtk import hdf5
-from ssilang.system import GUARDED, replace, usual_rights, write_at
+from ssilang.system import GUARDED, usual_rights, write_at
 
 _PAGE = 4096
 _COMPRESSED_FROM = 8192  # bytes; an index and filters cost some 3 kB
@@ -104,8 +105,8 @@ class GrowingFile:
                 os.chmod(self._aside, usual_rights())
                 os.close(self._handle)  # Windows moves no file that is open
                 try:
-                    replace(self._aside, self.path)
-                except OSError:
+                    put(self._aside, self.path, keep=False)
+                except (OSError, OutputError):
                     self._handle = os.open(self._aside, os.O_RDWR | GUARDED)
                     raise
                 self._aside = None
