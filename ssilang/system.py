@@ -12,6 +12,7 @@ import os
 import signal
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -58,6 +59,12 @@ def cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(_os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def after_fork(function: Callable[[], object]) -> None:
+    """Call a function in each process that begins with the memory of this one."""
+    if hasattr(os, "register_at_fork"):
+        _os.register_at_fork(after_in_child=function)
 
 
 # ---- files ---------------------------------------------------------------------------------------

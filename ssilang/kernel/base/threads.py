@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
-from ssilang.system import cores
+from ssilang.system import after_fork, cores
 
 LEAST = 200_000  # numbers that a thread must have to read before it is worth waking
 
@@ -31,8 +31,7 @@ def _threads(count: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(count, "ssilang")
 
 
-if hasattr(os, "register_at_fork"):  # a forked process has none of these threads
-    os.register_at_fork(after_in_child=_threads.cache_clear)
+after_fork(_threads.cache_clear)  # a forked process has none of these threads
 
 
 def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
