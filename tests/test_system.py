@@ -26,6 +26,7 @@ from ssilang.io import atomic
 from ssilang.io.errors import OutputError
 from ssilang.io.file_names import fault_on_windows
 from ssilang.io.run_output import RunOutput
+from ssilang.io.vtk.growing import GrowingFile
 from ssilang.messages.message import sentence
 
 _ROOT = Path(ssilang.__file__).parent
@@ -313,15 +314,19 @@ def test_any_console_takes_what_is_printed(page: str, tmp_path: Path) -> None:
     [
         "\ufeffMESS 'été' ;\r\nMESS 'fin' ;\r\n".encode(),
         "MESS 'été' ;\r\nMESS 'fin' ;".encode("latin-1"),
+        "MESS 'été' ;\r\nMESS 'fin' ;\r\n".encode("utf-16"),
     ],
-    ids=["mark and CRLF", "latin-1"],
+    ids=["mark and CRLF", "latin-1", "PowerShell's"],
 )
 def test_scripts_of_other_editors_are_read(data: bytes, tmp_path: Path) -> None:
+    from ssilang.cli.main import main
     from ssilang.cli.run import RunOptions, run_file
 
     (tmp_path / "case.ssi").write_bytes(data)
     result = run_file(tmp_path / "case.ssi", RunOptions(output_directory=tmp_path / "out"))
     assert (result.exit_code, result.output) == (0, "été\nfin\n")
+    assert main(["format", str(tmp_path / "case.ssi")]) == 0
+    assert (tmp_path / "case.ssi").read_bytes().rstrip(b"\r\n\0") == data.rstrip(b"\r\n\0")
 
 
 # ---- names of files and files that others hold ---------------------------------------------------
@@ -415,3 +420,15 @@ def test_what_cannot_replace_a_file_is_kept_under_another_name(held, tmp_path: P
     assert "is held by another program" in told
     assert "x.new2.csv" in told
     assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_a_growing_series_that_is_held_leaves_nothing(held, tmp_path: Path) -> None:
+    path = tmp_path / "x.vtkhdf"
+    path.write_text("old")
+    held({path: 10**9})
+    file = GrowingFile(path)
+    for _ in range(2):  # the calculation may be told to try again
+        with pytest.raises(OutputError, match="held by another program"):
+            file.commit(file.add(b"root"))
+    file.close()
+    assert [p.read_text() for p in tmp_path.iterdir()] == ["old"]
