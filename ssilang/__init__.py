@@ -4,6 +4,9 @@
 `ssilang.api`, which is imported when one of these names is first used.
 """
 
+import ssilang.search_path  # noqa: F401  before anything else is imported
+
+# isort: split
 from importlib import import_module
 from typing import Any
 

@@ -1,11 +1,14 @@
 """Settings of all tests."""
 
+import ctypes
 import gc
 import os
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from not_tested import pytest_terminal_summary  # noqa: F401
 
 from ssilang.cli.main import SELDOM
 from ssilang.io.plots import figure
@@ -39,6 +42,48 @@ compiled.ALLOWED = _Nothing()
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long tests come first: none is left to one process while the others wait for it."""
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+def pytest_collection_finish() -> None:
+    """What is there now stays to the end: no search for garbage looks at it again."""
+    gc.collect()
+    gc.freeze()
+    gc.collect()  # searches through all come when so much is new as was found here
+
+
+class _Memory:
+    """What ended scripts leave are circles of objects: found once they may hold this many bytes.
+
+    A script's objects are few and their arrays are large, while Python counts objects alone.
+    """
+
+    ROOM = 400e6
+
+    def __init__(self) -> None:
+        self.least = self.resident()
+        system = ctypes.CDLL(None) if sys.platform == "linux" else None
+        self.give_back = getattr(system, "malloc_trim", lambda _: 0)
+
+    @staticmethod
+    def resident() -> float:
+        """Bytes of this process in memory; 0 where the system does not tell."""
+        told = Path("/proc/self/statm")
+        return int(told.read_text().split()[1]) * 4096.0 if told.exists() else 0.0
+
+    def look(self) -> None:
+        if self.resident() > self.least + self.ROOM:
+            gc.collect()
+            self.give_back(0)
+            self.least = self.resident()
+
+
+_MEMORY = _Memory()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_logfinish() -> None:
+    """Behind each test, when its fixtures are gone."""
+    _MEMORY.look()
 
 
 @pytest.hookimpl(trylast=True)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator
 from typing import TextIO
 
 from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.checking.walk import Checker
-from ssilang.cli.run import RunOptions, make_session
+from ssilang.cli.run import RunOptions, allow_nesting, make_session
 from ssilang.cli.terminal.colour import coloured
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
@@ -25,9 +26,21 @@ def check_file(source: Source, syntax_only: bool, language: str, out: TextIO) ->
         Look at the structure alone: statements, parentheses, quotes, blocks.
     """
     problems, names = check_source(source, syntax_only)
-    for problem in problems:
+    for problem in _together(problems):
         out.write(coloured(render(problem, language, names), out) + "\n\n")
     return any(p.severity == "error" for p in problems)
+
+
+def _together(problems: list[SsiError]) -> Iterator[SsiError]:
+    """The problems, names that nothing reads in one."""
+    unread = [p for p in problems if p.code == "unused-name"]
+    for problem in problems:
+        if problem not in unread or len(unread) == 1:
+            yield problem
+        elif problem is unread[0]:
+            lines = [p.span.source.position(p.span.start)[0] for p in unread if p.span is not None]
+            names = [f"{p.data['name']} ({line})" for p, line in zip(unread, lines, strict=True)]
+            yield SsiError("unused-names", problem.span, names=", ".join(names))
 
 
 def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:
@@ -56,5 +69,9 @@ def typed_source(
         return [], set(), {}
     session = make_session(source, RunOptions(), io.StringIO())
     checker = Checker(session, sound)
-    names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-    return checker.check(script), names, checker.types
+    allow_nesting(session.limits.recursion)
+    try:
+        names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
+        return checker.check(script), names, checker.types
+    except RecursionError:
+        return [SsiError("nesting", None)], set(), {}

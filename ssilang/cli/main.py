@@ -50,6 +50,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warnings.simplefilter("ignore")  # of libraries; the language's own are messages
     from ssilang.cli.signals import listening
 
+    if getattr(options, "allow_geo", False):
+        from ssilang.io.mesh_files.geo import FREE
+
+        os.environ[FREE] = "1"  # workers are to know it, too
     try:
         with listening():
             code = _ACTIONS[options.command or "repl"](options)

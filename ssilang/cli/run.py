@@ -9,9 +9,10 @@ import sys
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -124,6 +125,11 @@ def _as_object(value: Any) -> Any:
     return Mot(value) if isinstance(value, str) else value
 
 
+def allow_nesting(depth: int) -> None:
+    """Let functions walk trees of blocks and parentheses nested some dozen times as deep."""
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * depth + 2000))
+
+
 def execute(session: Session, source: Source) -> None:
     """Parse and run a source in a session.
 
@@ -132,8 +138,7 @@ def execute(session: Session, source: Source) -> None:
     SsiError, SeveralErrors
         What is wrong in the script.
     """
-    # before anything walks the tree: blocks may be nested deep
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), 60 * session.limits.recursion + 2000))
+    allow_nesting(session.limits.recursion)  # before anything walks the tree
     script = session.evaluator.guarded(lambda: parse(source), None, source.name)
     try:
         session.assignments = first_assignments(script.body)
@@ -225,6 +230,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [SsiError("reader-left", session.evaluator.current_span)]
     _end_petsc(session)
     _tell_refused_folders(session)
+    if options.verbose:
+        _tell_plain_numba(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         _end_recording(session, errors)
@@ -316,16 +323,8 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
     from ssilang.io.errors import InputError
     from ssilang.operators.files.outputs import run_output
 
-    given = {name: repr(value) for name, value in options.given.items()}
-
-    def deck() -> Deck:
-        from ssilang import __version__
-        from ssilang.io.checkpoint import Deck, digest_of_text
-
-        return Deck(__version__, digest_of_text(source.text), given)
-
     output = run_output(session)
-    output.deck, output.resume = deck, options.resume
+    output.deck, output.resume = partial(deck_of, source, options.given), options.resume
     if not options.resume or output.checkpoints is None:
         return
     if not output.checkpoints.found:
@@ -335,6 +334,14 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
         output.checkpoints.check()
     except InputError as problem:
         raise SsiError.of(problem, None) from problem
+
+
+def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
+    """What tells a run from others, but for the files that it reads."""
+    from ssilang import __version__
+    from ssilang.io.checkpoint import Deck
+
+    return Deck(__version__, source.digest, {k: repr(v) for k, v in given.items()})
 
 
 def _forget_checkpoints(session: Session) -> None:
@@ -369,6 +376,14 @@ def _tell_refused_folders(session: Session) -> None:
         warning.warns = True
         with suppress(ReaderLeft):  # it is in the summary
             session.report(warning)
+
+
+def _tell_plain_numba(session: Session) -> None:
+    """Note that plain numba has compiled, and why."""
+    kernel = sys.modules.get("ssilang.kernel.base.compiled")
+    if kernel is not None and kernel.PLAIN and session.on_note is not None:
+        told = {"untried": kernel.UNTRIED}
+        session.on_note(sentence("cli.plain-numba", told, session.language))
 
 
 def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> None:

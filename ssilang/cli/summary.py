@@ -1,13 +1,14 @@
 """summary.json: what a run did, for machines.
 
-Keys: `deck` (path), `version`, `exit_code`, `seconds`, `statements`, `peak_memory_mb`, `files`
-(list of {`path` relative to the folder of the summary, `bytes`}), `warnings` and `errors` (lists
-of {`code`, `line`, `text`}), `pictures` (paths of those among the files), `figures` (numbers, a
-list of {`name`, `value`, `expected`, `tolerance`, `ok`}: what SORT 'BILA' reported, the last three
-null where nothing was expected), `units` (the system of OPTI 'UNIT' and its units of length, force,
-mass, time, stress and energy; null without that option), `statistics` (what procedures and solvers
-left in `session.statistics`; under `petsc`, if it solved, its `command`, versions, `ranks` and
-`hosts`, a list of {`host`, `ranks`, `peak_memory_mb`, `free_memory_mb`}).
+Keys: `deck` (path), `deck_digest` (SHA-256 of its text), `version`, `exit_code`, `seconds`,
+`statements`, `peak_memory_mb`, `files` (list of {`path` relative to the folder of the summary,
+`bytes`}), `warnings` and `errors` (lists of {`code`, `line`, `text`}), `pictures` (paths of those
+among the files), `figures` (numbers, a list of {`name`, `value`, `expected`, `tolerance`, `ok`}:
+what SORT 'BILA' reported, the last three null where nothing was expected), `units` (the system of
+OPTI 'UNIT' and its units of length, force, mass, time, stress and energy; null without that
+option), `statistics` (what procedures and solvers left in `session.statistics`; under `petsc`, if
+it solved, its `command`, versions, `ranks` and `hosts`, a list of {`host`, `ranks`,
+`peak_memory_mb`, `free_memory_mb`}).
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ def write_summary(
     files = [_file(p, output.directory) for p in output.files if p.is_file()]
     made = {
         "deck": str(source.path) if source.path is not None else source.name,
+        "deck_digest": source.digest,
         "version": __version__,
         "exit_code": exit_code,
         "seconds": round(time.perf_counter() - session.started - session.away(), 3),

@@ -204,6 +204,7 @@ def _session_arguments(to: argparse.ArgumentParser) -> None:
 
 def _allowed(to: argparse.ArgumentParser) -> None:
     to.add_argument("--allow", type=Path, action="append", default=[], help="cli.usage-allow")
+    to.add_argument("--allow-geo", action="store_true", help="cli.usage-allow-geo")
 
 
 def _language_argument(to: argparse.ArgumentParser) -> None:

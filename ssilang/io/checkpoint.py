@@ -38,7 +38,7 @@ Rows = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True)
 class Deck:
-    """Whose checkpoints these are.
+    """What was run: whose checkpoints these are, or whose row of a sweep.
 
     Attributes
     ----------
@@ -53,6 +53,14 @@ class Deck:
     version: str
     text: str
     given: Mapping[str, str] = field(default_factory=dict)
+
+    def kept(self) -> dict[str, Any]:
+        """What is written down of it."""
+        return {"ssilang": self.version, "deck": self.text, "given": dict(self.given)}
+
+    def change_since(self, kept: Mapping[str, Any]) -> str:
+        """The first of 'ssilang', 'deck' and 'given' that was another one, '' if none was."""
+        return next((name for name, now in self.kept().items() if kept[name] != now), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,9 +159,7 @@ class Checkpoints:
         head = {
             "format": FORMAT,
             "version": VERSION,
-            "ssilang": self.deck.version,
-            "deck": self.deck.text,
-            "given": dict(self.deck.given),
+            **self.deck.kept(),
             "call": dict(call),
             "batches": batches + 1,
             "length": length,
@@ -191,18 +197,18 @@ class Checkpoints:
             if head["format"] != FORMAT:
                 raise ValueError(f"format {head['format']!r}")
             version, written_by = int(head["version"]), str(head["ssilang"])
-            deck, given = str(head["deck"]), dict(head["given"])
+            changed, given = self.deck.change_since(head), dict(head["given"])
         except DAMAGES as error:
             raise self._damaged(path, error) from error
-        if version != VERSION or written_by != self.deck.version:
+        if version != VERSION or changed == "ssilang":
             raise InputError(
                 "io.checkpoint-of-version",
                 folder=self.folder, version=written_by, own=self.deck.version,
             )  # fmt: skip
-        if deck != self.deck.text:
+        if changed == "deck":
             raise InputError("io.checkpoint-of-deck", folder=self.folder)
-        names = sorted(n for n in given.keys() | self.deck.given if self._differs(given, n))
-        if names:
+        if changed:
+            names = changed_names(given, self.deck.given)
             before, now = (
                 [f"{n}={d[n]}" if n in d else f"{n}" for n in names]
                 for d in (given, self.deck.given)
@@ -212,25 +218,22 @@ class Checkpoints:
             )
         return head
 
-    def _differs(self, given: Mapping[str, str], name: str) -> bool:
-        return given.get(name) != self.deck.given.get(name)
-
     def _damaged(self, path: Path, error: Exception) -> InputError:
         return InputError("io.checkpoint-damaged", path=path, error=error)
 
 
-def digest_of_text(text: str) -> str:
-    """What tells one deck from another."""
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-
-
 def digest_of_file(path: Path) -> str:
-    """The same of a file; '' of one that is gone."""
+    """What tells one file from another; '' of one that is gone."""
     try:
         with path.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError:
         return ""
+
+
+def changed_names(before: Mapping[str, str], now: Mapping[str, str]) -> list[str]:
+    """Names whose text or digest is another one, or that only one of the two has."""
+    return sorted(n for n in before.keys() | now if before.get(n) != now.get(n))
 
 
 # ---- what files hold -----------------------------------------------------------------------------

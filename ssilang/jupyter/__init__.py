@@ -1,1 +1,1 @@
-"""Cells of Gibiane in a notebook: a kernel for Jupyter, `python -m ssilang.jupyter install`."""
+"""Cells of Gibiane in a notebook: a kernel for Jupyter, `python -P -m ssilang.jupyter install`."""

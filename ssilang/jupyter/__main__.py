@@ -1,4 +1,4 @@
-"""`python -m ssilang.jupyter install` tells Jupyter of the kernel; without a word: be it."""
+"""`python -P -m ssilang.jupyter install` tells Jupyter of the kernel; without a word: be it."""
 
 from __future__ import annotations
 
@@ -44,7 +44,9 @@ def _launch(words: list[str]) -> None:
 def _install(words: list[str]) -> int:
     language = words[words.index("--lang") + 1] if "--lang" in words[:-1] else "en"
     told = teller(language if language in ("en", "fr") else "en")
-    parser = argparse.ArgumentParser("python -m ssilang.jupyter", description=told("jupyter.usage"))
+    parser = argparse.ArgumentParser(
+        "python -P -m ssilang.jupyter", description=told("jupyter.usage")
+    )
     parser.add_argument("command", choices=["install"])
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--sys-prefix", action="store_true", help=told("jupyter.usage-sys-prefix"))
@@ -70,7 +72,7 @@ def install(prefix: str | None = None, language: str = "en") -> Path:
     from jupyter_client.kernelspec import KernelSpecManager
 
     spec = {
-        "argv": [sys.executable, "-m", "ssilang.jupyter", "-f", "{connection_file}"],
+        "argv": [sys.executable, "-P", "-m", "ssilang.jupyter", "-f", "{connection_file}"],
         "display_name": "Gibiane (ssilang)",
         "language": "gibiane",
         "interrupt_mode": "signal",

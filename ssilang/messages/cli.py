@@ -51,6 +51,24 @@ MESSAGES: dict[str, Message] = {
         "{done} of {total} runs are done already",
         "{done} calculs sur {total} sont déjà faits",
     ),
+    "runs-again": Message(
+        "{count} {count:run|runs} again: {reason}",
+        "{count} {count:calcul refait|calculs refaits} : {reason}",
+    ),
+    "again-version": Message(
+        "made by ssilang {before}, this is {now}",
+        "{before} de ssilang les a faits, celui-ci est {now}",
+    ),
+    "again-deck": Message("the deck has changed", "le jeu de données a changé"),
+    "again-values": Message("other values were given", "d'autres valeurs étaient données"),
+    "again-files": Message(
+        "{files} {files:has|have} changed",
+        "{files} {files:a|ont} changé",
+    ),
+    "again-unknown": Message(
+        "what was left does not say what it was made with",
+        "ce qui en reste ne dit pas avec quoi cela a été fait",
+    ),
     "files-no-motions": Message(
         "left out, no {count:motion|motions}: {names}",
         "{count:laissé de côté, pas un mouvement|laissés de côté, pas des mouvements} : {names}",
@@ -133,6 +151,13 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "no-help": Message("there is no help about {word}", "il n'y a pas d'aide sur {word}"),
     "list-of-help": Message(
         "`ssilang help` lists all of them", "`ssilang help --lang fr` en donne la liste"
+    ),
+    "plain-numba": Message(
+        "compiled code is made by plain numba{untried:?, since ssilang's own ways were not tried "
+        "with {untried}|, as SSILANG_PLAIN_NUMBA says}: the same answers, longer starts",
+        "le code compilé est fait par numba seul{untried:?, car les voies propres à ssilang n'ont "
+        "pas été essayées avec {untried}|, comme le dit SSILANG_PLAIN_NUMBA} : mêmes réponses, "
+        "départs plus longs",
     ),
     "warm-nothing-kept": Message(
         "compiled code would end with this process",
@@ -276,6 +301,10 @@ Ctrl-C arrête le calcul en cours, ou oublie ce qui est tapé ; Tab complète.""
     "usage-scheduler": Message("address of a Dask scheduler", "adresse d'un ordonnanceur Dask"),
     "usage-allow": Message(
         "further folder to read and write", "autre répertoire où lire et écrire"
+    ),
+    "usage-allow-geo": Message(
+        "let Gmsh run .geo files where the system cannot guard it",
+        "laisser Gmsh exécuter des fichiers .geo où le système ne peut l'enfermer",
     ),
     "usage-verbose": Message(
         "say by which method motions are calculated",

@@ -291,6 +291,12 @@ MESSAGES: dict[str, Message] = {
         "cells {cell_type} have no AVS counterpart",
         "les éléments {cell_type} n'ont pas d'équivalent AVS",
     ),
+    "avs-file-cut": Message(
+        "{name} is cut: it has fewer lines than its first one says",
+        "{name} est tronqué : il a moins de lignes que n'en annonce la première",
+        "write or fetch it again",
+        "écrivez-le ou récupérez-le de nouveau",
+    ),
     "no-readable-avs-file": Message(
         "{name} is no readable AVS file: {error}",
         "{name} n'est pas un fichier AVS lisible : {error}",
@@ -362,11 +368,25 @@ MESSAGES: dict[str, Message] = {
         "pip install 'ssilang[gmsh]'}",
     ),
     "geo-reaches-out": Message(
-        "{name} is not run: '{word}' runs programs, or reads and writes other files",
-        "{name} n'est pas exécuté : '{word}' lance des programmes, ou lit et écrit d'autres "
-        "fichiers",
+        "{name} is not run: '{word}' runs programs or writes files",
+        "{name} n'est pas exécuté : '{word}' lance des programmes ou écrit des fichiers",
         "mesh it with gmsh and read the .msh",
         "le mailler par gmsh et lire le .msh",
+    ),
+    "geo-unguarded": Message(
+        "{name} is not run: a .geo may start programs, and this system cannot keep Gmsh from it",
+        "{name} n'est pas exécuté : un .geo peut lancer des programmes, et ce système ne peut en "
+        "empêcher Gmsh",
+        "if you trust the file: --allow-geo; else mesh it with gmsh and read the .msh (the guard "
+        "is Landlock, of Linux 5.13 and later)",
+        "si le fichier est de confiance : --allow-geo ; sinon le mailler par gmsh et lire le .msh "
+        "(l'enceinte est Landlock, de Linux 5.13 et plus)",
+    ),
+    "geo-takes-long": Message(
+        "Gmsh has not meshed {name} within {seconds} s and was ended",
+        "Gmsh n'a pas maillé {name} en {seconds} s et a été arrêté",
+        "coarser sizes; or more time: SSILANG_GEO_SECONDS in the environment",
+        "des tailles plus grandes ; ou plus de temps : SSILANG_GEO_SECONDS dans l'environnement",
     ),
     "mesh-cells-not-written": Message(
         "{kind} has no {others}",
@@ -472,6 +492,12 @@ MESSAGES: dict[str, Message] = {
     "record-not-finite": Message(
         "{name} has values that are too large for a number",
         "{name} a des valeurs trop grandes pour un nombre",
+    ),
+    "record-empty": Message(
+        "{name} holds no value, or says that it has none",
+        "{name} ne contient aucune valeur, ou dit n'en avoir aucune",
+        "the number of values in its head (NPTS) is that of the values below it",
+        "le nombre de valeurs de l'en-tête (NPTS) est celui des valeurs qui suivent",
     ),
     "line-says-values-file": Message(
         "{name}: line 4 says {count} {count:value|values}, the file holds {n_values}",

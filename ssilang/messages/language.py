@@ -469,6 +469,13 @@ MESSAGES: dict[str, Message] = {
         "{name} reçoit une valeur que rien ne lit",
         severity="warning",
     ),
+    "unused-names": Message(
+        "names get values that nothing reads: {names}",
+        "des noms reçoivent des valeurs que rien ne lit : {names}",
+        "in brackets: the line where each gets its first value",
+        "entre parenthèses : la ligne où chacun reçoit sa première valeur",
+        severity="warning",
+    ),
     "near-word": Message(
         "{operator} knows no word '{name}'",
         "{operator} ne connaît pas le mot '{name}'",

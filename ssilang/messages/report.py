@@ -23,8 +23,8 @@ MESSAGES: dict[str, Message] = {
         "relancez le calcul",
     ),
     "not-a-summary": Message(
-        "'{path}' is not the summary of a run",
-        "'{path}' n'est pas le bilan d'un calcul",
+        "'{path}' is not the summary of a run: {problem}",
+        "'{path}' n'est pas le bilan d'un calcul : {problem}",
         "run the deck again",
         "relancez le calcul",
     ),
@@ -72,11 +72,10 @@ MESSAGES: dict[str, Message] = {
         "Ce calcul a été fait sans --report : il manque les semelles, les énergies et la scène "
         "d'un jeu qui n'écrit pas de série VTK. ssilang run JEU --report les enregistre.",
     ),
-    "deck-changed": Message(
-        "The deck has changed since the run: what is shown below is its present text.",
-        "Le jeu a changé depuis le calcul : le texte ci-dessous est celui d'aujourd'hui.",
+    "deck-gone": Message(
+        "The deck is no longer where it was, or no longer what ran.",
+        "Le jeu n'est plus à sa place, ou n'est plus ce qui a été calculé.",
     ),
-    "deck-gone": Message("The deck is no longer where it was.", "Le jeu n'est plus à sa place."),
     "left-out": Message(
         "Left out: {calculations} further {calculations:calculation|calculations}, {drawings} "
         "further {drawings:picture|pictures} of curves.",

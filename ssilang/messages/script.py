@@ -476,10 +476,13 @@ HINTS: dict[str, tuple[str, str]] = {
         "un 'DSMIN' plus petit",
     ),
     "kernel.plasticity.finite-displacements-not-built": (
-        "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them; leave "
-        "'GRANDS_DEPLACEMENTS' for others",
-        "les massifs, les barres, les poutres (POUT, TIMO) et les COQ2 du plan les ont ; "
-        "ôtez 'GRANDS_DEPLACEMENTS' pour les autres",
+        "continuous elements, bars, beams (POUT, TIMO) and plane COQ2 have them: mesh the body "
+        "with these. Without 'GRANDS_DEPLACEMENTS' small displacements are calculated, another "
+        "problem, whose stresses are right only while rotations stay far below 1",
+        "les massifs, les barres, les poutres (POUT, TIMO) et les COQ2 du plan les ont : maillez "
+        "le corps ainsi. Sans 'GRANDS_DEPLACEMENTS' on calcule de petits déplacements, un autre "
+        "problème, dont les contraintes ne sont justes que si les rotations restent bien "
+        "inférieures à 1",
     ),
     "kernel.plasticity.time-no-point-path": (
         "a smaller 'AUTOCRIT', or a control that grows along the path; supports "

@@ -504,15 +504,25 @@ def worded_union(*pairs: tuple[str, str]) -> Callable[[WordedUnionRule], WordedU
     return add
 
 
+WORDS_OF_UNION = ("TELQ", "NOER")
+"""Words that may stand anywhere beside ET."""
+
+
 def _words_of_union(call: Call) -> set[str]:
     """Words that stand with ET: before, between and behind objects, not in the place of words."""
     found: set[str] = set()
     values = [o.value for o in call.operands]
     words = [v for v in values if isinstance(v, str | ListMots)]
     objects = len(values) - len(words) >= 2 and not any(isinstance(v, ListMots) for v in words)
-    while (said := call.keyword(("TELQ", "NOER") if objects else ("TELQ",))) is not None:
+    while (said := call.keyword(WORDS_OF_UNION if objects else ("TELQ",))) is not None:
         found.add(said)
     return found
+
+
+def joining(left: str, right: str) -> UnionRule | WordedUnionRule | None:
+    """The rule by which ET joins objects of two types, None if they do not go together."""
+    found = WORDED_UNIONS.get((left, right)) or UNIONS.get((left, right))
+    return found or UNIONS.get((left, "*")) or UNIONS.get(("*", right))
 
 
 def united(call: Call, left: Any, right: Any, span: Span, words: Collection[str] = ()) -> Any:
@@ -524,13 +534,10 @@ def united(call: Call, left: Any, right: Any, span: Span, words: Collection[str]
         'no-rule' when their types do not go together.
     """
     types = type_of(left), type_of(right)
-    worded = WORDED_UNIONS.get(types)
-    if worded is not None:
-        return worded(words, left, right)
-    found = UNIONS.get(types) or UNIONS.get((types[0], "*")) or UNIONS.get(("*", types[1]))
+    found: Callable[..., Any] | None = joining(*types)
     if found is None:
         raise SsiError("no-rule", span, operator="ET", left=types[0], right=types[1])
-    return found(left, right)
+    return found(words, left, right) if types in WORDED_UNIONS else found(left, right)
 
 
 def _unite(call: Call) -> Any:
@@ -543,7 +550,7 @@ def _unite(call: Call) -> Any:
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator="ET")
-    while (said := call.keyword(("TELQ", "NOER"))) is not None:
+    while (said := call.keyword(WORDS_OF_UNION)) is not None:
         words.add(said)
     if "TELQ" in words and isinstance(left.value, str) and isinstance(right.value, str):
         return Mot(left.value + right.value)

@@ -128,7 +128,8 @@ def _head(results: Results, told: Teller) -> str:
     openings = _all(results, "opening_")
     openings += [
         np.array([x["value"]])
-        for c in results.calculations for x in c.largest if x["kind"] == "OUVERTURE"
+        for c in results.calculations for x in c.largest
+        if x["kind"] == "OUVERTURE" and x["value"] is not None
     ]  # fmt: skip
     if openings:
         top = f"{max(float(v.max()) for v in openings):.4g} {_unit(results, 'm')}"
@@ -194,8 +195,6 @@ def _notes(results: Results, told: Teller) -> list[str]:
     notes = []
     if not results.recorded:
         notes.append(told("report.not-recorded"))
-    if results.changed:
-        notes.append(told("report.deck-changed"))
     left = results.left_out
     if left.get("calculations") or left.get("drawings"):
         notes.append(told("report.left-out", **left))
@@ -247,7 +246,8 @@ def _checks(results: Results, told: Teller) -> str:
 
 def _meter(figure: dict[str, Any]) -> str:
     """How much of its tolerance a figure takes."""
-    if figure["ok"] is None or not figure["tolerance"]:
+    known = None not in (figure.get("value"), figure.get("expected"))
+    if figure["ok"] is None or not figure["tolerance"] or not known:
         return ""
     part = abs(figure["value"] - figure["expected"]) / figure["tolerance"]
     return f'<meter min=0 max=1 high=1 value="{min(part, 1.0):.3g}"></meter> {100.0 * part:.3g} %'
@@ -349,7 +349,7 @@ def _pictures(results: Results, told: Teller) -> str:
     made, left, room = [], 0, PICTURES
     for path in results.pictures:
         try:
-            data = path.read_bytes()
+            data = path.read_bytes() if path.stat().st_size <= room else b""
         except OSError:
             data = b""
         if not data or len(data) > room:

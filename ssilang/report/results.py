@@ -7,7 +7,6 @@ the report has the summary, the deck if it is still there, the deck's own series
 from __future__ import annotations
 
 import csv
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,9 +14,13 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.inside import inside
 from ssilang.io.recording import CONTENTS, FOLDER
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
+from ssilang.report import records
+from ssilang.report.records import RecordError, read_record
 
 SUMMARY = "summary.json"
 SERIES = (".vtkhdf", ".pvd")
@@ -57,9 +60,7 @@ class Results:
     summary : dict
         As `summary.json` has it; empty for a run that never came to write it.
     deck, text : str
-        Its name and its text, '' if that is gone.
-    changed : bool
-        Whether the text is that of a file that has changed since.
+        Its name and its text, '' if that is gone or no longer what ran.
     recorded : bool
         Whether the run took down what a report shows.
     verdicts : list of lists of dict
@@ -74,7 +75,6 @@ class Results:
     summary: dict[str, Any]
     deck: str
     text: str
-    changed: bool = False
     recorded: bool = False
     calculations: list[Calculation] = field(default_factory=list)
     drawings: list[dict[str, Any]] = field(default_factory=list)
@@ -98,7 +98,7 @@ def read_results(folder: Path) -> Results:
     if not folder.is_dir():
         raise InputError("report.no-folder", folder=folder)
     summary = _summary(folder)
-    found = sorted(p for p in folder.iterdir() if p.is_file())
+    found = sorted(p for p in folder.iterdir() if inside(folder, p.name))
     own = {f["path"] for f in summary.get("files", ())} if summary else {p.name for p in found}
     unread: list[str] = []
     series = [p for p in found if p.suffix in SERIES and p.name in own]
@@ -107,17 +107,15 @@ def read_results(folder: Path) -> Results:
         raise InputError("report.no-run", folder=folder)
     contents = _contents(folder, own, bool(summary), unread)
     deck = str(contents.get("name") or summary.get("deck", ""))
-    text, changed = contents.get("text", ""), False
-    if not contents:
-        text, changed = _text(folder, summary)
+    text = contents.get("text", "") if contents else _text(summary)
     drawn = {name for d in contents.get("drawings", ()) for name in d["files"]}
     pictures = [p for p in found if p.suffix == ".png" and p.name in own - drawn]
     return Results(
-        folder, summary, deck, text, changed, bool(contents),
+        folder, summary, deck, text, bool(contents),
         [_calculation(folder, c, unread) for c in contents.get("calculations", ())],
         contents.get("drawings", []),
         [
-            Shapes(s["name"], s["kind"], folder / FOLDER / s["scene"], s["frequencies"])
+            Shapes(s["name"], s["kind"], _own(folder, s["scene"]), s["frequencies"])
             for s in contents.get("shapes", ())
         ],
         contents.get("left_out", {}),
@@ -128,96 +126,60 @@ def read_results(folder: Path) -> Results:
 
 def _summary(folder: Path) -> dict[str, Any]:
     path = folder / SUMMARY
-    if not path.is_file():
+    if inside(folder, SUMMARY) is None:
         return {}
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        return read_record(path, records.SUMMARY)
+    except RecordError as problem:
+        raise InputError("report.not-a-summary", path=path, problem=problem) from None
     except (OSError, ValueError) as problem:
         raise InputError("report.damaged", path=path, problem=problem) from None
-    if not isinstance(found, dict) or not _is_sound(found):
-        raise InputError("report.not-a-summary", path=path)
-    return found
-
-
-_LISTS = {
-    "files": ("path", "bytes"), "figures": ("name", "value", "expected", "tolerance", "ok"),
-    "warnings": ("line", "text"), "errors": ("line", "text"),
-}  # fmt: skip
-"""What each entry of a summary's lists has."""
-
-
-def _is_sound(summary: dict[str, Any]) -> bool:
-    """Whether a summary has what a report reads."""
-    lists = [(summary.get(name), keys) for name, keys in _LISTS.items()]
-    if not all(isinstance(rows, list) and _have(rows, keys) for rows, keys in lists):
-        return False
-    statistics, units = summary.get("statistics"), summary.get("units")
-    if not isinstance(statistics, dict) or not isinstance(units, dict | None):
-        return False
-    runs = statistics.get("calculations", [])
-    plain = all(isinstance(summary.get(n), str) for n in ("version", "deck"))
-    plain = plain and isinstance(summary.get("seconds"), int | float)
-    return plain and isinstance(runs, list) and _have(runs, ()) and "system" in (units or "system")
-
-
-def _have(rows: list[Any], keys: tuple[str, ...]) -> bool:
-    return all(isinstance(row, dict) and row.keys() >= set(keys) for row in rows)
 
 
 def _contents(folder: Path, own: set[str], ended: bool, unread: list[str]) -> dict[str, Any]:
     """The run's record; what an earlier run has left is none."""
-    path, name = folder / FOLDER / CONTENTS, f"{FOLDER}/{CONTENTS}"
-    if not path.is_file() or (ended and name not in own):
+    name = f"{FOLDER}/{CONTENTS}"
+    path = inside(folder, name)
+    if path is None or (ended and name not in own):
         return {}
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        return read_record(path, records.CONTENTS)
+    except RecordError as problem:
+        unread.append(f"{name} ({problem})")
     except (OSError, ValueError):
-        found = None
-    if not isinstance(found, dict) or not all(
-        isinstance(found.get(key), list) and _have(found[key], keys)
-        for key, keys in _RECORDED.items()
-    ):
         unread.append(name)
-        return {}
-    return found
+    return {}
 
 
-_RECORDED = {
-    "calculations": (
-        "procedure",
-        "table",
-        "scene",
-        "whole",
-        "footings",
-        "footings_left",
-        "largest",
-    ),
-    "drawings": ("title", "x", "y", "log", "files", "curves"),
-    "shapes": ("name", "kind", "scene", "frequencies"),
-}
-"""What each entry of a record's lists has."""
-
-
-def _text(folder: Path, summary: dict[str, Any]) -> tuple[str, bool]:
-    """The deck as it is now, and whether it is younger than the run."""
-    path = Path(str(summary.get("deck", "")))
+def _text(summary: dict[str, Any]) -> str:
+    """The deck, where it still is the one that ran: a record could name any file of the reader."""
+    name, digest = summary.get("deck", ""), summary.get("deck_digest", "")
+    if not digest or name.startswith(("//", "\\\\")):  # another machine's
+        return ""
     try:
-        text = Source.decode("", path.read_bytes()).text if path.is_file() else ""
-        changed = bool(text) and path.stat().st_mtime > (folder / SUMMARY).stat().st_mtime
-    except OSError:
-        return "", False
-    return text, changed
+        path = Path(name)
+        if not path.is_file() or path.stat().st_size > MOST_BYTES:
+            return ""
+        deck = Source.decode("", path.read_bytes())
+    except (OSError, ValueError, SsiError):
+        return ""
+    return deck.text if deck.digest == digest else ""
+
+
+def _own(folder: Path, name: str) -> Path:
+    """A file of the record's folder; one that is elsewhere is not there."""
+    return inside(folder / FOLDER, name) or folder / FOLDER / "-" / Path(name).name
 
 
 def _calculation(folder: Path, told: dict[str, Any], unread: list[str]) -> Calculation:
     """A calculation with its histories."""
-    path = folder / FOLDER / told["table"]
+    path = _own(folder, told["table"])
     columns: dict[str, FloatArray] = {}
     try:
         columns = _columns(path)
     except (OSError, ValueError):
         unread.append(f"{FOLDER}/{path.name}")
-    scene = None if told["scene"] is None else folder / FOLDER / told["scene"]
+    scene = None if told.get("scene") is None else _own(folder, told["scene"])
     return Calculation(
         told["procedure"],
         columns,
@@ -258,11 +220,16 @@ def _columns(path: Path) -> dict[str, FloatArray]:
     ValueError
         If it holds anything else.
     """
+    if path.stat().st_size > MOST_BYTES:
+        raise OSError
     with path.open(encoding="utf-8", errors="replace", newline="") as file:
         first = file.readline()
         sign = ";" if ";" in first else ","
-        names = [name.strip() for name in next(csv.reader([first], delimiter=sign))]
-        rows = [row for row in csv.reader(file, delimiter=sign) if row]
+        try:
+            names = [name.strip() for name in next(csv.reader([first], delimiter=sign))]
+            rows = [row for row in csv.reader(file, delimiter=sign) if row]
+        except csv.Error:  # a cell without an end
+            raise ValueError from None
     if rows and len(rows[-1]) < len(names):  # half a line
         rows.pop()
     values = np.array([[float(x or "nan") for x in row] for row in rows], float)
@@ -275,10 +242,12 @@ def _columns(path: Path) -> dict[str, FloatArray]:
 def _parquet(path: Path) -> dict[str, FloatArray]:
     try:
         from pyarrow import ArrowException
-        from pyarrow.parquet import read_table
+        from pyarrow.parquet import ParquetFile, read_table
     except ModuleNotFoundError:
         raise ValueError from None
     try:
+        if ParquetFile(path).metadata.num_rows * 8 > MOST_BYTES:
+            raise ValueError
         table = read_table(path)
         return {n: np.asarray(table[n].to_numpy(), float) for n in table.column_names}
     except ArrowException:

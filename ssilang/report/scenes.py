@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.io.inside import inside
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 
 FRAMES = 60
@@ -68,14 +69,30 @@ def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
     SceneError
         If the series cannot be read, or holds nothing to see.
     """
-    with _silent():
-        steps = _opened(path)
-        frames = FRAMES
-        while True:
-            told, text = _packed(path, steps, frames)
-            if len(text) <= most_bytes or frames == 1:
-                return told, text
-            frames = max(1, min(frames - 1, int(0.9 * frames * most_bytes / len(text))))
+    try:
+        with _silent():
+            return _fitting(path, most_bytes)
+    except (
+        ArithmeticError,
+        AttributeError,
+        LookupError,
+        MemoryError,
+        RuntimeError,
+        TypeError,
+        ValueError,
+    ):  # whatever a damaged file makes of its arrays
+        raise SceneError("report.series-damaged", name=path.name) from None
+
+
+def _fitting(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
+    """As many instants as so many bytes hold."""
+    steps = _opened(path)
+    frames = FRAMES
+    while True:
+        told, text = _packed(path, steps, frames)
+        if len(text) <= most_bytes or frames == 1:
+            return told, text
+        frames = max(1, min(frames - 1, int(0.9 * frames * most_bytes / len(text))))
 
 
 def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
@@ -318,6 +335,8 @@ def _opened(path: Path) -> _Steps:
     steps = (_of_hdf if path.suffix == ".vtkhdf" else _of_list)(path, pyvista)
     if not len(steps.times):
         raise SceneError("report.nothing-to-see", name=path.name)
+    if not np.isfinite(steps.times).all():
+        raise SceneError("report.series-damaged", name=path.name)
     return steps
 
 
@@ -349,7 +368,7 @@ def _of_list(path: Path, pyvista: Any) -> _Steps:
         entries = read_pvd(path)
     except (OSError, ValueError, InputError, OutputError):
         raise SceneError("report.series-damaged", name=path.name) from None
-    files = [e for e in entries if (path.parent / e.file).is_file()]
+    files = [e for e in entries if e.file.endswith(".vtu") and inside(path.parent, e.file)]
     times = sorted({e.time for e in files})
 
     def grid(step: int) -> Any:

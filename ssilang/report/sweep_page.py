@@ -14,9 +14,11 @@ from urllib.parse import quote
 import numpy as np
 
 from ssilang.io.errors import InputError
+from ssilang.io.inside import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import asset, json_in_page, number, section, table, text
+from ssilang.report.records import MOST_BYTES
 
 TABLE, RUNS = "sweep.csv", "runs"
 MOST_RUNS = 5000
@@ -43,7 +45,7 @@ class Sweep:
 
 def is_sweep(folder: Path) -> bool:
     """Whether a folder has the table and the runs of a sweep."""
-    return (folder / TABLE).is_file() and (folder / RUNS).is_dir()
+    return inside(folder, TABLE) is not None and (folder / RUNS).is_dir()
 
 
 def read_sweep(folder: Path) -> Sweep:
@@ -56,6 +58,8 @@ def read_sweep(folder: Path) -> Sweep:
     """
     path = folder / TABLE
     try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ValueError(f"more than {MOST_BYTES // 10**6} MB")
         with path.open(encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file, delimiter=";")
             rows = [{k: v or "" for k, v in row.items() if k} for row in reader]
@@ -167,7 +171,7 @@ def _runs(sweep: Sweep, told: Teller) -> str:
 def _link(folder: Path, run: str) -> str:
     """Where a run's page stands, seen from the sweep's folder; '' if it has none."""
     for name in ("report.html", "output.txt"):
-        if run and (folder / RUNS / run / name).is_file():
+        if run and inside(folder / RUNS, f"{run}/{name}") is not None:
             return text(f"{RUNS}/{quote(run)}/{name}")
     return ""
 
@@ -175,7 +179,7 @@ def _link(folder: Path, run: str) -> str:
 def _histories(sweep: Sweep, told: Teller) -> str:
     """Joined tables."""
     folder = sweep.folder / "histories"
-    found = sorted(p for p in folder.glob("*") if p.is_file()) if folder.is_dir() else []
+    found = sorted(p for p in folder.glob("*") if inside(sweep.folder, f"histories/{p.name}"))
     rows = [
         (
             f'<a href="{text(quote(f"histories/{p.name}"))}">{text(p.name)}</a>',

@@ -64,9 +64,9 @@ def _figures(verdict: dict[str, Any], told: Teller) -> str:
     return table(heads, rows, (1, 2))
 
 
-def _marked(name: str, value: float) -> str:
+def _marked(name: str, value: float | None) -> str:
     """A figure; good or bad where there is a limit."""
-    if name not in _LIMITS:
+    if name not in _LIMITS or value is None:
         return number(value)
     side, limit = _LIMITS[name]
     bad = value > limit if side == "above" else value < limit

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.cli.check import check_source
+from ssilang.cli.check import check_file, check_source
 from ssilang.cli.run import run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.say.diagnostics import render
@@ -75,6 +76,11 @@ def errors(source: Source) -> list[str]:
         ("SI VRAI ; X = 1 ;", "unclosed-block"),
         ("X = (1 + 2 ;", "unclosed-paren"),
         ("X = FLUX 1 2 ; MESS X ;", "unknown-operator"),
+        ("L = PROG 1. ; X = FLUX (L ET L) ; MESS X ;", "unknown-operator"),
+        ("L = PROG 1. ; K = L ET 2. ; X = FLUX K ; MESS X ;", "unknown-operator"),
+        ("L = PROG 1. ; X = L ET (FLUX 'DEPL' L) ; MESS X ;", "unknown-operator"),
+        ("L = PROG 1. ; X = L ET FLUX (L ET L) ; MESS X ;", "unknown-operator"),
+        ("L = PROG 1. ; X = (L ET L) FLUX 'DEPL' ; MESS X ;", "unknown-operator"),
     ],
 )
 def test_finds(text, code):
@@ -91,6 +97,7 @@ def test_finds(text, code):
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
         ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
         ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
+        ("DEBP P X Y ; Z = MATE X SORT Y YOUM 2. ; FINP Z ; A = P 1 2 ; MESS A ;", "near-word"),
     ],
 )
 def test_warns(text, code):
@@ -131,6 +138,11 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "DEBP P ; ARGU A*ENTIER ; FINP A ; X = P 3 ; MESS X ;",
         "I = 7 ; J = 2 ; K = I * 2 / J ; MESS K ;",
         "REPE BLOC1 3 ; SI (&BLOC1 > 1) ; QUIT BLOC1 ; FINSI ; FIN BLOC1 ;",
+        "DEBP P X Y ; Z = MATE X 'YOUNG' Y 'ALPHA' 1. 'CREF' 2. ; FINP Z ; A = P 1 2 ; MESS A ;",
+        "L = MOTS 'CARA' 'YUON' ; MESS L (MOTS MATE YUON) ;",
+        "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
+        "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
+        f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
     ],
 )
 def test_raises_no_false_alarm(text):
@@ -210,3 +222,20 @@ def test_values_that_fit_an_entry_are_not_refused(value):
     script = f"X0 = EXTR (PROG 1.) 1 ; T1 = TABL ; T1 . 'ALPHA_F' = {value} ; T2 = DYNAMIC T1 ;"
     problems, _ = check_source(Source("script", script + " LIST T2 X0 ;"))
     assert problems == []
+
+
+def test_names_that_nothing_reads_are_told_together_where_a_person_reads():
+    def said(text: str) -> str:
+        out = io.StringIO()
+        assert not check_file(Source("test", text), False, "en", out)
+        return out.getvalue()
+
+    several = said("B = 1 ;\nMESS 'x' ;\nA = 2 ;\nC D = 3 4 ;\nMESS D ;")
+    assert several.count("warning") == 1
+    assert "names get values that nothing reads: B (1), A (3)" in several
+    assert "X gets a value that nothing reads" in said("X = 1 ;")
+
+
+@pytest.mark.parametrize("depth", [3_000, 50_000])
+def test_any_depth_of_parentheses_is_answered(depth):
+    assert codes(f"X = {'(' * depth}1{')' * depth} ; MESS X ;") in ([], ["nesting"])

@@ -3,12 +3,15 @@
 import csv
 import io
 import os
+import time
 
 import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import ssilang
+from ssilang.cli.run import run_text
 from ssilang.cli.sweeping.given import (
     GivenError,
     cases_of,
@@ -187,6 +190,88 @@ def test_another_script_makes_the_runs_of_a_folder_anew(deck, tmp_path):
     assert run(options)[0] == 1
     deck.write_text(DECK)
     assert "done already" not in run(options)[1]
+
+
+def _archive(folder, value):
+    text = f"OPTI DIME 2 ELEM SEG2 ; A = {value} ; OPTI 'SAUV' 'data.sauv' ; SAUV A ;"
+    run_text(text, output_directory=folder)
+
+
+INPUTS = {
+    "procedure": (
+        "@p.ssi",
+        lambda p, x: p.write_text(f"DEBP @P ; FINP {x} ;\n"),
+        "A = @P ;",
+    ),
+    "csv": (
+        "data.csv",
+        lambda p, x: p.write_text(f"{x}\n"),
+        "OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ;",
+    ),
+    "mesh": (
+        "data.inp",
+        lambda p, x: p.write_text(f"*NODE\n1, 0, 0\n2, {x}, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n"),
+        "M = LIRE 'ABAQ' 'data.inp' ; A = MESU (M . 'MAILLAGE') ;",
+    ),
+    "archive": (
+        "data.sauv",
+        lambda p, x: _archive(p.parent, x),
+        "OPTI 'REST' 'data.sauv' ; REST ;",
+    ),
+    "procedure that stands before the library's": (
+        "@verifie.ssi",
+        lambda p, x: x < 2.0 or p.write_text(
+            "DEBP @VERIFIE T*TABLE N*MOT A*FLOTTANT B*FLOTTANT C*FLOTTANT ; "
+            "SORT 'BILA' N (2. * A) B C ; FINP ;"
+        ),
+        "A = 1. ;",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", INPUTS)
+def test_runs_whose_inputs_changed_are_made_again(kind, tmp_path):
+    name, write, read = INPUTS[kind]
+    write(tmp_path / name, 1.0)
+    deck = tmp_path / "case.ssi"
+    deck.write_text(
+        f"OPTI DIME 2 ELEM SEG2 ; N = 1 ; T = TABL ; {read} @VERIFIE T 'value' (A * N) 0. 9. ;"
+    )
+    options = SweepOptions(deck, ["N=1,2"], out=tmp_path / "out", jobs=1)
+
+    def values():
+        code, said, wrong = run(options)
+        assert code == 0, wrong
+        rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+        return [r["value"] for r in rows], said + wrong
+
+    assert values()[0] == [1.0, 2.0]
+    assert "2 of 2 runs are done already" in values()[1]
+    write(tmp_path / name, 2.0)
+    found, said = values()
+    assert found == [2.0, 4.0]
+    assert f"2 runs again: {name} has changed" in said
+    assert "done already" not in said
+
+
+def test_runs_of_another_version_are_made_again(deck, tmp_path):
+    options = SweepOptions(deck, ["AG=0.2"], out=tmp_path / "out", jobs=1)
+    run(options)
+    row = tmp_path / "out" / "runs" / "AG=0.2" / "row.json"
+    row.write_text(row.read_text().replace(f'"{ssilang.__version__}"', '"9.9"'))
+    assert "1 run again: made by ssilang 9.9" in run(options)[2]
+    row.write_text('{"key": "1", "row": {"exit_code": 0}}')  # of a version that kept less
+    assert "1 run again: what was left does not say" in run(options)[2]
+
+
+def test_a_file_that_changes_during_its_run_holds_for_no_later_one(tmp_path):
+    deck = tmp_path / "case.ssi"
+    (tmp_path / "data.csv").write_text("1.\n")
+    os.utime(tmp_path / "data.csv", (time.time() + 1000.0,) * 2)
+    deck.write_text("N = 1 ; OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ;")
+    options = SweepOptions(deck, ["N=1"], out=tmp_path / "out", jobs=1)
+    assert run(options)[2] == ""
+    assert "1 run again: data.csv has changed" in run(options)[2]
 
 
 def test_the_table_is_a_csv_file_too(deck, tmp_path, monkeypatch):

@@ -182,6 +182,6 @@ def test_help_completion_and_inspection_know_the_session(ran):
 def test_the_kernel_is_told_to_jupyter_with_its_language(tmp_path):
     place = install(str(tmp_path), "fr")
     spec = json.loads((place / "kernel.json").read_text())
-    assert spec["argv"][:3] == [sys.executable, "-m", "ssilang.jupyter"]
+    assert spec["argv"][:4] == [sys.executable, "-P", "-m", "ssilang.jupyter"]
     assert spec["env"] == {"SSILANG_LANGUAGE": "fr"}
     assert spec["interrupt_mode"] == "signal"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -200,3 +202,12 @@ def test_successive_shapes_become_an_animation(word: str, frames: int, tmp_path:
 def test_one_shape_makes_no_animation(tmp_path: Path) -> None:
     run("TRAC (DEFO S U 10.) 'ANIME' ;", tmp_path)
     assert not list(tmp_path.rglob("*.gif"))
+
+
+def test_pictures_keep_nothing_of_a_run_that_is_gone(tmp_path: Path) -> None:
+    result = run("TRAC U S ; DESS (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;", tmp_path)
+    kept = weakref.ref(result.session)
+    assert len(list(tmp_path.glob("*.png"))) == 2
+    del result
+    gc.collect()
+    assert kept() is None

@@ -504,12 +504,3 @@ def test_mailler_has_gmsh_mesh_a_script(tmp_path: Path) -> None:
     assert {b.cell_type for b in found["soil"].blocks} == {"TRI6"}
     (tmp_path / "box.geo").write_text(GEO.replace("Point(4)", "Point(4"))
     assert [e.code for e in run(text, tmp_path).errors] == ["io.no-readable-mesh-file"]
-
-
-@pytest.mark.parametrize(
-    "line", ['SystemCall "rm x";', 'Include "x.geo";', 'Printf("a") > "x";', 'Merge "/etc/passwd";']
-)
-def test_a_script_that_reaches_out_is_not_run(line: str, tmp_path: Path) -> None:
-    (tmp_path / "box.geo").write_text(GEO + line)
-    result = run("OPTI DIME 2 ; T = MAILLER 'box.geo' ;", tmp_path)
-    assert [e.code for e in result.errors] == ["io.geo-reaches-out"]

@@ -98,6 +98,12 @@ def test_shocks_are_counted_with_their_peaks_and_places():
     assert ends.tolist() == [4, 6]
 
 
+def test_time_above_a_level_counts_both_sides():
+    shocks_up_and_down = np.array([0.0, 2, 0, -2, 0]), 0.5
+    assert time_above(np.arange(5.0), *shocks_up_and_down) == pytest.approx(3.0)
+    assert time_above(np.array([0.0, 1, 2]), np.array([0.0, -2, 0]), 0.5) == pytest.approx(1.5)
+
+
 def test_time_above_a_level_of_a_triangle():
     assert time_above(np.array([0.0, 1, 2]), np.array([0.0, 2, 0]), 0.5) == pytest.approx(1.5)
 

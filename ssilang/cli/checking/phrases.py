@@ -30,13 +30,14 @@ from ssilang.language.registry import (
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call
-from ssilang.language.run.results import Results, results_of
+from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.printer import heading
 from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte
+from ssilang.operators.dispatch import WORDS_OF_UNION, joining
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS
 
 Report = Callable[[SsiError], None]
@@ -154,6 +155,8 @@ class PhraseReader:
         if found.name in SIGNS.split() or found.name in _COMPARISONS:
             self._sign(found.name, operand, call)
             return
+        if found.name == "ET" and self._joined(call):
+            return
         if found.name in _GUESSED:
             _GUESSED[found.name](call)
         bound = self._bound(found, call)
@@ -256,6 +259,28 @@ class PhraseReader:
             0, Operand(self._value(sign, left.value, right.value, span), span, result=True)
         )
 
+    def _joined(self, call: AbstractCall) -> bool:
+        """Whether the types of two objects tell what ET makes of them, which then stands there."""
+        pair, behind = call.operands[:2], call.operands[2:]
+        kinds = [kind_word(o.value) for o in pair]
+        words = {str(o.value).upper()[:4] for o in call.operands if isinstance(o.value, Mot)}
+        if len(pair) < 2 or {"", "LOGIQUE"} & {*kinds} or words & {*WORDS_OF_UNION}:
+            return False
+        rule = joining(kinds[0], kinds[1])
+        if rule is None:
+            self.session.evaluator.refuse_leftovers(
+                [o for o in pair if isinstance(o.value, Mot) and not o.name and not o.result]
+            )
+            return False
+        if any(isinstance(o.value, Mot | Procedure) for o in (*pair, *behind)):
+            return False
+        results = annotated(rule)
+        if results is None:
+            return False
+        call.operands[:] = behind
+        self._push(results, pair[0].span.to(pair[1].span), call)
+        return True
+
     def _value(self, sign: str, a: Any, b: Any, span: Span) -> Any:
         """Value of a sign on two operands, as far as it is known."""
         if type(a) in (int, float) and type(b) in (int, float):
@@ -302,6 +327,8 @@ class PhraseReader:
                 self.session.evaluator.refuse_leftovers(
                     [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
                 )
+            if len(left) == 1:
+                return left
             raise Ambiguous
         if any(o.value is UNKNOWN or isinstance(o.value, Texte) for o in left) and len(left) > 1:
             raise Ambiguous

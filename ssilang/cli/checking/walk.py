@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from ssilang.cli.checking.kinds import UNKNOWN, kind_word, typed
+from ssilang.cli.checking.kinds import SOMETHING, UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
@@ -104,7 +104,7 @@ class Checker:
 
     def _condition(self, node: tree.If, scope: Scope) -> None:
         left = self.phrases.read(node.condition.items, scope, node.condition.span)
-        if left is None or any(o.value is UNKNOWN for o in left):
+        if left is None or any(o.value in (UNKNOWN, SOMETHING) for o in left):
             return
         if is_call(left):
             self.session.evaluator.refuse_leftovers(left)
@@ -155,9 +155,10 @@ class Checker:
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)
         self._shadow(node.name, node.span)
-        theirs = self.session.library.standard_files.get(node.name)
-        here = node.span.source.path
-        if theirs is not None and (here is None or here.resolve() != theirs.resolve()):
+        library, here = self.session.library, node.span.source.path
+        theirs = library.standard_files.get(node.name)
+        itself = here is not None and theirs is not None and here.resolve() == theirs.resolve()
+        if library.is_own(node.name) and not itself:
             self._report(SsiError("overrides-procedure", _head(node.span), name=node.name))
         scope.values[node.name] = Procedure(node.name, node)
 
@@ -271,6 +272,8 @@ class Checker:
         if left and is_call(left):
             evaluator.refuse_leftovers(left[:1])
         count = len(statement.targets)
+        if count > 1 and any(o.value is SOMETHING for o in left):
+            return None
         if len(left) < count:
             target = statement.targets[len(left)]
             raise no_result(statement.targets, target, count)

@@ -9,7 +9,15 @@ from functools import cache, lru_cache
 from ssilang.cli.checking.usage import statements_of
 from ssilang.language import vocabulary
 from ssilang.language.near import VERY_LIKE, nearest, slips
-from ssilang.language.registry import OPERATORS, Operator, arguments_in, find_operator, keywords_of
+from ssilang.language.registry import (
+    OPERATORS,
+    Argument,
+    Group,
+    Operator,
+    arguments_in,
+    find_operator,
+    keywords_of,
+)
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 
@@ -64,13 +72,20 @@ class _Words:
                 word = item.text.upper().rstrip()
                 if operator is not None and _knows(operator.name, word):
                     continue
-                named = find_operator(word)
+                named = self._named(operator, word, isinstance(item, tree.Quoted))
                 if named is not None:
                     operator = named
                 elif operator is not None:
                     yield from self._near(operator, word, item)
                 elif place == 0 and isinstance(item, tree.Name) and self._is_operator(word):
                     yield SsiError("unknown-operator", item.span, name=item.text)
+
+    @staticmethod
+    def _named(before: Operator | None, word: str, quoted: bool) -> Operator | None:
+        """The operator that a word names behind another one, which may take it as a word."""
+        if before is not None and (quoted or _takes_words(before.name)):
+            return None
+        return find_operator(word)
 
     def _is_operator(self, word: str) -> bool:
         """Whether a word that stands nowhere else is nearly an operator's name."""
@@ -106,6 +121,20 @@ def _keywords(name: str) -> tuple[str, ...]:
 
 
 @cache
+def _takes_words(name: str) -> bool:
+    """Whether an operator takes all words behind it: names of parameters, words of a list."""
+    found = find_operator(name)
+    forms = found.forms if found is not None else ()
+    lists = [
+        entry
+        for form in forms
+        for entry in form.entries or ()
+        if isinstance(entry, Argument | Group) and entry.repeated
+    ]
+    return any("MOT" in a.types for a in arguments_in(lists))
+
+
+@cache
 def _values() -> frozenset[str]:
     """Words that options may be set to, by their first letters."""
     options = (o for o in vocabulary.words("option") if isinstance(o, vocabulary.Option))
@@ -133,7 +162,7 @@ def _meant(operator: str, word: str, once: bool) -> str:
         return ""
     kinds = _kinds(operator)
     for kind in sorted(kinds - _OWN):
-        found = vocabulary.near(kind, word)
+        found = [n for n in vocabulary.near(kind, word) if _begins_alike(word, n)]
         if found:
             return found[0]
     if kinds & _OWN and once and not vocabulary.full_name("parameter", word):
@@ -144,6 +173,11 @@ def _meant(operator: str, word: str, once: bool) -> str:
     if swapped and once:
         return swapped[0]
     return nearest(word, _keywords(operator), VERY_LIKE) if len(word) >= _LONG else ""
+
+
+def _begins_alike(word: str, name: str) -> bool:
+    """Whether the first letter is right, or letters were swapped: CREF does not mean TREF."""
+    return word[0] == name[0] or sorted(word) == sorted(name)
 
 
 def _one_slip(word: str, name: str) -> bool:

@@ -12,6 +12,7 @@ from ssilang.cli.editor.tokens import CLOSES, OPENS, Phrase, Token, phrases_of, 
 from ssilang.language.registry import Operator, find_operator, keywords_of
 from ssilang.language.text.source import Source
 from ssilang.language.vocabulary import words_of
+from ssilang.late_imports import without_collections
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,11 @@ class Document:
         return cls(Source(str(path) if path else "script", plain, path), procedures)
 
     @cached_property
+    def lines(self) -> list[str]:
+        """The lines of the text, as the protocol's positions count them."""
+        return self.source.text.split("\n")
+
+    @cached_property
     def tokens(self) -> list[Token]:
         """All tokens."""
         return tokens_of(self.source.code)
@@ -68,7 +74,8 @@ class Document:
     @cached_property
     def names(self) -> Names:
         """The names of the script."""
-        return names_of(self.phrases)
+        with without_collections():
+            return names_of(self.phrases)
 
     @cached_property
     def _starts(self) -> list[int]:

@@ -16,6 +16,7 @@ from ssilang.language.text.printer import same_tree
 from ssilang.language.text.source import Source, encoding_of
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
+from ssilang.late_imports import without_collections
 from ssilang.messages.message import teller
 
 OK, FAILED, USAGE = 0, 1, 2
@@ -44,7 +45,8 @@ def formatted(source: Source) -> str:
     """
     tree = parse(source)
     end = end_of_run(source) or len(source.text)
-    text = _laid_out(source, end) + source.text[end:]
+    with without_collections():
+        text = _laid_out(source, end) + source.text[end:]
     text = text.rstrip("\n") + "\n" if text.strip() else ""
     # what no rule above foresees stays as it is written: a star that would begin a comment
     try:

@@ -20,8 +20,10 @@ from typing import Any
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
+from pygls.protocol.json_rpc import JsonRPCNotification
 from pygls.uris import from_fs_path, to_fs_path
-from pygls.workspace import TextDocument
+from pygls.workspace import PositionCodec
 
 from ssilang import __version__
 from ssilang.cli.checking.sound import SoundStatements
@@ -78,11 +80,25 @@ class Open:
     shown: list[lsp.Diagnostic] = field(default_factory=list)
 
 
+class Protocol(LanguageServerProtocol):
+    """Answers requests, those too that make no sense: a position in line -1."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """A message from its parts; a request that cannot be one is answered with an error."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as error:
+            if "id" not in data or "method" not in data:
+                raise
+            self._send_response(data["id"], error=error.to_response_error())
+            return JsonRPCNotification(method="$/refused", jsonrpc=self.VERSION, params=None)
+
+
 class Server(LanguageServer):
     """Holds the open documents; its features are registered below."""
 
     def __init__(self, language: str = "en") -> None:
-        super().__init__("ssilang", __version__)
+        super().__init__("ssilang", __version__, protocol_cls=Protocol)
         self.language = language
         load_operators()
         self.library = Library(Path())
@@ -110,20 +126,22 @@ class Server(LanguageServer):
 
     # ---- places ---------------------------------------------------------------------------------
 
-    def _text(self, uri: str) -> TextDocument:
-        return self.workspace.get_text_document(uri)
+    @property
+    def codec(self) -> PositionCodec:
+        """What counts letters as the editor does."""
+        return self.workspace.position_codec
 
     def offset(self, uri: str, position: lsp.Position) -> int:
         """Where a position of the editor stands in our text."""
-        text = self._text(uri)
-        own = text.position_codec.position_from_client_units(text.lines, position)
-        return self.document(uri).source.offset(own.line + 1, own.character + 1)
+        document = self.document(uri)
+        own = self.codec.position_from_client_units(document.lines, position)
+        return document.source.offset(own.line + 1, own.character + 1)
 
     def range(self, uri: str, start: int, end: int) -> lsp.Range:
         """A part of our text as the editor counts it."""
-        source, text = self.document(uri).source, self._text(uri)
-        made = lsp.Range(_position(source.position(start)), _position(source.position(end)))
-        return text.position_codec.range_to_client_units(text.lines, made)
+        document = self.document(uri)
+        ends = (_position(document.source.position(at)) for at in (start, end))
+        return self.codec.range_to_client_units(document.lines, lsp.Range(*ends))
 
     # ---- problems -------------------------------------------------------------------------------
 
@@ -285,7 +303,8 @@ def _help(server: Server) -> None:
         uri = params.text_document.uri
         offset = server.offset(uri, params.position)
         found = complete.candidates(server.document(uri), offset, server.library, server.language)
-        items = [_item(server, uri, candidate) for candidate in found]
+        where = server.range(uri, found[0].start, found[0].end) if found else None
+        items = [_item(candidate, where) for candidate in found if where is not None]
         return lsp.CompletionList(is_incomplete=False, items=items)
 
     @server.feature(lsp.COMPLETION_ITEM_RESOLVE)
@@ -310,8 +329,7 @@ def _help(server: Server) -> None:
         return lsp.SignatureHelp(made, active_signature=active) if made else None
 
 
-def _item(server: Server, uri: str, candidate: complete.Candidate) -> lsp.CompletionItem:
-    where = server.range(uri, candidate.start, candidate.end)
+def _item(candidate: complete.Candidate, where: lsp.Range) -> lsp.CompletionItem:
     order = _ORDER.index(candidate.kind)
     return lsp.CompletionItem(
         candidate.label,
@@ -451,13 +469,12 @@ def _encoded(server: Server, uri: str) -> list[int]:
     """Colours as the protocol wants them: line and column from the one before, length, which."""
     data: list[int] = []
     line = column = 0
-    document = server.document(uri)
-    text = server._text(uri)
+    document, codec = server.document(uri), server.codec
     for start_, end_, colour in outline.colours(document):
         for a, b in _by_line(document.source.text, start_, end_):
             row, place = (n - 1 for n in document.source.position(a))
-            units = text.position_codec.client_num_units(document.source.text[a:b])
-            before = text.position_codec.client_num_units(document.source.text[a - place : a])
+            units = codec.client_num_units(document.source.text[a:b])
+            before = codec.client_num_units(document.source.text[a - place : a])
             data += [row - line, before - column if row == line else before, units]
             data += [outline.COLOURS.index(colour), 0]
             line, column = row, before

@@ -88,15 +88,6 @@ class Case:
     number: int
     values: dict[str, Value]
 
-    def key(self, deck: str) -> str:
-        """A name for what the run computes: the deck's text, values, the motion's content."""
-        digest = hashlib.sha256(deck.encode())
-        for name, value in sorted(self.values.items()):
-            digest.update(f"|{name}={value!r}".encode())
-            if name == MOTION:
-                digest.update(Path(str(value)).read_bytes())
-        return digest.hexdigest()[:12]
-
 
 def folder_names(cases: Sequence[Case]) -> list[str]:
     """A folder's name for each case, that says its values and its motion: 'AG=0.5_m1'."""

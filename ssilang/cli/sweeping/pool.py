@@ -9,7 +9,8 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context, parent_process
+from contextlib import contextmanager, suppress
+from multiprocessing import get_context, parent_process, resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
@@ -40,6 +41,23 @@ def _end_with_parent() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
+@contextmanager
+def elsewhere() -> Iterator[None]:
+    """Processes of Python started here import nothing from the working folder."""
+    name = "PYTHONSAFEPATH"
+    before = os.environ.get(name)
+    os.environ[name] = "1"
+    try:
+        with suppress(AttributeError):  # the one that counts what is shared; not on Windows
+            resource_tracker.ensure_running()
+        yield
+    finally:
+        if before is None:
+            del os.environ[name]
+        else:
+            os.environ[name] = before
+
+
 class _FreshProcess(SpawnProcess):
     """A process that begins empty and does not import the caller's own script.
 
@@ -52,7 +70,8 @@ class _FreshProcess(SpawnProcess):
         main = sys.modules["__main__"]
         sys.modules["__main__"] = ModuleType("__main__")
         try:
-            super().start()
+            with elsewhere():
+                super().start()
         finally:
             sys.modules["__main__"] = main
 
@@ -82,6 +101,8 @@ def run_here(
     """
     waiting = gathered(tasks, jobs, together)
     context = FreshContext() if start == "spawn" else get_context(start)
+    with elsewhere():  # the pool's own queues would start what counts them
+        pass
     while waiting:
         with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
             futures = {pool.submit(run_together, batch, work): batch for batch in waiting}

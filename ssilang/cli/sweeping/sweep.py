@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-from ssilang.cli.run import refuse_unknown, write_report
+from ssilang.cli.run import deck_of, refuse_unknown, write_report
 from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.histories import Joined, join_histories
 from ssilang.cli.sweeping.pool import dask_installed, one_thread, run_on_cluster
@@ -28,7 +29,7 @@ from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
-from ssilang.messages.message import Teller, sentence, teller
+from ssilang.messages.message import Sentence, Teller, sentence, teller
 
 TABLE, PLAIN_TABLE = "sweep.parquet", "sweep.csv"
 TOGETHER = 8
@@ -87,10 +88,16 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     source = read_source(options.deck)
     _check_names(source, cases[0].values)
     tasks = [
-        _task(case, options, options.folder / "runs" / name, case.key(source.text))
+        _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
     ]
-    rows = {task.number: row for task in tasks if (row := row_of(task)) is not None}
+    found = {task.number: row_of(task, deck_of(source, task.values)) for task in tasks}
+    rows = {number: row for number, row in found.items() if isinstance(row, dict)}
+    reasons = [why for why in found.values() if isinstance(why, Sentence)]
+    count = Counter(map(str, reasons))
+    for text, why in {str(why): why for why in reasons}.items():
+        told = {"count": count[text], "reason": why}
+        err.write(sentence("cli.runs-again", told, options.language) + "\n")
     if rows:
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
@@ -126,7 +133,7 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
     return cases
 
 
-def _task(case: Case, options: SweepOptions, folder: Path, key: str) -> Task:
+def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
     allowed = tuple(p.resolve() for p in options.allowed)
     deck = options.deck.resolve()
     return Task(
@@ -136,7 +143,6 @@ def _task(case: Case, options: SweepOptions, folder: Path, key: str) -> Task:
         case.values,
         allowed,
         options.language,
-        key=key,
         report=options.report,
     )
 

@@ -7,12 +7,20 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ssilang.cli.sweeping.given import MOTION, Value
+from ssilang.messages.message import Sentence
+
+if TYPE_CHECKING:
+    from ssilang.cli.run import RunResult
+    from ssilang.io.checkpoint import Deck
 
 ROW = "row.json"
 """Written last into a run's folder: a run that has it is done."""
+
+AGAIN = {"ssilang": "cli.again-version", "deck": "cli.again-deck", "given": "cli.again-values"}
+"""Why a run is made again, by what was another one when its row was left."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +34,6 @@ class Task:
     allowed: tuple[Path, ...] = ()
     language: str = "en"
     limits: dict[str, Any] = field(default_factory=dict)
-    key: str = ""
-    """What the run computes; a row with the same key holds for it."""
     report: bool = False
     """Whether the run leaves its report."""
     meeting: Any = None
@@ -65,7 +71,7 @@ def run_task(task: Task) -> Row:
         away=_never if task.meeting is None else task.meeting.away,
     )
     (task.folder / ROW).unlink(missing_ok=True)  # of another script, or a run that failed
-    started = time.perf_counter()
+    started, wall = time.perf_counter(), time.time()
     result = run_file(task.deck, options)
     write_text(task.folder / "output.txt", result.output + result.message + "\n")
     row: Row = {
@@ -77,20 +83,50 @@ def run_task(task: Task) -> Row:
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }
-    kept = {"key": task.key, "row": row}
+    kept = {**_inputs(result, wall), "row": row}
     write_text(task.folder / ROW, json.dumps(kept, ensure_ascii=False) + "\n")
     return row
 
 
-def row_of(task: Task) -> Row | None:
-    """The row of a run that computed the same and ended well, with its number in this sweep."""
+def _inputs(result: RunResult, started: float) -> dict[str, Any]:
+    """What a run computed with; a file that changed meanwhile holds for no later run."""
+    from ssilang.operators.files.outputs import digests_of_read, run_output
+
+    output = run_output(result.session)
+    files = digests_of_read(result.session)
+    for name in files:
+        path = output.inputs / name
+        if path.is_file() and path.stat().st_mtime > started:
+            files[name] = "changed"
+    return {**output.deck().kept(), "files": files} if output.deck is not None else {}
+
+
+def row_of(task: Task, deck: Deck) -> Row | Sentence | None:
+    """The row of a run that ended well, with its number in this sweep.
+
+    Returns
+    -------
+    dict, Sentence or None
+        Why it does not hold any more, if what the run computed with has changed; None without one.
+    """
+    from ssilang.io.checkpoint import changed_names, digest_of_file
+
     try:
         kept = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
         row: Row = kept["row"]
-        good = kept["key"] == task.key and row["exit_code"] == 0
-    except (OSError, ValueError, KeyError, TypeError):
+        if row["exit_code"] != 0:
+            return None
+        if changed := deck.change_since(kept):
+            told = {"before": str(kept["ssilang"]), "now": deck.version}
+            return Sentence(AGAIN[changed], **told)
+        inputs = task.deck.parent
+        now = {name: digest_of_file(inputs / name) for name in kept["files"]}
+        files = changed_names(kept["files"], now)
+    except FileNotFoundError:
         return None
-    return {**row, "run": task.number} if good else None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return Sentence("cli.again-unknown")
+    return Sentence("cli.again-files", files=files) if files else {**row, "run": task.number}
 
 
 def _never() -> float:

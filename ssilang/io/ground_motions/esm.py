@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of
+from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, quantity_of
 from ssilang.kernel.base.arrays import FloatArray
-
-_QUANTITIES = {"ACCELERATION": "ACCE", "VELOCITY": "VITE", "DISPLACEMENT": "DEPL"}
 
 
 def read_esm(path: Path) -> GroundMotion:
@@ -37,7 +35,7 @@ def read_esm(path: Path) -> GroundMotion:
         raise InputError(
             "io.esm-other-count", name=path.name, count=int(said), n_values=len(values)
         )
-    quantity = _QUANTITIES.get(head.get("DATA_TYPE", "").upper(), "ACCE")
+    quantity = quantity_of(head.get("DATA_TYPE", "")) or "ACCE"
     event = " ".join(head[k] for k in ("EVENT_NAME", "STATION_CODE", "STREAM") if head.get(k))
     return GroundMotion(values, dt, event, quantity, head.get("UNITS", "").upper())
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, real
+from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, quantity_of, real
 
 _DIGITS = 12  # of a number of values that a file can hold
 _HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
@@ -19,7 +19,7 @@ _SIZES = (  # the fourth line, as files of different years have it
     re.compile(r"^\s*(\d+)\s+([\d.EeDd+-]+)\s*(?:NPTS|$)", re.IGNORECASE),
 )
 _UNIT = re.compile(r"UNITS?\s*(?:OF|IN|=|:)?\s*([A-Z][A-Z0-9/*^]*)", re.IGNORECASE)
-_QUANTITIES = {"ACC": "ACCE", "VEL": "VITE", "DIS": "DEPL"}
+_BY_ENDING = {".VT2": "VITE", ".DT2": "DEPL"}
 
 
 def read_peer(path: Path) -> GroundMotion:
@@ -29,7 +29,7 @@ def read_peer(path: Path) -> GroundMotion:
     ------
     InputError
         If the file cannot be read, its fourth line has no number of values and step, or it holds
-        fewer values than it says.
+        fewer values than it says, or none.
     """
     lines = lines_of(path)
     count, dt = _sizes(path, lines)
@@ -39,10 +39,11 @@ def read_peer(path: Path) -> GroundMotion:
             "io.line-says-values-file", name=path.name, count=count, n_values=len(values)
         )
     finite(path, values[:count])
-    quantity = next((w for k, w in _QUANTITIES.items() if k in lines[2].upper()), "ACCE")
+    quantity = quantity_of(lines[2]) or _BY_ENDING.get(path.suffix.upper(), "ACCE")
     unit = _UNIT.search(lines[2])
     said = unit[1].upper() if unit is not None else ""
-    return GroundMotion(values[:count], dt, lines[1].strip(), quantity, said)
+    left_out = len(values) - count
+    return GroundMotion(values[:count], dt, lines[1].strip(), quantity, said, left_out=left_out)
 
 
 def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:

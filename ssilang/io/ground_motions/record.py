@@ -44,6 +44,8 @@ class GroundMotion:
         What the file says it is, '' where it says nothing.
     given : array (n,), optional
         Times (s) of a file that lists them.
+    left_out : int
+        Values behind those that the file says it has.
     """
 
     values: FloatArray
@@ -52,6 +54,7 @@ class GroundMotion:
     quantity: str
     unit: str = ""
     given: FloatArray | None = None
+    left_out: int = 0
 
     @property
     def in_si(self) -> float:
@@ -69,6 +72,16 @@ class GroundMotion:
         if self.given is not None:
             return self.given
         return np.asarray(self.dt * np.arange(len(self.values)), dtype=np.float64)
+
+
+_WORDS = {"ACC": "ACCE", "VEL": "VITE", "VIT": "VITE", "DIS": "DEPL", "DEP": "DEPL"}
+_QUANTITY = re.compile(rf"(?<![A-Z])({'|'.join(_WORDS)})", re.IGNORECASE)
+
+
+def quantity_of(text: str) -> str:
+    """ACCE, VITE or DEPL, whichever a text names first; '' if it names none."""
+    found = _QUANTITY.search(text)
+    return "" if found is None else _WORDS[found[1].upper()]
 
 
 def is_unit(said: str) -> bool:
@@ -104,8 +117,10 @@ def finite(path: Path, values: FloatArray) -> FloatArray:
     Raises
     ------
     InputError
-        If one is too large for a number.
+        If there is none, or one is too large for a number.
     """
+    if not values.size:
+        raise InputError("io.record-empty", name=path.name)
     if not np.isfinite(values).all():
         raise InputError("io.record-not-finite", name=path.name)
     return values

@@ -8,13 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.record import GroundMotion, finite, is_unit, lines_of, real
+from ssilang.io.ground_motions.record import (
+    GroundMotion,
+    finite,
+    is_unit,
+    lines_of,
+    quantity_of,
+    real,
+)
 from ssilang.kernel.base.arrays import FloatArray
 
 _IN_BRACKETS = re.compile(r"[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 _BEHIND = re.compile(r"(?:_|\bin\s+|\s)([^\s_]+)$", re.IGNORECASE)
 _TIMES = {"S": 1.0, "SEC": 1.0, "SECOND": 1.0, "SECONDS": 1.0, "SECONDES": 1.0, "MS": 1e-3}
-_QUANTITIES = (("ACC", "ACCE"), ("VEL", "VITE"), ("VIT", "VITE"), ("DIS", "DEPL"), ("DEP", "DEPL"))
 _BY_UNIT = {"S2": "ACCE", "G": "ACCE", "S": "VITE", "M": "DEPL"}
 
 
@@ -90,7 +96,5 @@ def _unit(title: str) -> str:
 
 def _quantity(title: str) -> str:
     """ACCE, VITE or DEPL, by the title's words, else by its unit."""
-    plain = title.upper()
-    named = next((w for k, w in _QUANTITIES if re.search(rf"\b{k}", plain)), None)
     end = re.sub(r"SEC", "S", _unit(title).upper()).replace("^", "").replace("/S/S", "S2")
-    return named or next((w for k, w in _BY_UNIT.items() if end.endswith(k)), "ACCE")
+    return quantity_of(title) or next((w for k, w in _BY_UNIT.items() if end.endswith(k)), "ACCE")

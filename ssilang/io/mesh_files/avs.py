@@ -128,7 +128,9 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
             if _structure(lines) is None:
                 return None
         return _structure(lines)
-    except (ValueError, LookupError, OverflowError, StopIteration, RuntimeError) as error:
+    except (StopIteration, RuntimeError) as error:
+        raise InputError("io.avs-file-cut", name=path.name) from error
+    except (ValueError, LookupError, OverflowError) as error:
         raise InputError("io.no-readable-avs-file", name=path.name, error=error) from error
 
 

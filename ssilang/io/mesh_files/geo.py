@@ -1,7 +1,8 @@
-"""Gmsh's own scripts (.geo), meshed by Gmsh in a process of its own."""
+"""Gmsh's own scripts (.geo), meshed by Gmsh in a guarded process of its own (`gmsh_alone`)."""
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -10,58 +11,71 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ssilang.io.errors import InputError
+from ssilang.io.mesh_files import gmsh_alone
 from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.foreign import read_foreign
 from ssilang.system_reasons import system_reason
 
-# commands of a .geo file that run programs, or read and write other files than itself
+FREE = "SSILANG_ALLOW_GEO"
+"""In the environment (`--allow-geo` puts it there): scripts run where no guard is to be had."""
+
+LONGEST = 600
+"""Seconds that Gmsh may take; SSILANG_GEO_SECONDS in the environment says otherwise."""
+_PASSED = ("LD_LIBRARY_PATH", "PYTHONPATH", "PATH", "SYSTEMROOT")  # of the environment
+
+# What the guard would refuse is said before: a help, and no guard.
 _OUTWARD = re.compile(
-    r"\b(NonBlockingSystemCall|SystemCall|System|Include|Merge|MergeFile|Open|Save|Print|OnelabRun|"
-    r"Plugin|ShapeFromFile|CreateDir|Exit)\b|\bPrintf\s*\([^;]*\)\s*>"
+    r"\b(NonBlockingSystemCall|SystemCall|System|Save|Print|OnelabRun|ExternalProcess|CreateDir)\b"
+    r"|\bPrintf\s*\([^;]*\)\s*>"
 )
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
-_MESHED = """
-import sys, gmsh
-gmsh.initialize([], interruptible=False)
-gmsh.option.setNumber("General.Terminal", 0)
-gmsh.logger.start()
-try:
-    gmsh.open(sys.argv[1])
-    gmsh.model.mesh.generate(int(sys.argv[3]))
-    gmsh.option.setNumber("Mesh.MshFileVersion", 2.2)
-    gmsh.write(sys.argv[2])
-except Exception as error:
-    told = [t for t in gmsh.logger.get() if t.startswith("Error")]
-    sys.exit((told or [str(error)])[0].removeprefix("Error: "))
-"""
+_PASSIVE = re.compile(r'"[^"\n]*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
 def read_geo(path: Path, dimension: int) -> FileMesh:
-    """The mesh that Gmsh makes of a script.
+    """The mesh that Gmsh makes of a script, which may read what stands below its folder.
 
     Raises
     ------
     InputError
-        Without Gmsh, if the script reaches out of itself, or if Gmsh cannot mesh it.
+        Without Gmsh or a guard, if the script reaches out of its folder, or if Gmsh cannot mesh it.
     """
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
-    outward = _OUTWARD.search(_COMMENT.sub("", text))
+    outward = _OUTWARD.search(_PASSIVE.sub(" ", text))
     if outward is not None:
         raise InputError("io.geo-reaches-out", name=path.name, word=outward.group(0)[:40])
     if find_spec("gmsh") is None:
         raise InputError("io.gmsh-missing", error="")
-    with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / f"{path.stem}.msh"
-        command = [sys.executable, "-c", _MESHED, str(path), str(made), str(dimension)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
-        told = (done.stderr.strip().splitlines() or [f"exit {done.returncode}"])[-1]
-        if "cannot open shared object" in told:  # a library of the system that Gmsh draws with
-            raise InputError("io.gmsh-missing", error=told)
-        if done.returncode or not made.is_file():
-            raise InputError(
-                "io.no-readable-mesh-file", name=path.name, kind="GEO", error=told[:200]
-            )
-        return read_foreign(made, "GMSH")
+    with tempfile.TemporaryDirectory() as room:
+        folder = Path(room).resolve() / "made"
+        folder.mkdir()
+        return _meshed(path.resolve(), folder, dimension)
+
+
+def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
+    free = os.environ.get(FREE, "")
+    asked = os.environ.get("SSILANG_GEO_SECONDS", "")
+    longest = int(asked) if asked.isdecimal() else LONGEST
+    own = [sys.executable, "-P", gmsh_alone.__file__]
+    kept = {k: v for k, v in os.environ.items() if k in _PASSED}
+    nothing = subprocess.DEVNULL
+    try:
+        code = subprocess.run(
+            [*own, str(script), str(folder), str(dimension), free],
+            stdin=nothing, stdout=nothing, stderr=nothing, check=False, cwd=folder,
+            timeout=longest, env=kept | {"HOME": str(folder), "TMPDIR": str(folder)},
+        ).returncode  # fmt: skip
+    except subprocess.TimeoutExpired as error:
+        raise InputError("io.geo-takes-long", name=script.name, seconds=longest) from error
+    if code == gmsh_alone.UNGUARDED:
+        raise InputError("io.geo-unguarded", name=script.name)
+    note, made = folder / gmsh_alone.TOLD, folder / gmsh_alone.MADE
+    told = note.read_text(encoding="utf-8", errors="replace") if note.is_file() else ""
+    if told.startswith("import: "):  # a library of the system that Gmsh draws with
+        raise InputError("io.gmsh-missing", error=told.removeprefix("import: "))
+    if told or code or not made.stat().st_size:
+        fault = told[:200] or f"exit {code}"
+        raise InputError("io.no-readable-mesh-file", name=script.name, kind="GEO", error=fault)
+    return read_foreign(made, "GMSH")

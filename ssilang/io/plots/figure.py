@@ -89,9 +89,9 @@ def _share_what_is_read() -> None:
 
 def head(figure: Figure, title: str) -> None:
     """Write a title over a figure, on several lines if it is long."""
-    from ssilang.io.plots.markup import to_mathtext
+    from ssilang.io.plots.markup import cut, to_mathtext
 
-    text = title.strip()
+    text = cut(title.strip())
     if text:
         lines = textwrap.wrap(text, max(20, int(8.0 * figure.get_figwidth())))
         figure.suptitle("\n".join(map(to_mathtext, lines)), fontsize=12, fontweight="bold")

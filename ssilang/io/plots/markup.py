@@ -16,11 +16,18 @@ _SYMBOLS |= {"j": "φ", "J": "ϑ", "v": "ϖ", "V": "ς"}
 _GREEK_MARK = re.compile(r"\\([A-Za-z])")
 _SCRIPT = re.compile(r"([_^])\{([^{}]*)\}")
 _MATH_SPECIAL = re.compile(r"([%#&$_^{}\\~ ])")
+LONGEST = 240
+"""Characters of a text for which a picture has room; fonts take a minute for 300 000."""
+
+
+def cut(text: str) -> str:
+    """`text` as far as a picture has room for it."""
+    return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 
 
 def to_mathtext(text: str) -> str:
     """`text` as matplotlib's text: scripts in math mode, everything else literal."""
-    text = _GREEK_MARK.sub(lambda m: _SYMBOLS.get(m.group(1), m.group(0)), text)
+    text = _GREEK_MARK.sub(lambda m: _SYMBOLS.get(m.group(1), m.group(0)), cut(text))
     pieces: list[str] = []
     end = 0
     for script in _SCRIPT.finditer(text):

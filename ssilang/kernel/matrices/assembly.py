@@ -423,6 +423,14 @@ def imposed_values(field: NodeField, multipliers: IntArray) -> FloatArray:
     return field.values_at(IMPOSED, multipliers)
 
 
+def imposed_outside(field: NodeField, multipliers: IntArray) -> int:
+    """Number of imposed values, not nought, whose conditions are none of these."""
+    part = field.components.get(IMPOSED)
+    if part is None:
+        return 0
+    return int(np.isin(part.nodes[part.values != 0.0], multipliers, invert=True).sum())
+
+
 def vector_to_field(
     vector: FloatArray,
     numbering: Numbering,

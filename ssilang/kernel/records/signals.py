@@ -80,7 +80,11 @@ def shocks(
 
 
 def time_above(x: FloatArray, y: FloatArray, level: float) -> float:
-    """Length of the abscissas where a curve linear between its points is above a level."""
+    """Length of the abscissas where a curve linear between its points is above +-level."""
+    return _time_above(x, y, level) + _time_above(x, -y, level)
+
+
+def _time_above(x: FloatArray, y: FloatArray, level: float) -> float:
     a, b = y[:-1] - level, y[1:] - level
     steps = np.diff(x)
     share = np.where((a > 0) & (b > 0), 1.0, 0.0)

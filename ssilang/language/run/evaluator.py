@@ -155,7 +155,7 @@ class Evaluator(PhraseRunner):
         return SsiError(code, results[0].span, found=type_of(results[0].value))
 
     def _define(self, node: tree.Definition) -> None:
-        if node.name in self.session.library.standard_names:
+        if self.session.library.is_own(node.name):
             place = Span(node.span.source, node.span.start, node.span.start + len("DEBP"))
             self.session.warn("overrides-procedure", place, name=node.name)
         self.session.frame.assign(node.name, Procedure(node.name, node))

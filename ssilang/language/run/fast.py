@@ -24,9 +24,6 @@ class Slow(Exception):
     """The phrase must be run the general way."""
 
 
-_SLOW = Slow()
-
-
 def compile_phrase(items: Sequence[tree.Item]) -> Value | None:
     """A function that computes the phrase for a frame, None if its shape does not allow it."""
     if len(items) % 2 == 0 or len(items) > _LONGEST:
@@ -70,7 +67,7 @@ def _name(text: str) -> Value:
             value = frame.find(text)
         if type(value) in _SCALARS:
             return value
-        raise _SLOW
+        raise Slow
 
     return run
 
@@ -92,7 +89,7 @@ def _path(item: tree.Path) -> Value | None:
     def run(frame: Frame) -> Any:
         table = frame.find(base)
         if type(table) is not Table:
-            raise _SLOW
+            raise Slow
         where = fixed
         if name:
             where = frame.find(name)
@@ -101,7 +98,7 @@ def _path(item: tree.Path) -> Value | None:
         value = table.get(where)
         if type(value) in _SCALARS:
             return value
-        raise _SLOW
+        raise Slow
 
     return run
 
@@ -111,11 +108,11 @@ def _binary(rule: Callable[[Any, Any], Any], left: Value, right: Value, guard: s
         try:
             return rule(left(frame), right(frame))
         except (ArithmeticError, ValueError, TypeError):
-            raise _SLOW from None
+            raise Slow from None
 
     def guarded(frame: Frame) -> Any:
         if frame.find(guard) is not None:  # a variable hides the operator of its name
-            raise _SLOW
+            raise Slow
         return run(frame)
 
     return guarded if guard else run

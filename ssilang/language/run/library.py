@@ -42,7 +42,7 @@ class Library:
         self._files: dict[str, tuple[Path, float]] = {}  # of what is loaded, and its last change
         self._standard = standard_procedures()
         self._declared: dict[str, Declaration | None] = {}
-        self.read: list[Path] = []  # files beside the script
+        self.read: list[Path] = []  # files beside the script, and those that could stand there
 
     @property
     def standard_names(self) -> frozenset[str]:
@@ -65,6 +65,11 @@ class Library:
             known = name in self.declared_names
             self._declared[name] = read_declaration(name) if known else None
         return self._declared[name]
+
+    def is_own(self, name: str) -> bool:
+        """Whether the standard library has a procedure that scripts are not meant to replace."""
+        declared = self.declared(name)
+        return name in self._standard and (declared is None or not declared.replaceable)
 
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""
@@ -92,11 +97,13 @@ class Library:
 
     def _path(self, name: str) -> Path | None:
         if name.startswith("@"):
-            for suffix in _SUFFIXES:
-                for stem in (name, name.lower()):
-                    path = self._folder / (stem + suffix)
-                    if os.path.isfile(path):  # False for a name that no file can have
-                        return self._inside(path)
+            stems = dict.fromkeys((name, name.lower()))
+            paths = [self._folder / (stem + suffix) for suffix in _SUFFIXES for stem in stems]
+            for path in paths:
+                if os.path.isfile(path):  # False for a name that no file can have
+                    return self._inside(path)
+            if name in self._standard:  # one of these would stand before the library's
+                self.read += [path for path in paths if path not in self.read]
         return self._standard.get(name)
 
     def _inside(self, path: Path) -> Path:

@@ -37,11 +37,12 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
         return given.of((values or {}).get(given.name))
     if given is not None:
         return given
-    return _annotated(form.function)
+    return annotated(form.function)
 
 
 @cache
-def _annotated(function: Callable[..., Any]) -> Results | None:
+def annotated(function: Callable[..., Any]) -> Results | None:
+    """Types of what a function's annotation says that it returns, None where it does not tell."""
     note = function.__annotations__.get("return", "")
     if note is None:
         return ()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import fields
+from functools import cache
 from typing import Any
 
 from ssilang.language.text import tree
@@ -128,11 +129,23 @@ _ITEMS: dict[type, Callable[[Any], str]] = {
 
 def same_tree(a: Any, b: Any) -> bool:
     """Whether two trees (or parts of trees) say the same, wherever they stand in their texts."""
-    if type(a) is not type(b):
-        return False
-    if isinstance(a, tuple):
-        return len(a) == len(b) and all(same_tree(x, y) for x, y in zip(a, b, strict=True))
-    if not hasattr(a, "__dataclass_fields__"):
-        return bool(a == b)
-    names = [f.name for f in fields(a) if f.name not in _IGNORED_FIELDS]
-    return all(same_tree(getattr(a, n), getattr(b, n)) for n in names)
+    pairs = [(a, b)]  # no recursion: parentheses may be nested by thousands
+    while pairs:
+        a, b = pairs.pop()
+        if type(a) is not type(b):
+            return False
+        if isinstance(a, tuple):
+            if len(a) != len(b):
+                return False
+            pairs += zip(a, b, strict=True)
+        elif hasattr(a, "__dataclass_fields__"):
+            pairs += ((getattr(a, n), getattr(b, n)) for n in _said(a.__class__))
+        elif a != b:
+            return False
+    return True
+
+
+@cache
+def _said(kind: Any) -> tuple[str, ...]:
+    """Fields of a kind of node that say something."""
+    return tuple(f.name for f in fields(kind) if f.name not in _IGNORED_FIELDS)

@@ -35,6 +35,13 @@ class Source:
         """The text with comment lines blanked: same length, same offsets."""
         return _COMMENT_LINE.sub(lambda m: " " * len(m.group()), self.text)
 
+    @property
+    def digest(self) -> str:
+        """What tells one deck from another: SHA-256 of its text."""
+        from hashlib import sha256
+
+        return sha256(self.text.encode("utf-8", "surrogatepass")).hexdigest()
+
     @cached_property
     def _line_starts(self) -> list[int]:
         return [0, *(m.end() for m in re.finditer("\n", self.text))]

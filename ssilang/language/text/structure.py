@@ -22,6 +22,7 @@ from ssilang.language.text.tree import (
     Statement,
     Symbol,
 )
+from ssilang.late_imports import without_collections
 
 _CONTROL = {
     "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
@@ -55,16 +56,17 @@ def parse(source: Source) -> Script:
     SeveralErrors
         With all syntax errors, then all errors of nesting.
     """
-    try:
-        statements = parse_statements(source)
-    except SeveralErrors:
-        end = end_of_run(source)
-        if end is None or not source.code[end:].strip():
-            raise
-        statements = parse_statements(source, end)
-    if commas := decimal_commas(source):
-        raise SeveralErrors(commas)
-    return structure(statements, source)
+    with without_collections():
+        try:
+            statements = parse_statements(source)
+        except SeveralErrors:
+            end = end_of_run(source)
+            if end is None or not source.code[end:].strip():
+                raise
+            statements = parse_statements(source, end)
+        if commas := decimal_commas(source):
+            raise SeveralErrors(commas)
+        return structure(statements, source)
 
 
 def structure(statements: list[Statement], source: Source) -> Script:

@@ -30,7 +30,7 @@ WORDS_OF: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Lists of words that operators take besides their keywords."""
 
-_FOUR_LETTERS = ("element", "option")
+_FOUR_LETTERS = ("element", "option", "parameter")
 SHORT = 4
 """Characters by which words are told apart, unless the whole word is written."""
 

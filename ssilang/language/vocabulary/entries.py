@@ -15,7 +15,8 @@ of its full name. A section says where an entry stands, as a script would write 
 `like` takes entries over from another file, of all themes or of those named behind it; in the
 section of an argument these are its own, in that of an entry those of the table it holds. `after`
 in the section of an argument names procedures that its table comes from: what these have in it is
-theirs, and no entry of this one that would be misspelt.
+theirs, and no entry of this one that would be misspelt. `replaceable = true` above all sections: a
+script is meant to write its own procedure of that name.
 """
 
 from __future__ import annotations
@@ -150,6 +151,7 @@ class Declaration:
     name: str
     arguments: tuple[Argument, ...]
     entries: tuple[TableEntry, ...]
+    replaceable: bool = False
 
     @cached_property
     def _inside(self) -> dict[tuple[str, ...], dict[str, TableEntry]]:
@@ -220,11 +222,12 @@ def read_declaration(name: str) -> Declaration | None:
     data = tomllib.loads(path.read_text(encoding="utf-8"))
     entries: list[TableEntry] = []
     arguments = []
+    replaceable = data.pop("replaceable", False)
     for argument, section in data.items():
         found = _entries_of(section, (argument,))
         arguments.append(_argument(argument, section))
         entries += {e.path: e for e in found}.values()  # what is said last holds
-    return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)))
+    return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)), replaceable)
 
 
 def _argument(name: str, section: dict[str, Any]) -> Argument:

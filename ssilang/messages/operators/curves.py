@@ -15,6 +15,22 @@ MESSAGES: dict[str, Message] = {
         "IPOL brings one to the instants of the other",
         "IPOL porte l'une aux instants de l'autre",
     ),
+    "damping-in-per-cent": Message(
+        "a damping ratio of {ratio:g} is critical or more: in per cent?",
+        "un amortissement réduit de {ratio:g} est critique ou plus : en pour cent ?",
+        "5 % are 0.05: {meant:g} here",
+        "5 % s'écrivent 0.05 : ici {meant:g}",
+        severity="warning",
+    ),
+    "no-accelerations": Message(
+        "the ordinates of the curve are called '{name}': they are taken as accelerations",
+        "les ordonnées de l'évolution s'appellent '{name}' : elles sont prises comme accélérations",
+        "read the file of the accelerations (.AT2); if they are some, EVOL 'MANU' names them "
+        "'ACCE'",
+        "lisez le fichier des accélérations (.AT2) ; si elles en sont, EVOL 'MANU' les nomme "
+        "'ACCE'",
+        severity="warning",
+    ),
     "tolerance-not-positive": Message(
         "the largest misfit must be above zero, not {tolerance:g}",
         "le plus grand écart doit être positif, pas {tolerance:g}",

@@ -460,12 +460,15 @@ MESSAGES: dict[str, Message] = {
         severity="warning",
     ),
     "motion-elsewhere": Message(
-        "{lost} {lost:node|nodes} of '{index}' {lost:belongs|belong} to no matrix: what moves "
-        "there is not seen",
-        "{lost} {lost:noeud|noeuds} de '{index}' {lost:n'est|ne sont} dans aucune matrice : ce "
-        "qui y bouge n'est pas vu",
-        "a point written again is a new node: use the names of the mesh",
-        "un point récrit est un nouveau noeud : reprenez les noms du maillage",
+        "'{index}' moves what no matrix has, and that is not seen: {lost}{more:?, {more} more}",
+        "'{index}' déplace ce qu'aucune matrice n'a, et que le calcul ne voit pas : {lost}"
+        "{more:?, {more} autres}",
+        "the unknowns are {known}, in capital letters; a point written again is a new node: use "
+        "the "
+        "names of the mesh",
+        "les inconnues sont {known}, en majuscules ; un point récrit est un nouveau noeud : "
+        "reprenez "
+        "les noms du maillage",
         severity="warning",
     ),
     "penalty-wants-coefficient": Message(
@@ -593,6 +596,144 @@ MESSAGES: dict[str, Message] = {
         "initiaux",
         "TAB1 . 'CHAR', 'DEPL' or 'VITE'",
         "TAB1 . 'CHAR', 'DEPL' ou 'VITE'",
+        severity="warning",
+    ),
+    "motion-against-supports": Message(
+        "'{index}' does not obey {count} {count:condition|conditions} of 'RIGI' (BLOQ, RELA): "
+        "{moved:?the first step jumps to what is imposed|these velocities are taken as nought}",
+        "'{index}' ne respecte pas {count} {count:condition|conditions} de 'RIGI' (BLOQ, RELA) : "
+        "{moved:?le premier pas saute à ce qui est imposé|ces vitesses sont prises nulles}",
+        "give the field nought there, or leave the support out: what is held does not move",
+        "donnez un champ nul à cet endroit, ou ôtez l'appui : ce qui est tenu ne bouge pas",
+        severity="warning",
+    ),
+    "imposed-elsewhere": Message(
+        "the load {name} imposes {count} {count:value|values} of conditions that 'RIGI' does not "
+        "have: they move nothing",
+        "le chargement {name} impose {count} {count:valeur|valeurs} de conditions que 'RIGI' n'a "
+        "pas : elles ne déplacent rien",
+        "BLO1 = BLOQ ... ; TAB1 . 'RIGI' = ... ET BLO1 ; and DEPI BLO1 for that same BLO1",
+        "BLO1 = BLOQ ... ; TAB1 . 'RIGI' = ... ET BLO1 ; et DEPI BLO1 pour ce même BLO1",
+        severity="warning",
+    ),
+    "nothing-presses": Message(
+        "nothing presses the body at node {node} on what it stands on (along {axis}): without "
+        "weight "
+        "it carries no shear, and leaves at the first pull",
+        "rien ne presse le corps du noeud {node} sur ce qui le porte (suivant {axis}) : sans "
+        "poids il "
+        "ne prend pas de cisaillement, et part à la première traction",
+        "add its weight to 'CHAR', a constant load (GRAV, or FORC), and begin from the "
+        "displacements "
+        "that it makes ('DEPL')",
+        "ajoutez son poids à 'CHAR', chargement constant (GRAV, ou FORC), et partez des "
+        "déplacements "
+        "qu'il donne ('DEPL')",
+        severity="warning",
+    ),
+    "slides-away": Message(
+        "nothing holds the body at node {node} along {axis}, and loads push it that way: it "
+        "moves off",
+        "rien ne tient le corps du noeud {node} suivant {axis}, et les chargements l'y poussent "
+        ": il "
+        "s'en va",
+        "BLOQ '{axis}' of its support, a spring (APPU, RIGI), or loads without that component",
+        "BLOQ '{axis}' de son appui, un ressort (APPU, RIGI), ou des chargements sans cette "
+        "composante",
+        severity="warning",
+    ),
+    "turns-away": Message(
+        "the supports leave a motion free (a turn about them), and loads drive it: the model "
+        "moves off",
+        "les appuis laissent un mouvement libre (une rotation autour d'eux), et les chargements "
+        "l'entraînent : le modèle s'en va",
+        "RESO of the same matrix and load names the motion; hold a second point (BLOQ), or a "
+        "rotation",
+        "RESO de la même matrice et du même chargement nomme le mouvement ; tenez un second point "
+        "(BLOQ), ou une rotation",
+        severity="warning",
+    ),
+    "step-over-period": Message(
+        "the step of {dt:.3g} is longer than the period of {period:.3g} of what the loads set in "
+        "motion",
+        "le pas de {dt:.3g} dépasse la période de {period:.3g} de ce que les chargements "
+        "mettent en "
+        "mouvement",
+        "a step of {wanted:.3g} in TEMPS_CALCULES, {steps} for a period",
+        "un pas de {wanted:.3g} dans TEMPS_CALCULES, {steps} par période",
+        severity="warning",
+    ),
+    "overdamped": Message(
+        "what the loads set in motion is damped {ratio:.3g} times beyond critical: it creeps, and "
+        "does not swing",
+        "ce que les chargements mettent en mouvement est amorti {ratio:.3g} fois plus que le "
+        "critique : cela rampe, sans osciller",
+        "with 'AMOR' = a M + b K the ratio is a / (2 w) + b w / 2 at w = 2 pi f: 5 % are 0.05, "
+        "and b "
+        "is in seconds",
+        "avec 'AMOR' = a M + b K le taux vaut a / (2 w) + b w / 2 à w = 2 pi f : 5 % s'écrivent "
+        "0.05, et b est en secondes",
+        severity="warning",
+    ),
+    "driven-by-dashpots": Message(
+        "the damping of what the loads set in motion is negative ({ratio:.3g} of the critical "
+        "one): "
+        "it grows without end",
+        "l'amortissement de ce que les chargements mettent en mouvement est négatif "
+        "({ratio:.3g} du "
+        "critique) : cela croît sans fin",
+        "'AMOR' = a M + b K with a and b of no sign, dashpots too",
+        "'AMOR' = a M + b K avec a et b sans signe, les amortisseurs aussi",
+        severity="warning",
+    ),
+    "masses-alone": Message(
+        "{count} {count:node has a mass that hangs|nodes have masses that hang} on nothing (node "
+        "{node}): no stiffness, condition or load",
+        "{count} {count:noeud a une masse qui ne tient|noeuds ont des masses qui ne tiennent} à "
+        "rien "
+        "(noeud {node}) : ni raideur, ni condition, ni chargement",
+        "a point written again is a new node: put the mass on the body's own, by its name or POIN",
+        "un point récrit est un nouveau noeud : mettez la masse sur celui du corps, par son nom ou "
+        "POIN",
+        severity="warning",
+    ),
+    "load-twice": Message(
+        "the load {name} stands twice in 'CHAR': it acts doubled",
+        "le chargement {name} est deux fois dans 'CHAR' : il agit en double",
+        "join each load once; FLOT1 * CHPO1 doubles a field on purpose",
+        "réunissez chaque chargement une fois ; FLOT1 * CHPO1 double exprès un champ",
+        severity="warning",
+    ),
+    "load-outside": Message(
+        "the curve of the loads {name} goes from {begin:.6g} to {end:.6g}, the calculation from "
+        "{first:.6g} to {last:.6g}: it is a constant there",
+        "l'évolution du chargement {name} va de {begin:.6g} à {end:.6g}, le calcul de "
+        "{first:.6g} à "
+        "{last:.6g} : elle y est constante",
+        "are the times of the two in the same unit, from the same origin?",
+        "les temps des deux sont-ils dans la même unité, depuis la même origine ?",
+        severity="warning",
+    ),
+    "load-begins": Message(
+        "the curve of the loads {name} begins at {begin:.6g} with {value:.4g}, which counts from "
+        "{first:.6g} on",
+        "l'évolution du chargement {name} commence à {begin:.6g} par {value:.4g}, qui compte dès "
+        "{first:.6g}",
+        "give the curve from the first instant of the calculation on; are its times in other "
+        "units?",
+        "donnez l'évolution dès le premier instant du calcul ; ses temps sont-ils dans une autre "
+        "unité ?",
+        severity="warning",
+    ),
+    "load-missed": Message(
+        "the load {name} changes between two instants of the calculation: {value:.4g} at "
+        "{time:.6g} "
+        "is seen as {seen:.4g}",
+        "le chargement {name} change entre deux instants du calcul : {value:.4g} à {time:.6g} "
+        "est vu "
+        "comme {seen:.4g}",
+        "put the instants of the curve into TEMPS_CALCULES, or steps that are shorter",
+        "mettez les instants de l'évolution dans TEMPS_CALCULES, ou des pas plus courts",
         severity="warning",
     ),
     "load-ends": Message(

@@ -53,6 +53,23 @@ MESSAGES: dict[str, Message] = {
         "LIRE '{kind}' '{file}' 'SI' (fois {factor:g}) ; LIRE '{kind}' '{file}' 1. pour l'avoir "
         "ainsi",
     ),
+    "record-longer": Message(
+        "'{file}' says that it has {count} {count:value|values}: the {left_out} behind "
+        "{left_out:it is|them are} left out",
+        "'{file}' dit avoir {count} {count:valeur|valeurs} : {left_out:celle qui suit est omise|"
+        "les {left_out} qui suivent sont omises}",
+        "where they belong to the record, the head must say so (NPTS)",
+        "si elles font partie de l'enregistrement, l'en-tête doit le dire (NPTS)",
+        severity="warning",
+    ),
+    "mesh-without-cells": Message(
+        "{name} holds {count} {count:node|nodes} and no cell: the mesh is empty",
+        "{name} contient {count} {count:noeud|noeuds} et aucun élément : le maillage est vide",
+        "is the file cut? Its last lines should be elements, and what ends the format",
+        "le fichier est-il tronqué ? Ses dernières lignes devraient être des éléments, et ce qui "
+        "termine le format",
+        severity="warning",
+    ),
     "factor-and-si": Message(
         "a factor and 'SI' stand together: one of them makes the values",
         "un facteur et 'SI' sont donnés ensemble : l'un des deux fait les valeurs",

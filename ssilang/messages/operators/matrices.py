@@ -104,6 +104,39 @@ MESSAGES: dict[str, Message] = {
         "(BAS = P1 D P2 ;), prenez une partie du maillage (POIN, COTE), ou réunissez par ELIM",
         severity="warning",
     ),
+    "negative-stiffness": Message(
+        "the stiffness of {count} {count:unknown is|unknowns are} negative ({name} at node {node}: "
+        "{value:.4g}): it pushes away what moves",
+        "la raideur de {count} {count:inconnue est négative|inconnues sont négatives} ({name} au "
+        "noeud {node} : {value:.4g}) : elle repousse ce qui bouge",
+        "give springs without a sign; one below zero (a weight that leans) needs a stiffer one "
+        "beside it",
+        "donnez les ressorts sans signe ; un ressort négatif (un poids qui penche) en veut un plus "
+        "raide à côté",
+        severity="warning",
+    ),
+    "negative-at-nodes": Message(
+        "{kind}: the value at the nodes is negative ({amount:g}): it feeds motions instead of "
+        "holding "
+        "or braking them",
+        "{kind} : la valeur aux noeuds est négative ({amount:g}) : elle nourrit les mouvements au "
+        "lieu de les retenir ou de les freiner",
+        "give its size, without a sign: dashpots act against motions both ways",
+        "donnez sa valeur sans signe : les amortisseurs s'opposent aux mouvements dans les deux "
+        "sens",
+        severity="warning",
+    ),
+    "cells-twice": Message(
+        "{kind}: {count} {count:cell stands|cells stand} there twice, with the same values (one at "
+        "node {node}): {count:it counts|they count} double",
+        "{kind} : {count} {count:élément y est|éléments y sont} deux fois, avec les mêmes valeurs "
+        "(l'un au noeud {node}) : {count:il compte|ils comptent} double",
+        "leave one of the two out: UNIQ GEO1 takes each cell of a mesh once, ET joins what has no "
+        "cell in common; 2. * MAT1 doubles a matrix on purpose",
+        "ôtez l'un des deux : UNIQ GEO1 prend chaque élément d'un maillage une fois, ET réunit ce "
+        "qui n'a pas d'élément commun ; 2. * MAT1 double exprès une matrice",
+        severity="warning",
+    ),
     "no-mechanical-zone": Message(
         "the model has no mechanical zone",
         "le modèle n'a pas de zone mécanique",

@@ -3,6 +3,13 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "joint-on-itself": Message(
+        "both sides of the joint are the same nodes: it never opens, and holds nothing",
+        "les deux côtés du joint sont les mêmes noeuds : il ne s'ouvre jamais, et ne tient rien",
+        "copy one side before (L2 = L1 PLUS (0. 0.)), and give each body its own",
+        "copiez un côté avant (L2 = L1 PLUS (0. 0.)), et donnez le sien à chaque corps",
+        severity="warning",
+    ),
     "matrix-moved-by-field": Message(
         "a matrix is moved by a vector, not by a field of displacements",
         "une matrice se translate d'un vecteur, pas d'un champ de déplacements",

@@ -274,6 +274,13 @@ MESSAGES: dict[str, Message] = {
         "{text}: {described}",
         "{text}: {described}",
     ),
+    "friction-negative": Message(
+        "{name} = {value:g}: a coefficient of friction below zero does not bound the shear",
+        "{name} = {value:g} : un coefficient de frottement négatif ne borne pas le cisaillement",
+        "give it without a sign; {name} = -1. says on purpose that nothing slides",
+        "donnez-le sans signe ; {name} = -1. dit exprès que rien ne glisse",
+        severity="warning",
+    ),
     "friction-as-angle": Message(
         "{name} = {value:g} is an unusually large coefficient of friction",
         "{name} = {value:g} est un coefficient de frottement anormalement grand",

@@ -23,6 +23,17 @@ MESSAGES: dict[str, Message] = {
         "la liste contient des objets de type {found}, dont on ne fait pas de chargement",
     ),
     "static-path": Message("the path of loads is static", "le trajet de chargement est statique"),
+    "imposed-elsewhere": Message(
+        "{count} imposed {count:value belongs|values belong} to conditions that the matrix does "
+        "not "
+        "have: they move nothing",
+        "{count} {count:valeur imposée est celle|valeurs imposées sont celles} de conditions "
+        "que la "
+        "matrice n'a pas : elles ne déplacent rien",
+        "BLO1 = BLOQ ... ; RESO (... ET BLO1) (DEPI BLO1 ...) for that same BLO1",
+        "BLO1 = BLOQ ... ; RESO (... ET BLO1) (DEPI BLO1 ...) pour ce même BLO1",
+        severity="warning",
+    ),
     "precision-not-positive": Message(
         "the precision must be positive, not {precision:g}",
         "la précision doit être positive, pas {precision:g}",

@@ -16,7 +16,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
+from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 _RECORD = "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (PROG 11 * 2.) ; "
@@ -47,8 +47,9 @@ _RULE = choice(
         examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (EXTR V 'ORDO') ; LIST (EXTR D 'ORDO') ;",),
     ),
 )
-def insi(curve: Curve, rule: str) -> tuple[Curve, Curve]:
+def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     """Integrate records."""
+    warn_of_motions(call, curve)
     linear = rule == "LINE"
     moved, fast = [], []
     for p in curve.parts:
@@ -88,8 +89,9 @@ def insi(curve: Curve, rule: str) -> tuple[Curve, Curve]:
         ),
     ),
 )
-def cosi(curve: Curve, rule: str, degree: int | None) -> Curve:
+def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     """Correct records."""
+    warn_of_motions(call, curve)
     linear = rule == "LINE"
 
     def corrected(values: FloatArray, step: float) -> FloatArray:

@@ -339,15 +339,17 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     family="signals",
     full_name="TOTEMP",
     help=Help(
-        en="Length of the abscissas where each curve is above a level, in percent of its maximum.",
-        fr="Longueur des abscisses où chaque courbe dépasse un seuil, en pour cent du maximum.",
+        en="Length of the abscissas where the absolute value of each curve is above a level, in "
+        "percent of its largest.",
+        fr="Longueur des abscisses où la valeur absolue de chaque courbe dépasse un seuil, en pour "
+        "cent de son maximum.",
         syntax="LREE1 = TOTE EVOL1 (X1) ;",
         examples=("LIST (TOTE (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.)) 50.) ;",),
     ),
 )
 def tote(curve: Curve, percent: float) -> ListReel:
     """Measure durations."""
-    levels = [percent / 100.0 * float(np.max(p.ordinates)) for p in curve.parts]
+    levels = [percent / 100.0 * float(np.abs(p.ordinates).max()) for p in curve.parts]
     pairs = zip(curve.parts, levels, strict=True)
     return ListReel([time_above(p.abscissas, p.ordinates, v) for p, v in pairs])
 

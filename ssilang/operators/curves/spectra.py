@@ -14,7 +14,7 @@ from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.curves.words import check_together
+from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 
 _TIMES = key(
     "times",
@@ -66,6 +66,7 @@ _COLOUR = key(
     ),
 )
 def osci(
+    call: Call,
     signal: Curve,
     damping: float,
     frequency: float,
@@ -74,6 +75,8 @@ def osci(
     speed: float,
     colour: str,
 ) -> Curve:
+    warn_of_motions(call, signal)
+    warn_of_damping(call, damping)
     part = signal.parts[0]
     wanted = None if times is None else times.values
     t, x = response(
@@ -151,8 +154,10 @@ def spo(
     kind: str,
     percentiles: ListReel | float | None,
 ) -> Curve:
+    warn_of_motions(call, signal)
     part = signal.parts[0]
     values = [dampings] if isinstance(dampings, float) else dampings.values
+    warn_of_damping(call, *map(float, values))
     if second is not None or percentiles is not None:
         if second is None or percentiles is None or times is not None:
             raise call.error("operators.curves.rotd-incomplete")

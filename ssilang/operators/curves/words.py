@@ -48,6 +48,20 @@ def one_part(call: Call, curve: Curve) -> CurvePart:
     return curve.parts[0]
 
 
+def warn_of_motions(call: Call, *curves: Curve) -> None:
+    """Warn of velocities or displacements where accelerations are read."""
+    names = {p.ordinate_name.strip().upper() for c in curves for p in c.parts}
+    for name in sorted(names & {"VITE", "DEPL"}):
+        call.warn("operators.curves.no-accelerations", name=name)
+
+
+def warn_of_damping(call: Call, *ratios: float) -> None:
+    """Warn of damping ratios that are per cent."""
+    if ratios and max(ratios) >= 1.0:
+        ratio = max(ratios)
+        call.warn("operators.curves.damping-in-per-cent", ratio=ratio, meant=ratio / 100.0)
+
+
 def check_together(call: Call, first: Curve, second: Curve) -> None:
     """Refuse two components that have not the same instants.
 

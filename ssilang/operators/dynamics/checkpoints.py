@@ -10,7 +10,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.language.values import Table
 from ssilang.messages.message import Sentence
-from ssilang.operators.files.outputs import run_output
+from ssilang.operators.files.outputs import digests_of_read, run_output
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -223,27 +222,15 @@ class KeptCalculation:
             "problem": self._known,
             "bodies": bodies,
             "report": run_output(self.session).recording is not None,
-            "files": self._files(),
-        }
-
-    def _files(self) -> dict[str, str]:
-        """Digests of the files that the deck has read so far."""
-        from ssilang.io.checkpoint import digest_of_file
-
-        output, folder = run_output(self.session), Path(self.session.script_directory).resolve()
-        paths = [p for p in (*output.read, *self.session.library.read) if p not in output.files]
-        found = {p.resolve(): digest_of_file(p) for p in paths}
-        return {
-            str(p.relative_to(folder) if p.is_relative_to(folder) else p): d
-            for p, d in found.items()
+            "files": digests_of_read(self.session),
         }
 
     def _check(self, kept: dict[str, Any]) -> None:
         """Refuse what an earlier run kept of another calculation, or read from other files."""
+        from ssilang.io.checkpoint import changed_names
+
         own, folder = self._call(), self.checkpoints.folder
-        before, now = kept["files"], own["files"]
-        changed = sorted(f for f in before.keys() | now if before.get(f) != now.get(f))
-        if changed:
+        if changed := changed_names(kept["files"], own["files"]):
             raise self.entries.error(
                 "operators.dynamics.checkpoint-of-files", folder=folder, files=changed
             )

@@ -30,13 +30,12 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
+from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
     warn_at_rest,
-    warn_motion_elsewhere,
     warn_of_connections,
-    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -87,9 +86,9 @@ def zdyn(call: Call, table: Table) -> Table:
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
-    warn_motion_elsewhere(entries, problem, inputs)
-    warn_at_rest(entries, inputs)
-    warn_of_loads_that_end(entries, inputs.load, times)
+    warn_at_rest(entries, problem)
+    warn_of_loads(entries, inputs.load, times)
+    warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)

@@ -11,17 +11,14 @@ from ssilang.language.run.session import Session
 from ssilang.language.values import LazyTable, ListReel, Mot, promises
 from ssilang.messages.message import sentence
 from ssilang.operators.dynamics.scheme_entries import NORMS
-from ssilang.operators.matrices.connections import warn_connections
+from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
-    from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
 
-_NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its end
 ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
 _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
@@ -211,42 +208,19 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
         inputs.model,
         inputs.characteristics,
     )
+    for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
+        if matrix is not None:
+            warn_repeated(entries.call.session, entries.place, entries.procedure, matrix, kind)
 
 
-def warn_motion_elsewhere(entries: Entries, problem: Problem, inputs: Inputs) -> None:
-    """Warn of initial displacements and velocities of nodes that no matrix has."""
-    for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
-        parts = field.components.items() if field is not None else ()
-        moved = [part.nodes[part.values != 0.0] for name, part in parts if name != "LX"]
-        nodes = np.unique(np.concatenate(moved)) if moved else np.empty(0, dtype=np.int64)
-        lost = int(np.isin(nodes, problem.numbering.nodes, invert=True).sum())
-        if lost:
-            entries.warn("operators.dynamics.motion-elsewhere", lost=lost, index=index)
-
-
-def warn_at_rest(entries: Entries, inputs: Inputs) -> None:
+def warn_at_rest(entries: Entries, problem: Problem) -> None:
     """Warn of a motion that nothing starts: no load, no first displacement or velocity."""
-    given = (inputs.load, inputs.displacement, inputs.velocity, entries.get("REPRISE"))
-    if all(g is None for g in given) and not entries.flag("CHARMECA"):
+    loading = problem.loading
+    acting = loading.at(problem.times).any(axis=0)
+    moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
+    given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
+    if not given and problem.contact is None and not entries.flag("CHARMECA"):
         entries.warn("operators.dynamics.nothing-moves")
-
-
-def warn_of_loads_that_end(entries: Entries, load: Load | None, times: FloatArray) -> None:
-    """Warn of curves of loads that end before the calculation, on a slope and not at nought."""
-    for part in () if load is None or len(times) < 2 else load.parts:
-        for curve in () if part.time is None else part.time.parts:
-            x, y = curve.abscissas, curve.ordinates
-            if len(x) < 2 or x[-1] >= times[-1] - 1e-6 * (times[-1] - times[0]):
-                continue
-            size = np.abs(y).max()
-            if abs(y[-1]) > _NOUGHT * size and abs(y[-1] - y[-2]) > _NOUGHT * size:
-                entries.warn(
-                    "operators.dynamics.load-ends",
-                    name=part.name,
-                    end=float(x[-1]),
-                    value=float(y[-1]),
-                    last=float(times[-1]),
-                )
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

@@ -22,7 +22,7 @@ from ssilang.language.registry import arg, flag, lead, main, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
-from ssilang.operators.files.reading import LIRE
+from ssilang.operators.files.reading import LIRE, warn_without_cells
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
 
@@ -110,6 +110,7 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
     read = read_mesh_file(path, kind, asked)
     for remark in read.remarks:
         call.warn("operators.files.reader-says", name=path.name, remark=remark)
+    warn_without_cells(call, path.name, len(read.points), any(map(len, read.cells.values())))
     if read.left_out:
         told = [f"{count} {cell}" for cell, count in sorted(read.left_out.items())]
         call.warn("operators.files.cells-left-out", name=path.name, told=told)

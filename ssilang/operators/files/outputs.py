@@ -23,6 +23,18 @@ def run_output(session: Session) -> RunOutput:
     return ws.output
 
 
+def digests_of_read(session: Session) -> dict[str, str]:
+    """Digests of the files that the deck has read so far, by their path from its folder."""
+    from ssilang.io.checkpoint import digest_of_file
+
+    output, folder = run_output(session), Path(session.script_directory).resolve()
+    paths = [p for p in (*output.read, *session.library.read) if p not in output.files]
+    found = {p.resolve(): digest_of_file(p) for p in paths}
+    return {
+        str(p.relative_to(folder) if p.is_relative_to(folder) else p): d for p, d in found.items()
+    }
+
+
 def output_path(call: Call, name: str) -> Path:
     """Where a file is written: below the output folder.
 

@@ -144,7 +144,14 @@ def _avs(call: Call) -> Table:
     if structure is None:
         raise call.error("operators.files.all-structures-read", name=path.name, done=done)
     output.opened["LECT"] = done + 1
+    warn_without_cells(call, path.name, len(structure.points), bool(structure.cells))
     return _avs_table(call, structure)
+
+
+def warn_without_cells(call: Call, name: str, count: int, cells: bool) -> None:
+    """Warn of a file that has nodes alone: cut off inside them, most often."""
+    if not cells:
+        call.warn("operators.files.mesh-without-cells", name=name, count=count)
 
 
 def _avs_table(call: Call, structure: Structure) -> Table:

@@ -145,6 +145,12 @@ def _curve(
             )  # fmt: skip
         elif nameless:
             call.warn("operators.files.record-without-unit", file=file, kind=kind)
+    for record in records:
+        if record.left_out:
+            call.warn(
+                "operators.files.record-longer", file=file, count=len(record.values),
+                left_out=record.left_out,
+            )  # fmt: skip
     parts = tuple(_part(call, r, factor, in_si) for r in records)
     return Curve(parts, records[0].event[:72])
 

@@ -26,8 +26,8 @@ def warn_connections(
     """Warn, once a matrix, of what is not joined as it looks.
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
-    swapped, beams that end on one node of a solid. Joints are those of `model`, whose law stands
-    beside the matrix, without it those that the matrix was made from.
+    swapped, beams that end on one node of a solid, cells that count twice. Joints are those of
+    `model`, whose law stands beside the matrix, without it those that the matrix was made from.
     """
     if _KEY in matrix.cache:
         return
@@ -38,6 +38,9 @@ def warn_connections(
         model = Model(made)
     _warn_swapped_joints(session, span, operator, matrix, model, characteristics)
     _warn_hinges(session, span, operator, matrix, model)
+    warn_repeated(session, span, operator, matrix, "RIGI")
+    if model is None or not any(is_joint(z) for z in model.zones):
+        _warn_negative(session, span, operator, matrix)
 
 
 def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
@@ -66,6 +69,39 @@ def _warn_doubled_supports(
         y=y,
         z=z,
     )
+
+
+def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:
+    from ssilang.kernel.statics.negative import negative_unknowns
+
+    if found := negative_unknowns(matrix):
+        node, name, value = found[0]
+        session.warn(
+            "operators.matrices.negative-stiffness",
+            span,
+            operator=operator,
+            count=len(found),
+            node=matrix.table.told(node),
+            name=name,
+            value=value,
+        )
+
+
+def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:
+    """Warn of a matrix that has the same twice; of a stiffness ('RIGI'), of cells of its own."""
+    from ssilang.kernel.statics.repeated import repeated_blocks, repeated_cells
+
+    blocks = [] if kind == "RIGI" else [b.nodes[:, 0] for b in repeated_blocks(matrix)]
+    found = repeated_cells(matrix) if kind == "RIGI" else np.concatenate([*blocks, [0]])[:-1]
+    if len(found):
+        session.warn(
+            "operators.matrices.cells-twice",
+            span,
+            operator=operator,
+            kind=kind,
+            count=len(found),
+            node=matrix.table.told(int(found[0])),
+        )
 
 
 def _warn_swapped_joints(

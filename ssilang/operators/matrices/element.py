@@ -100,6 +100,8 @@ def _additional(
     call: Call, kind: str, names: list[str], amount: float, place: Mesh | Point
 ) -> Matrix:
     """Values added at nodes, on groups of unknowns or on unknowns by name."""
+    if amount < 0.0 and kind != "RIGIDITE":
+        call.warn("operators.matrices.negative-at-nodes", kind=kind[:4], amount=amount)
     mode = workspace(call.session).mode
     groups = {"DEPL": NODE_TRANSLATIONS[mode], "ROTA": NODE_ROTATIONS[mode]}
     said = [n for name in names for n in groups.get(name, (name,))]

@@ -19,7 +19,7 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.operators.matrices.connections import warn_connections
+from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.workspace import solver_of, workspace
 
 _FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz")
@@ -57,6 +57,7 @@ def _vibr(
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
     warn_connections(call.session, call.span, "VIBR", stiffness)
+    warn_repeated(call.session, call.span, "VIBR", mass, "MASS")
     _warn_negative_mass(call, mass)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
         return _complex(call, method, stiffness, mass, damping)

@@ -54,6 +54,8 @@ def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> Non
             continue
         array, said = given[name]
         value = float(array.max()) if array.dtype == float and array.size else 0.0
+        if value < 0.0 and value not in (-1.0, meant.default):
+            call.warn("operators.models.friction-negative", name=name, value=value)
         if value > meant.usual.high:
             warning = call.error(
                 "operators.models.friction-as-angle",

@@ -25,12 +25,12 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.dynamic import integrated
+from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
     warn_contrast,
     warn_of_connections,
-    warn_of_loads_that_end,
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
@@ -75,7 +75,7 @@ def zpas(call: Call, table: Table) -> None:
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
-    warn_of_loads_that_end(entries, entries.get("CHARGEMENT"), times)
+    warn_of_loads(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     work = entries
@@ -147,6 +147,7 @@ def _stretch(
         tell_more(room_ahead(problem))
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_of_connections(work, inputs)
+        warn_of_start(work, problem, inputs, in_statics=not dynamic)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     strained = _strained(given, bool(finite))

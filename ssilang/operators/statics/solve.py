@@ -6,8 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from ssilang.kernel.base.errors import KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import imposed_outside
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import told_coordinates
@@ -96,6 +99,10 @@ def _reso(
     if words["warned"]:
         return _or_warning(call, matrix, loads, options)
     warn_connections(call.session, call.span, "RESO", matrix)
+    known = np.concatenate([np.zeros(0, np.int64), *(r.multipliers for r in matrix.relations)])
+    for load in loads:
+        if count := imposed_outside(load, known):
+            call.warn("operators.statics.imposed-elsewhere", count=count)
     solutions = tuple(solve(matrix, loads, options))
     _warn_condition(call, matrix, options)
     return solutions

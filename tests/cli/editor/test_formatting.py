@@ -138,3 +138,9 @@ def test_unsound_scripts_are_refused_and_left(ssilang, tmp_path):
     assert "parenthesis" in refused.err
     assert deck.read_text() == "X=(1;\n"
     assert ssilang("format", str(tmp_path / "none.ssi")).code == 2
+
+
+@pytest.mark.parametrize("depth", [300, 5_000])
+def test_parentheses_nested_deep_are_laid_out(ssilang, depth):
+    done = ssilang("format", "-", stdin=f"X={'(' * depth}1{')' * depth};")
+    assert (done.code, done.out) == (0, f"X = {'(' * depth}1{')' * depth} ;\n")

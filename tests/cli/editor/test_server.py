@@ -308,3 +308,17 @@ async def test_unsound_texts_are_answered_too(client):
         await client.text_document_semantic_tokens_full_async(lsp.SemanticTokensParams(named))
         await client.text_document_folding_range_async(lsp.FoldingRangeParams(named))
     assert not [m for m in client.log_messages if m.type == lsp.MessageType.Error]
+
+
+async def test_a_position_that_no_text_has_is_answered(client):
+    """In front of the text there is an error, behind it nothing; the server goes on."""
+    open_deck(client)
+    named = lsp.TextDocumentIdentifier(URI)
+    hover = lsp.HoverParams(named, lsp.Position(0, 0))
+    for line, column in ((-1, 0), (0, -7)):
+        object.__setattr__(hover.position, "line", line)
+        object.__setattr__(hover.position, "character", column)
+        with pytest.raises(JsonRpcException):
+            await asyncio.wait_for(client.text_document_hover_async(hover), 20.0)
+    behind = lsp.HoverParams(named, lsp.Position(10**9, 10**9))
+    assert await client.text_document_hover_async(behind) is None

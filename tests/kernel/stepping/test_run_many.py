@@ -48,7 +48,7 @@ def assert_as_alone(problems, side_by_side=True):
 
 @pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])
 def test_beams_on_springs_that_only_push(scheme):
-    whole = rocking(scheme, 600)
+    whole = rocking(scheme, 250)
     kept = assert_as_alone([scaled(whole, f) for f in (0.2, 1.0, 1.3, -0.7, 0.9)])
     open_points = {int((r.of("t")[..., -1] == 0.0).sum()) for r in kept}
     assert len(open_points) == len(kept)  # each has its own open springs

@@ -2,14 +2,22 @@
 
 With SSILANG_PLAIN_NUMBA=1 the environment turns all that is ours off here: functions `apart` are
 compiled into their callers and code is kept only where NUMBA_CACHE_DIR says. Answers are the same,
-starts take longer; for a numba whose insides `apart` does not know.
+starts take longer. So it is by itself with versions of Python, numba, llvmlite and numpy that were
+not tried (`tried`), where numba keeps code as it does; SSILANG_PLAIN_NUMBA=0 tries them.
 """
 
 from __future__ import annotations
 
 import os
 
-PLAIN = os.environ.get("SSILANG_PLAIN_NUMBA", "") not in ("", "0")
+from ssilang.kernel.base.compiled.tried import untried
+
+UNTRIED = untried()
+"""What of these versions was not tried, '' if all was."""
+
+_SAID = os.environ.get("SSILANG_PLAIN_NUMBA", "")
+PLAIN = bool(UNTRIED) if _SAID == "" else _SAID != "0"
+"""Plain numba compiles."""
 
 UNCOMPILED = os.environ.get("NUMBA_DISABLE_JIT", "") not in ("", "0")
 """Functions run as Python has them."""

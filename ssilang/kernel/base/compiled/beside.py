@@ -150,7 +150,8 @@ class Beside:
         import subprocess  # few runs have anything to compile
         import tempfile
 
-        paths = os.pathsep.join([str(PACKAGES), os.environ.get("PYTHONPATH", "")])
+        others = [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p]
+        paths = os.pathsep.join([str(PACKAGES), *others])  # an empty one is the working folder
         program = f"import sys; from {__name__} import BESIDE; BESIDE.serve(sys.argv[1])"
         try:
             self._claims = Path(tempfile.mkdtemp(prefix="ssilang-compiling-"))

@@ -20,7 +20,7 @@ from functools import cache
 from importlib.util import source_hash
 from pathlib import Path
 
-from ssilang.kernel.base.compiled import PLAIN
+from ssilang.kernel.base.compiled import PLAIN, UNTRIED
 from ssilang.private import (
     first_private,
     fresh_folder,
@@ -117,6 +117,20 @@ def given_folder() -> Path | None:
     """The folder that NUMBA_CACHE_DIR names, if it does and only we could have written to it."""
     given = os.environ.get("NUMBA_CACHE_DIR")
     return _given(given) if given else None
+
+
+@cache
+def plain_folder() -> Path | None:
+    """Where plain numba keeps code if versions were not tried, for the kernel as it is now.
+
+    Numba looks at the file of a function alone, and not at what that calls; the folder is named
+    after all files.
+    """
+    if not UNTRIED or os.environ.get("SSILANG_PLAIN_NUMBA"):
+        return None
+    files = sorted((PACKAGE / "kernel").rglob("*.py"))
+    state = digest("".join(f"{f} {(s := f.stat()).st_size} {s.st_mtime_ns}\n" for f in files))
+    return first_private(*places(f"plain/{state}"))
 
 
 @cache

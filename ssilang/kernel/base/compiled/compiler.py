@@ -20,7 +20,7 @@ from typing import Any, TypeVar, cast
 
 from ssilang.kernel.base.compiled import PLAIN, UNCOMPILED
 from ssilang.kernel.base.compiled.beside import BESIDE, title
-from ssilang.kernel.base.compiled.cache import given_folder
+from ssilang.kernel.base.compiled.cache import given_folder, plain_folder
 from ssilang.kernel.base.compiled.kept import load, save
 from ssilang.kernel.base.compiled.kinds import Key, key_of, words_of, words_of_types
 from ssilang.kernel.base.compiled.machine import Ready, machine
@@ -177,7 +177,7 @@ def _made(
 
     njit: Any = numba.njit  # untyped: options that it does not tell of
 
-    kept = given_folder()
+    kept = given_folder() or plain_folder()
     if kept is not None:
         numba.config.CACHE_DIR = str(kept)  # type: ignore[attr-defined]
     return cast(Function, njit(cache=kept is not None, _nrt=True, **options)(function))

@@ -23,6 +23,8 @@ from numba.core.compiler_machinery import register_pass
 from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
 
+from ssilang.kernel.base.compiled import UNTRIED
+
 WORD = ctypes.sizeof(ctypes.c_void_p)
 DATA = object.__basicsize__  # of numpy's PyArrayObject: address, number and lengths of indices
 SHAPE, STRIDES = DATA + 2 * WORD, DATA + 3 * WORD
@@ -179,7 +181,12 @@ def is_number(kind: types.Type) -> bool:
 
 @cache
 def is_layout_known() -> bool:
-    """Whether numpy's arrays and Python's tuples are laid out as they are read here."""
+    """Whether numpy's arrays and Python's tuples are laid out as they are read here.
+
+    Where versions were not tried it is not looked at: a layout may hold for one array by chance.
+    """
+    if UNTRIED:
+        return False
     array = np.empty((2, 3))[:, ::2]
     array_at, held = id(array), (array, None)
 

@@ -67,12 +67,16 @@ def _jacobians(reference: FloatArray, coordinates: FloatArray) -> FloatArray:
     return (flat @ coordinates).reshape(-1, p, d, d)
 
 
-def _check_jacobians(det: FloatArray) -> None:
-    """Cells may be numbered either way round, but must not be folded."""
+FLAT = 1e-12  # sine of an angle, or height of a cell beside its length: no digit is left
+
+
+def _check_jacobians(det: FloatArray, jacobians: FloatArray) -> None:
+    """Cells may be numbered either way round, but must be neither folded nor flat."""
     scale = np.abs(det).max(axis=1, keepdims=True)
-    folded = (np.abs(det) <= 1e-14 * scale).any(axis=1) | (np.sign(det).min(axis=1) < 0) & (
-        np.sign(det).max(axis=1) > 0
-    )
+    sides = np.sqrt((jacobians**2).sum(axis=3))
+    flat = np.abs(det) <= np.maximum(1e-14 * scale, FLAT * sides.prod(axis=2))
+    flat |= sides.min(axis=2) <= FLAT * sides.max(axis=2)
+    folded = flat.any(axis=1) | (det.min(axis=1) < 0) & (det.max(axis=1) > 0)
     if folded.any():
         first = int(np.argmax(folded))
         raise MeshError(
@@ -99,8 +103,9 @@ def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGe
     reference = shape_gradients(cell_type, rule.points)
     p, k, d = reference.shape
     # jacobians[c, p, i, j] = dx_j / dxi_i, inverse[c, p, j, i] = dxi_i / dx_j
-    det, inverse = _inverse(_jacobians(reference, coordinates))
-    _check_jacobians(det)
+    jacobians = _jacobians(reference, coordinates)
+    det, inverse = _inverse(jacobians)
+    _check_jacobians(det, jacobians)
     gradients = np.zeros((len(coordinates), p, d, k))
     for j in range(d):
         for i in range(d):
@@ -119,7 +124,7 @@ def cell_volumes(cell_type: str, coordinates: FloatArray, rule: Rule) -> FloatAr
     J = _jacobians(shape_gradients(cell_type, rule.points), coordinates)
     det = J[..., 0, 0] * J[..., 1, 1] - J[..., 0, 1] * J[..., 1, 0] if J.shape[-1] == 2 else None
     det = np.linalg.det(J) if det is None else det
-    _check_jacobians(det)
+    _check_jacobians(det, J)
     volumes: FloatArray = rule.weights * np.abs(det)
     return volumes
 

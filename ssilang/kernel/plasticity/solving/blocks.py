@@ -62,7 +62,7 @@ def cells_of(points: PlasticPoints, places: NDArray[np.int32]) -> Cells:
         np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
         row.astype(np.int64),
         np.ascontiguousarray(points.weights).ravel(),
-        places,
+        np.asfortranarray(places),  # as numbering gives them: one kind of code
         np.array(points.components, np.int64),
     )
 
@@ -84,7 +84,8 @@ def some_cells(cells: Cells, which: IntArray) -> Cells:
     block, at = np.divmod(which, lanes // p)
     terms = cells.terms.reshape(blocks, t, lanes // p, p)[block, :, at]
     weights = cells.weights.reshape(n_cells, p)[which].ravel()
-    return cells._replace(terms=_in_blocks(terms), weights=weights, places=cells.places[which])
+    places = np.asfortranarray(cells.places[which])
+    return cells._replace(terms=_in_blocks(terms), weights=weights, places=places)
 
 
 def points_of_a_cell(cells: Cells) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,9 @@ from ssilang.kernel.stepping.problem.problem import Problem
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
 FREE = 1e-12  # share of the free motions in an unknown that is not fixed; less is rounding
+
+_KNOWN: WeakKeyDictionary[Problem, IntArray] = WeakKeyDictionary()
+"""Bodies of problems that are still there: several looks at a start need them."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,9 @@ def bodies_of(problem: Problem) -> IntArray:
 
     The unknowns of one node belong together.
     """
-    return tied(problem.numbering, problem.constraints.C, problem.K, problem.M)
+    if problem not in _KNOWN:
+        _KNOWN[problem] = tied(problem.numbering, problem.constraints.C, problem.K, problem.M)
+    return _KNOWN[problem]
 
 
 def translation(problem: Problem, normals: FloatArray) -> FloatArray:

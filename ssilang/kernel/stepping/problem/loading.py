@@ -55,7 +55,7 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
     """
     forces, imposed, curves = [], [], []
     for part in load.parts if load is not None else ():
-        for field, curve in _terms(part):
+        for field, curve in nodal_terms(part):
             lost = outside(field, numbering)
             if lost:
                 raise FieldError("kernel.stepping.load-matrices-lack", name=part.name, lost=lost[0])
@@ -73,7 +73,7 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
 TimeCurve = tuple[FloatArray, FloatArray]
 
 
-def _terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
+def nodal_terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
     """Fields of a mechanical part, each with its curve."""
     if part.name.strip() not in MECHANICAL:
         raise FieldError("kernel.stepping.load-not-mechanical", name=part.name)

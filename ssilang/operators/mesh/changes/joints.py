@@ -16,6 +16,8 @@ from ssilang.operators.workspace import workspace
 
 def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, part: bool) -> Mesh:
     ws = workspace(session)
+    if np.isin(first.node_ids, second.node_ids).all():
+        session.warn("operators.mesh.joint-on-itself", None)
     near = tolerance_of(ws, distance, ws.nodes.coordinates[first.node_ids])
     return joint_mesh(first, second, max(near, 1e-300), part)
 

@@ -123,12 +123,12 @@ def test_a_layout_that_is_not_numpy_s_goes_numba_s_way(monkeypatch, known):
 
 @compiled_threaded
 def sum_until(x: FloatArray, stop: np.ndarray) -> float:
-    """Waits for another thread to say so."""
-    total, turns = 0.0, 0
+    """Waits for another thread to say so; were nothing written, `stop` would be read once."""
+    turns = 0
     while stop[0] == 0 and turns < 2_000_000_000:
         turns += 1
-        total += x[turns % len(x)]
-    return total if stop[0] else np.nan
+        x[turns % len(x)] += 1.0
+    return x[0] if stop[0] else np.nan
 
 
 def test_other_threads_run_while_a_threaded_function_does():

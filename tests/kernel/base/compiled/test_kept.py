@@ -36,13 +36,15 @@ from ssilang.kernel.base.compiled.compiler import compiled
 def spread(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     made = np.zeros((len(x), len(y)))
     for i in range(len(x)):
-        made[i] = x[i] * y
-    return made @ y
+        for j in range(len(y)):
+            made[i, j] = x[i] * y[j]
+    return made @ y  # by BLAS
 
 
 @compiled
 def total(x: np.ndarray, y: np.ndarray) -> float:
-    return spread(x, y).sum()
+    made = spread(x, y)
+    return made[0] + made[1]
 """
 
 RUN = """

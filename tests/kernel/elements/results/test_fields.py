@@ -32,6 +32,8 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from tests.kernel.elements.samples import ELASTIC, PLANE, SPACE, cell_zone, field, material
 
+_ONE_POINT = ("Q4RI", "TRI3", "TET4")
+
 
 def _mode(element):
     return Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
@@ -49,11 +51,10 @@ def _strip(n=3):
     )
 
 
-@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+# one stress point cannot carry a linear field
+@pytest.mark.parametrize("element", [e for e in (*PLANE, *SPACE) if e not in _ONE_POINT])
 @pytest.mark.parametrize("target", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES"])
 def test_a_linear_field_survives_every_change_of_support(element, target):
-    if element == "Q4RI" or element in ("TRI3", "TET4"):
-        pytest.skip("one stress point cannot carry a linear field")
     zone = cell_zone(element, _mode(element))
     nodal = field(zone, SCAL=lambda x: 2.0 + x[:, 0] - 3 * x[:, 1] + 0.5 * x[:, 2])
     at_points = cells_of_nodal(Model((zone,)), nodal, "STRESSES")

@@ -1,0 +1,228 @@
+"""What a motion's start shows to be forgotten or mistaken: weight, supports, damping, steps.
+
+Bodies are looked at as they stand: translations along the axes of those that something excites,
+and one motion for each load, that of its forces on the structure at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.laws.point_laws import respond
+from ssilang.kernel.interface.response import interface_forces, local_jumps
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of
+from ssilang.kernel.stepping.problem.problem import Problem
+
+AXES = ("UX", "UY", "UZ")
+MOST_BODIES = 20  # beyond, joints and relations are a material
+MOST_MOTIONS = 400  # free motions up to which a dense solve costs nothing beside the steps
+PRESSED = 0.02  # mean force of a weight beside the largest one
+FREE = 1e-13  # stiffness beside the largest one that holds nothing
+LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
+SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
+
+
+@dataclass(frozen=True)
+class Loose:
+    """A body that a load moves off along an axis.
+
+    Attributes
+    ----------
+    node : int
+        One of its nodes.
+    axis : str
+    pressed : bool
+        Whether joints or stops would hold it if something pressed it on them.
+    """
+
+    node: int
+    axis: str
+    pressed: bool
+
+
+@dataclass(frozen=True)
+class Swing:
+    """The motion that a load asks for: period (s), damping ratio, whether it comes at once.
+
+    Without stiffness or dashpots against it the period is infinite.
+    """
+
+    period: float
+    damping: float
+    sudden: bool
+
+
+class Bodies:
+    """The bodies of a problem, and what holds each against a translation."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.label = bodies_of(problem)
+        self.factors = problem.loading.at(problem.times)
+
+    def loose(self) -> Iterator[Loose]:
+        """Bodies without support along an axis, or without what presses them on theirs."""
+        problem, count = self.problem, int(self.label.max(initial=-1)) + 1
+        if count > MOST_BODIES or problem.u.any() or problem.v.any():
+            return
+        names = [a for a in AXES if a in problem.numbering.unknowns]
+        for body in range(count):
+            ways = {a: self._way(body, a) for a in names}
+            held = not {"held", "stands", "pressed"}.isdisjoint(ways.values())
+            for axis, way in ways.items():
+                if way == "pressed" or (way == "slides" and held):
+                    node = problem.numbering.nodes[np.argmax(self.label == body)]
+                    yield Loose(int(node), axis, way == "pressed")
+
+    def _way(self, body: int, axis: str) -> str:
+        """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
+        problem = self.problem
+        motion = np.zeros(problem.numbering.size)
+        motion[problem.numbering.where(axis)] = 1.0
+        motion[self.label != body] = 0.0
+        if not motion.any() or not motion @ (problem.M @ motion):
+            return ""
+        if self._holds(motion):
+            return "held"
+        pushed = self.factors @ (problem.loading.forces.T @ motion)
+        forces = self.factors @ np.abs(problem.loading.forces[motion != 0.0]).sum(axis=0)
+        largest = float(np.abs(pushed).max(initial=0.0))
+        excited = largest > ROUNDING * float(np.abs(forces).max(initial=0.0))
+        closed, *ways = self._closed(motion), *(self._touches(s * motion) for s in (1.0, -1.0))
+        if all(ways):
+            return "held"
+        if any(ways):
+            shaken = self.factors.any() and (problem.loading.forces.any() or self._moving)
+            weight = excited and abs(float(pushed.mean())) > PRESSED * largest
+            return "pressed" if shaken and not weight else "stands"
+        return "slides" if excited and not closed else ""
+
+    @cached_property
+    def _moving(self) -> bool:
+        return bool(self.problem.loading.imposed.any())
+
+    def _holds(self, motion: FloatArray) -> bool:
+        """Whether stiffness, dashpots or supports act against a motion."""
+        problem = self.problem
+        if np.abs(problem.constraints.C @ motion).max(initial=0.0) > ROUNDING:
+            return True
+        for matrix in (problem.K, problem.C):
+            natural = motion**2 @ abs(matrix.diagonal())
+            if abs(motion @ (matrix @ motion)) > ROUNDING * natural:
+                return True
+        return False
+
+    def _closed(self, motion: FloatArray) -> bool:
+        """Whether joints act against a motion when they are pressed."""
+        joints = self.problem.interface
+        if joints is None or not (delta := joints.J @ motion).any():
+            return False
+        return bool(delta @ (joints.closed_stiffness() @ delta) > 0.0)
+
+    def _touches(self, motion: FloatArray) -> bool:
+        """Whether stops or joints act against a small motion from the start."""
+        contact, joints = self.problem.contact, self.problem.interface
+        if contact is not None and (contact.G @ motion < -ROUNDING).any():
+            return True
+        if joints is None:
+            return False
+        delta = joints.J @ (LITTLE * motion)
+        if not delta.any():
+            return False
+        w, t = np.zeros((2, joints.n_points, joints.dimension))
+        D, f = np.zeros((*t.shape, joints.dimension)), np.zeros(joints.size)
+        local_jumps(joints.points, delta, w)
+        new = np.zeros_like(self.problem.state)
+        respond(joints.codes, w, self.problem.state, joints.parameters, t, new, D)
+        interface_forces(joints.points, t, f)
+        whole = delta @ (joints.closed_stiffness() @ delta)
+        return bool(f @ delta > LITTLE * whole)
+
+
+def swings(problem: Problem) -> list[Swing]:
+    """The motions that loads and first velocities ask for; of small problems alone.
+
+    Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
+    estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
+    """
+    T, joints = problem.constraints.T, problem.interface
+    given = _forces(problem)
+    if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
+        return []
+    stiffness = problem.K
+    if joints is not None:
+        closed = sp.csr_array(joints.closed_stiffness())
+        stiffness = stiffness + joints.J.T @ (closed @ joints.J)
+    forces = np.column_stack([T.T @ f for f, _ in given])
+    K = (T.T @ (stiffness @ T)).toarray()
+    if not K.any():
+        return []
+    try:
+        motions = np.linalg.solve(K, forces)
+    except np.linalg.LinAlgError:
+        motions = np.linalg.solve(K + FREE * np.abs(K).max() * np.eye(len(K)), forces)
+    free = np.abs(motions).max(axis=0) * np.abs(K).max() * FREE > np.abs(forces).max(axis=0)
+    found = []
+    for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
+        if unheld:
+            if x @ (problem.C @ x) <= ROUNDING * (x**2 @ abs(problem.C.diagonal())):
+                found.append(Swing(np.inf, 0.0, sudden))
+            continue
+        moved, work = float(x @ (problem.M @ x)), float(x @ force)
+        if moved > 0.0 and 0.0 < work < np.inf:
+            period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
+            found.append(Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden))
+    return found
+
+
+def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
+    """Forces (n,) of loads that change, moving supports, velocities; whether within a step."""
+    loading, found = problem.loading, []
+    factors = loading.at(problem.times)
+    sizes = np.abs(factors).max(axis=0, initial=0.0)
+    bends = np.abs(np.diff(factors, 2, axis=0)).max(axis=0, initial=0.0)
+    for k in np.flatnonzero(np.ptp(factors, axis=0) > 0.0):
+        sudden = bool(bends[k] > SUDDEN * sizes[k])
+        found.append((loading.forces[:, k], sudden))
+        if loading.imposed[:, k].any():
+            moved = problem.constraints.particular(loading.imposed[:, k])
+            found.append((problem.M @ moved, sudden))
+    return [(f, sudden) for f, sudden in (*found, (problem.M @ problem.v, True)) if f.any()]
+
+
+def against_supports(problem: Problem) -> dict[str, IntArray]:
+    """Conditions that the initial displacements ('DEPL') and velocities ('VITE') do not obey."""
+    from ssilang.kernel.stepping.problem.initial import admissible_velocity
+
+    rows = problem.constraints.C
+    imposed = problem.loading.imposed @ problem.loading.at(problem.times[:1])[0]
+    taken = problem.v - admissible_velocity(problem)
+    found = {}
+    for index, value, off in (
+        ("DEPL", np.append(problem.u, imposed), rows @ problem.u - imposed),
+        ("VITE", problem.v, rows @ taken),
+    ):
+        size = np.abs(value).max(initial=0.0)
+        found[index] = np.flatnonzero(np.abs(off) > LITTLE * size) if size else np.zeros(0, int)
+    return found
+
+
+def masses_alone(problem: Problem) -> IntArray:
+    """Nodes (n,) with mass that nothing else holds, joins, pushes or sets in motion."""
+    joints, contact, loading = problem.interface, problem.contact, problem.loading
+    others = [problem.K, problem.C, problem.constraints.C]
+    others += [] if joints is None else [joints.J]
+    others += [] if contact is None else [contact.G]
+    used = np.zeros(problem.numbering.size, bool)
+    for matrix in others:
+        used[matrix.indices[matrix.data != 0.0]] = True
+    used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
+    nodes = problem.numbering.nodes
+    heavy = np.unique(nodes[problem.M.diagonal() != 0.0])
+    return np.setdiff1d(heavy, nodes[used])

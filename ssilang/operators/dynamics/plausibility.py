@@ -1,0 +1,155 @@
+"""What DYNAMIC warns of before it steps: inputs that are well typed and make no sense together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+
+Told = Iterator[tuple[str, dict[str, Any]]]
+
+NAMED = 4  # values and bodies that a warning names
+NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
+MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
+MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
+OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
+WANTED = 20  # steps of a period
+
+
+def warn_of_start(
+    entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
+) -> None:
+    """Warn of all that the start of a calculation shows, by the tables below."""
+    guards = (_imposed_elsewhere,) if in_statics else GUARDS
+    if not in_statics and not plastic_zones(inputs.model):
+        guards += OF_STIFFNESS
+    for find in guards:
+        for code, told in find(problem, inputs):
+            entries.warn(code, **told)
+
+
+def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
+    from ssilang.kernel.matrices.assembly import outside
+
+    for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
+        lost = [] if field is None else outside(field, problem.numbering, dual=False)
+        if lost:
+            more, names = len(lost[NAMED:]), problem.numbering.unknowns
+            told = {"index": index, "lost": lost[:NAMED], "more": more, "known": names}
+            yield "operators.dynamics.motion-elsewhere", told
+
+
+def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import against_supports
+
+    for index, rows in against_supports(problem).items():
+        if len(rows):
+            told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
+            yield "operators.dynamics.motion-against-supports", told
+
+
+def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
+    from ssilang.kernel.matrices.assembly import imposed_outside
+    from ssilang.kernel.stepping.problem.loading import nodal_terms
+
+    contact = problem.contact
+    known = [problem.multipliers, *([] if contact is None else [contact.multipliers])]
+    for part in () if inputs.load is None else inputs.load.parts:
+        count = max(imposed_outside(f, np.concatenate(known)) for f, _ in nodal_terms(part))
+        if count:
+            yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
+
+
+def _masses_alone(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import masses_alone
+
+    nodes = masses_alone(problem)
+    if len(nodes):
+        told = {"count": len(nodes), "node": problem.numbering.table.told(int(nodes[0]))}
+        yield "operators.dynamics.masses-alone", told
+
+
+def _loose(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
+
+    alone = problem.interface is None and problem.contact is None
+    if alone and problem.numbering.size > MOST_ALONE:
+        return
+    loose = list(Bodies(problem).loose())
+    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
+        yield "operators.dynamics.turns-away", {}
+    for found in loose:
+        told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
+        if found.pressed:
+            yield "operators.dynamics.nothing-presses", told
+        else:
+            yield "operators.dynamics.slides-away", told
+
+
+def _swings(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import swings
+
+    dt, found = float(np.diff(problem.times).max()), swings(problem)
+    period = min((s.period for s in found if s.sudden), default=dt)
+    ratio = max((s.damping for s in found), default=0.0)
+    if dt > period:
+        told = {"dt": dt, "period": period, "wanted": period / WANTED, "steps": WANTED}
+        yield "operators.dynamics.step-over-period", told
+    if any(s.damping < 0.0 for s in found):
+        yield "operators.dynamics.driven-by-dashpots", {"ratio": min(s.damping for s in found)}
+    if ratio > OVERDAMPED:
+        yield "operators.dynamics.overdamped", {"ratio": ratio}
+
+
+GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
+    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere,
+)  # fmt: skip
+"""Each gives the codes of warnings with their data."""
+OF_STIFFNESS = (_masses_alone, _loose, _swings)
+"""Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
+
+
+def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:
+    """Warn of curves of loads that begin late, end early, or change between the instants."""
+    parts = () if load is None or len(times) < 2 else load.parts
+    known: set[tuple[int, int]] = set()
+    for part in parts:
+        key = id(part.space), id(part.time)
+        if key in known and part.time is not None:
+            entries.warn("operators.dynamics.load-twice", name=part.name)
+        known.add(key)
+        for curve in () if part.time is None else part.time.parts:
+            for code, told in _flaws(curve.abscissas, curve.ordinates, times):
+                entries.warn(code, name=part.name, **told)
+
+
+def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
+    """What a curve (x, y) and the instants of a calculation have not in common."""
+    size, slack = float(np.abs(y).max(initial=0.0)), 1e-6 * float(times[-1] - times[0])
+    if len(x) < 2 or not size:
+        return
+    first, last = float(times[0]), float(times[-1])
+    told = {"first": first, "last": last, "begin": float(x[0]), "end": float(x[-1])}
+    if x[0] >= last or x[-1] <= first:
+        yield "operators.dynamics.load-outside", told
+        return
+    if x[0] > first + slack and abs(y[0]) > NOUGHT * size and abs(y[1] - y[0]) > NOUGHT * size:
+        yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
+    if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
+        yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
+    inside = (x > first) & (x < last)
+    seen = np.interp(x[inside], times, np.interp(times, x, y))
+    off = np.abs(seen - y[inside])
+    if off.max(initial=0.0) > MISSED * size:
+        at = int(off.argmax())
+        told |= {"time": float(x[inside][at]), "value": float(y[inside][at])}
+        yield "operators.dynamics.load-missed", told | {"seen": float(seen[at])}

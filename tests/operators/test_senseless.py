@@ -1,0 +1,378 @@
+"""Scripts that are well typed and make no sense: each is told, by its code."""
+
+from pathlib import Path
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+PEER = "DATABASE\nSomewhere\n{0} TIME SERIES IN UNITS OF M/S\nNPTS= {1}, DT= .01 SEC\n1 2 3 4 5 6\n"
+AVS = "4 1 0 0 0\n1 0. 0. 0.\n2 1. 0. 0.\n3 1. 1. 0.\n4 0. 1. 0.\n1 1 quad 1 2 3 4\n"
+ABAQUS = "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n"
+NASTRAN = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCROD,1,1,1,2\nENDDATA\n"
+RECORD = "E = LIRE 'PEER' 'a.txt' 1. ; "
+READ = {"a.txt": PEER.format("ACCELERATION", 6)}
+
+FILES = {
+    "velocities in a spectrum": (
+        RECORD + "S = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",
+        {"a.txt": PEER.format("VELOCITY", 6)}, "operators.curves.no-accelerations",
+    ),
+    "displacements integrated": (
+        RECORD + "D V = INSI E ;", {"a.txt": PEER.format("DISPLACEMENT", 6)},
+        "operators.curves.no-accelerations",
+    ),
+    "velocities corrected, by the file's ending": (
+        "E = LIRE 'PEER' 'a.VT2' 1. ; C = COSI E ;", {"a.VT2": PEER.format("SOME", 6)},
+        "operators.curves.no-accelerations",
+    ),
+    "velocities of ESM, their type with a word more": (
+        "E = LIRE 'ESM' 'a.asc' 1. ; D V = INSI E ;",
+        {"a.asc": "SAMPLING_INTERVAL_S: 0.1\nDATA_TYPE: VELOCITY SERIES\nUNITS: m/s\n1.\n2.\n"},
+        "operators.curves.no-accelerations",
+    ),
+    "velocities of a table": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; O = OSCI E 'AMOR' 0.05 'FREQ' 1. ;",
+        {"a.csv": "time (s);ground velocity (m/s)\n0;0\n1;1\n2;0\n"},
+        "operators.curves.no-accelerations",
+    ),
+    "velocities in figures of a record": (
+        RECORD + "T = @SEISME E ;", {"a.txt": PEER.format("VELOCITY", 6)},
+        "operators.curves.no-accelerations",
+    ),
+    "fewer values said than there are": (
+        RECORD, {"a.txt": PEER.format("ACCELERATION", 4)}, "operators.files.record-longer",
+    ),
+    "no value said": (RECORD, {"a.txt": PEER.format("ACCELERATION", 0)}, "io.record-empty"),
+    "more values said than there are": (
+        RECORD, {"a.txt": PEER.format("ACCELERATION", 8)}, "io.line-says-values-file",
+    ),
+    "no value in ESM": (
+        "E = LIRE 'ESM' 'a.asc' 1. ;", {"a.asc": "SAMPLING_INTERVAL_S: 0.1\nNDATA: 0\n"},
+        "io.record-empty",
+    ),
+    "an Abaqus deck cut inside its nodes": (
+        "T = LIRE 'ABAQ' 'm.inp' ;", {"m.inp": ABAQUS[:30]}, "operators.files.mesh-without-cells",
+    ),
+    "an Abaqus deck by its ending": (
+        "T = LIRE 'm.inp' ;", {"m.inp": ABAQUS[:30]}, "operators.files.mesh-without-cells",
+    ),
+    "bulk data without elements": (
+        "T = LIRE 'NAS' 'm.bdf' ;", {"m.bdf": NASTRAN.replace("CROD,1,1,1,2\n", "")},
+        "operators.files.mesh-without-cells",
+    ),
+    "bulk data cut inside their nodes": (
+        "T = LIRE 'NAS' 'm.bdf' ;", {"m.bdf": NASTRAN[:40]}, "io.mesh-file-cut",
+    ),
+    "an AVS file cut inside its nodes": (
+        "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;", {"m.avs": AVS[:40]}, "io.avs-file-cut",
+    ),
+    "an AVS file cut inside its cells": (
+        "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;", {"m.avs": AVS[:-18]}, "io.avs-file-cut",
+    ),
+    "an AVS file that says no cell": (
+        "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;", {"m.avs": AVS.replace("4 1", "4 0", 1)[:-17]},
+        "operators.files.mesh-without-cells",
+    ),
+}  # fmt: skip
+"""Files that do not hold what they are read as."""
+
+SENSIBLE_FILES = {
+    "a record": (RECORD + "T = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ; D V = INSI E ;", READ),
+    "what is called velocities and is not": (
+        RECORD + "A = EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' (EXTR E 'ORDO') ; "
+        "S = SPO A 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",
+        {"a.txt": PEER.format("VELOCITY", 6)},
+    ),
+    "meshes": (
+        "T = LIRE 'm.inp' ; T = LIRE 'm.bdf' ; OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;",
+        {"m.inp": ABAQUS, "m.bdf": NASTRAN, "m.avs": AVS},
+    ),
+}
+
+
+TIMES = "LT = PROG 0. PAS 0.01 1. ; EV = EVOL 'MANU' LT (SIN (LT * 1000.)) ; "
+TABLE = "T = TABL ; T . 'RIGI' = K ; T . 'MASS' = M ; T . 'CHAR' = F ; T . 'TEMPS_CALCULES' = LT ; "
+OSCILLATOR = (
+    TIMES + "P = 0. 0. ; K = RIGI 'UX' 400. P ; M = MASS 'UX' 1. P ; "
+    "F = CHAR (FORC (1. 0.) P) EV ; {0} " + TABLE + "{1} DYNAMIC T ;"
+)
+SQUARE = (
+    TIMES + "S = TRAN 2 (DROI 2 (0 0) (1 0)) (0 1) ; B = COTE 1 S ; H = COTE 3 S ; "
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MO 'YOUN' 1.E7 'NU' 0. 'RHO' 2000. ; "
+    "K = RIGI MO A ; M = MASS MO A ; F = CHAR (FORC (1. 0.) H) EV ; "
+)
+BODY = SQUARE + "{0} " + TABLE + "{1} DYNAMIC T ;"
+HELD = "K = K ET (BLOQ 'DEPL' B) ;"
+FOOTING = (
+    SQUARE + "G = B PLUS (0. 0.) ; MJ = MODE (RACC 0.001 B G) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' "
+    "'JOI2' ; AJ = MATE MJ 'KN' 1.E5 'KS' 1.E5 ; K = K ET (BLOQ 'DEPL' G) ; {0} "
+    + TABLE
+    + "T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = AJ ; {1} DYNAMIC T ;"
+)
+WEIGHT = "F = F ET (CHAR (FORC (0. -1.E4) H) (EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.))) ;"
+PASAPAS = (
+    SQUARE + "T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = A ; "
+    "T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' B ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; "
+    "T . 'CHARGEMENT' = {0} ; PASAPAS T ;"
+)
+
+
+def loaded(x: str, y: str) -> str:
+    """The oscillator's load with this curve."""
+    return f"F = CHAR (FORC (1. 0.) P) (EVOL 'MANU' (PROG {x}) (PROG {y})) ;"
+
+
+def flat(kind: str, nodes: str) -> str:
+    """The stiffness of a cell."""
+    model = f"C = MANU '{kind}' {nodes} ; N = MODE C 'MECANIQUE' 'ELASTIQUE' ; "
+    return model + "K = RIGI N (MATE N 'YOUN' 1. 'NU' 0.) ;"
+
+
+FLAT = "kernel.elements.jacobian-vanishes-changes-sign"
+MODELS = {
+    # initial motions and imposed values
+    "forces for velocities": (
+        OSCILLATOR.format("", "T . 'VITE' = MANU 'CHPO' P 'FX' 1. ;"),
+        "D.motion-elsewhere",
+    ),
+    "small letters": (
+        OSCILLATOR.format("", "T . 'VITE' = MANU 'CHPO' P 'ux' 1. ;"),
+        "D.motion-elsewhere",
+    ),
+    "an unknown of no matrix": (
+        OSCILLATOR.format("", "T . 'DEPL' = MANU 'CHPO' P 'UY' 1. ;"),
+        "D.motion-elsewhere",
+    ),
+    "a new point": (
+        OSCILLATOR.format("", "T . 'DEPL' = MANU 'CHPO' (0. 0.) 'UX' 1. ;"),
+        "D.motion-elsewhere",
+    ),
+    "velocities of a support": (
+        BODY.format(HELD, "T . 'VITE' = MANU 'CHPO' B 'UX' 1. ;"),
+        "D.motion-against-supports",
+    ),
+    "displacements of a support": (
+        BODY.format(HELD, "T . 'DEPL' = MANU 'CHPO' B 'UX' 1. ;"),
+        "D.motion-against-supports",
+    ),
+    "a support that jumps at the start": (
+        BODY.format(
+            "L = BLOQ 'UX' B ; K = K ET L ET (BLOQ 'UY' B) ; F = CHAR (DEPI L 1.) "
+            "(EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.)) ;",
+            "",
+        ),
+        "D.motion-against-supports",
+    ),
+    "imposed on a condition of no matrix": (
+        BODY.format(HELD + "F = CHAR (DEPI (BLOQ 'UX' H) 1.) EV ;", ""),
+        "D.imposed-elsewhere",
+    ),
+    "the same in load steps": (
+        PASAPAS.format(
+            "CHAR 'DIMP' (DEPI (BLOQ 'UX' H) 1.) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))"
+        ),
+        "D.imposed-elsewhere",
+    ),
+    "the same in statics": (
+        SQUARE + HELD + "U = RESO K (DEPI (BLOQ 'UX' H) 1.) ;",
+        "operators.statics.imposed-elsewhere",
+    ),
+    # supports, weight, mass
+    "no weight on joints": (FOOTING.format("", ""), "D.nothing-presses"),
+    "no weight on stops": (
+        BODY.format("K = K ET (BLOQ 'MINI' 'UY' B) ET (BLOQ 'UX' B) ;", ""),
+        "D.nothing-presses",
+    ),
+    "held upwards alone": (BODY.format("K = K ET (BLOQ 'UY' B) ;", ""), "D.slides-away"),
+    "held sideways alone": (
+        BODY.format("K = K ET (BLOQ 'UX' B) ; F = CHAR (FORC (0. 1.) H) EV ;", ""),
+        "D.slides-away",
+    ),
+    "joints without shear": (
+        FOOTING.replace("'KS' 1.E5", "'KS' 0.").format(WEIGHT, ""),
+        "D.slides-away",
+    ),
+    "held at a point": (BODY.format("K = K ET (BLOQ 'DEPL' (B POIN 1)) ;", ""), "D.turns-away"),
+    "mass on a new point": (
+        OSCILLATOR.format("M = M ET (MASS 'UX' 1. (0. 0.)) ;", ""),
+        "D.masses-alone",
+    ),
+    "loads of nought": (OSCILLATOR.format("F = CHAR (FORC (0. 0.) P) EV ;", ""), "D.nothing-moves"),
+    "a curve of nought": (OSCILLATOR.format(loaded("0. 1.", "0. 0."), ""), "D.nothing-moves"),
+    # damping, steps, loads in time
+    "beyond critical": (OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 400. P ;"), "D.overdamped"),
+    "Rayleigh's beta for a ratio": (OSCILLATOR.format("", "T . 'AMOR' = 5. * K ;"), "D.overdamped"),
+    "damping below zero": (
+        OSCILLATOR.format("", "T . 'AMOR' = -0.01 * M ;"),
+        "D.driven-by-dashpots",
+    ),
+    "a dashpot below zero": (
+        OSCILLATOR.format("C = AMOR 'UX' -1. P ;", ""),
+        "operators.matrices.negative-at-nodes",
+    ),
+    "a mass below zero": (
+        OSCILLATOR.format("C = MASS 'UX' -1. P ;", ""),
+        "operators.matrices.negative-at-nodes",
+    ),
+    "a spring below zero": (
+        OSCILLATOR.replace("400.", "-400.").format("", ""),
+        "operators.matrices.negative-stiffness",
+    ),
+    "a support below zero": (
+        SQUARE + "U = RESO (K ET (BLOQ 'DEPL' B) ET (APPU 'UX' -1.E9 H)) (FORC (1. 0.) H) ;",
+        "operators.matrices.negative-stiffness",
+    ),
+    "steps longer than a period": (
+        OSCILLATOR.format("", "T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. ;"),
+        "D.step-over-period",
+    ),
+    "a first velocity in long steps": (
+        OSCILLATOR.format(
+            loaded("0. 1.", "0. 1.E-9"),
+            "T . 'VITE' = MANU 'CHPO' P 'UX' 1. ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.4 2. ;",
+        ),
+        "D.step-over-period",
+    ),
+    "loads between the steps": (
+        OSCILLATOR.format("", "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 1. ;"),
+        "D.load-missed",
+    ),
+    "a pulse between load steps": (
+        PASAPAS.format(
+            "CHAR 'MECA' (FORC (1. 0.) H) (EVOL 'MANU' (PROG 0. 0.5 1.) (PROG 0. 1. 0.))"
+        ),
+        "D.load-missed",
+    ),
+    "loads that begin late": (OSCILLATOR.format(loaded("0.5 1.", "3. 4."), ""), "D.load-begins"),
+    "loads that end early": (OSCILLATOR.format(loaded("0. 0.5", "3. 4."), ""), "D.load-ends"),
+    "loads of a later time": (
+        OSCILLATOR.format(loaded("5. 6. 7.", "0. 1. 0."), ""),
+        "D.load-outside",
+    ),
+    "loads of an earlier time": (
+        OSCILLATOR.format(loaded("-5. -4. -3.", "0. 1. 0."), ""),
+        "D.load-outside",
+    ),
+    "a load joined with itself": (OSCILLATOR.format("F = F ET F ;", ""), "D.load-twice"),
+    # bodies that are there twice
+    "a mass joined with itself": (
+        OSCILLATOR.format("M = M ET M ;", ""),
+        "operators.matrices.cells-twice",
+    ),
+    "a spring joined with itself": (
+        OSCILLATOR.format("K = K ET K ;", ""),
+        "operators.matrices.cells-twice",
+    ),
+    "a mass joined with itself for modes": (
+        SQUARE + HELD + "V = VIBR 'SIMU' 1. 1 K (M ET M) ;",
+        "operators.matrices.cells-twice",
+    ),
+    "a stiffness joined with itself": (
+        SQUARE + HELD + "U = RESO (K ET (RIGI MO A)) (FORC (1. 0.) H) ;",
+        "operators.matrices.cells-twice",
+    ),
+    "a body copied and merged": (
+        SQUARE + "Q = S ET (S PLUS (0. 0.)) ; ELIM Q 1.E-3 ; N = MODE Q 'MECANIQUE' 'ELASTIQUE' ; "
+        "U = RESO ((RIGI N (MATE N 'YOUN' 1. 'NU' 0.)) ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
+        "operators.matrices.cells-twice",
+    ),
+    "two models of a mesh": (
+        SQUARE + "N = MO ET (MODE S 'MECANIQUE' 'ELASTIQUE') ; "
+        "U = RESO ((RIGI N (MATE N 'YOUN' 1. 'NU' 0.)) ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
+        "operators.matrices.cells-twice",
+    ),
+    # materials, cells, modes, spectra
+    "friction below zero": (
+        FOOTING.replace("'KS' 1.E5", "'KS' 1.E5 'FROT' -0.5").format(WEIGHT, ""),
+        "operators.models.friction-negative",
+    ),
+    "a joint of a line with itself": (
+        SQUARE + "J = RACC 0.001 B B ;",
+        "operators.mesh.joint-on-itself",
+    ),
+    "damping in per cent": (
+        TIMES + "A = EVOL 'MANU' 'TEMP' LT 'ACCE' (SIN (LT * 1000.)) ; "
+        "S = SPO A 'AMOR' (PROG 0.02 5.) 'FREQ' (PROG 1.) 'ACCE' ;",
+        "operators.curves.damping-in-per-cent",
+    ),
+    "a flat triangle": (flat("TRI3", "(0 0) (1 0) (0.5 1.E-14)"), FLAT),
+    "a flat quadrangle": (flat("QUA4", "(0 0) (1 0) (1 1.E-14) (0 1.E-14)"), FLAT),
+    "a flat tetrahedron": (
+        "OPTI DIME 3 MODE TRID ; " + flat("TET4", "(0 0 0) (1 0 0) (0 1 0) (0.2 0.2 1.E-14)"),
+        FLAT,
+    ),
+}
+"""Models, loads and steps."""
+
+SENSIBLE_MODELS = {
+    "a weight that leans, held by a condition": OSCILLATOR.format(
+        "Q = 0. 0. ; K = K ET (RIGI 'UX' -4. Q) ET (RELA 'UX' P - 'UX' Q) ;", ""
+    ),
+    "an oscillator": OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 2. P ;"),
+    "a held body": BODY.format(HELD, "T . 'VITE' = MANU 'CHPO' H 'UX' 1. ;"),
+    "a footing with its weight": FOOTING.format(WEIGHT, ""),
+    "a free body that is thrown": BODY.format("", ""),
+    "a weight that leans, held by a stiffer spring": OSCILLATOR.format(
+        "K = K ET (RIGI 'UX' -100. P) ;", ""
+    ),
+    "a body on dashpots": BODY.format(
+        "K = K ET (BLOQ 'UY' B) ;", "T . 'AMOR' = AMOR 'UX' 1.E4 B ;"
+    ),
+    "slow loads in long steps": OSCILLATOR.format(
+        loaded("0. 100.", "0. 1."), "T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 100. ;"
+    ),
+    "matrices joined with multiples of themselves": OSCILLATOR.format(
+        "M = M ET (0.5 * M) ; K = K ET (0.5 * K) ;", ""
+    ),
+    "springs side by side": OSCILLATOR.format("K = K ET (RIGI 'UX' 400. P) ;", ""),
+    "friction that does not bound": FOOTING.replace("'KS' 1.E5", "'KS' 1.E5 'FROT' -1.").format(
+        WEIGHT, ""
+    ),
+    "a thin cell": (flat("QUA4", "(0 0) (1 0) (1 1.E-6) (0 1.E-6)")),
+}
+
+
+def told(script: str, folder: Path) -> list[str]:
+    """Codes of the warnings and errors of a script in the plane."""
+    result = run_text(f"OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; {script}", output_directory=folder)
+    assert "defect of ssilang" not in result.message
+    return [w.code for w in result.session.warnings] + [e.code for e in result.errors]
+
+
+def written(files: dict[str, str], folder: Path) -> Path:
+    for name, text in files.items():
+        (folder / name).write_text(text)
+    return folder
+
+
+@pytest.mark.parametrize("what", FILES)
+def test_files_that_hold_something_else_are_told(what: str, tmp_path: Path) -> None:
+    script, files, code = FILES[what]
+    assert code in told(script, written(files, tmp_path))
+
+
+@pytest.mark.parametrize("what", SENSIBLE_FILES)
+def test_files_that_hold_what_they_say_are_not(what: str, tmp_path: Path) -> None:
+    script, files = SENSIBLE_FILES[what]
+    assert told(script, written(files, tmp_path)) == []
+
+
+@pytest.mark.parametrize("what", MODELS)
+def test_models_that_make_no_sense_are_told(what: str, tmp_path: Path) -> None:
+    script, code = MODELS[what]
+    assert code.replace("D.", "operators.dynamics.") in told(script, tmp_path)
+
+
+@pytest.mark.parametrize("what", SENSIBLE_MODELS)
+def test_models_that_make_sense_are_not(what: str, tmp_path: Path) -> None:
+    codes = told(SENSIBLE_MODELS[what], tmp_path)
+    assert {c for c in codes if c != "operators.dynamics.contact-not-resolved"} == set()
+
+
+def test_free_motions_have_no_frequency(tmp_path: Path) -> None:
+    script = "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; " + SQUARE + "T = VIBR 'SIMU' 0.1 4 K M ;"
+    modes = run_text(script, output_directory=tmp_path).session.root.find("T").get("MODES")
+    found = [modes.get(i).get("FREQUENCE") for i in range(1, 5)]
+    assert found[:3] == [0.0, 0.0, 0.0]
+    assert found[3] > 1.0

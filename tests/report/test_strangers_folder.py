@@ -1,0 +1,243 @@
+"""Reports of folders that somebody else has written: nothing of the reader's, and no traceback."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+import random
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ssilang.cli.main import main
+from ssilang.cli.run import write_report
+from ssilang.io.inside import inside
+from ssilang.report.page import page_of
+from ssilang.report.results import read_results
+from tests.report.test_report_file import Sections, page
+
+SECRET = "ZQX"
+
+
+def whole(folder: Path) -> dict[str, dict[str, Any]]:
+    """Both records of a run."""
+    return {n: json.loads((folder / n).read_text()) for n in ("summary.json", RECORD)}
+
+
+RECORD = "report/contents.json"
+
+
+def put(folder: Path, records: dict[str, dict[str, Any]], source: Path) -> Path:
+    """A folder with these records and the tables of a run."""
+    (folder / "report").mkdir(parents=True, exist_ok=True)
+    for name, record in records.items():
+        (folder / name).write_text(json.dumps(record))
+    for path in (source / "report").glob("*.csv"):
+        (folder / "report" / path.name).write_bytes(path.read_bytes())
+    return folder
+
+
+def names_the_deck(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    del records[RECORD]
+    records["summary.json"]["deck"] = str(secret)
+
+
+def names_the_deck_without_a_digest(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    names_the_deck(records, folder, secret)
+    del records["summary.json"]["deck_digest"]
+
+
+def names_a_table(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    records[RECORD]["calculations"][0]["table"] = str(secret)
+
+
+def climbs_to_a_table(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    records[RECORD]["calculations"][0]["table"] = f"../../{secret.parent.name}/{secret.name}"
+
+
+def links_a_table(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    (folder / "top.csv").symlink_to(secret)
+
+
+def links_a_picture(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    (folder / "a.png").symlink_to(secret)
+    records["summary.json"]["files"].append({"path": "a.png", "bytes": 1})
+
+
+def links_the_record(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    record = records.pop(RECORD)
+    (secret.parent / "contents.json").write_text(json.dumps({**record, "text": SECRET}))
+    (folder / "report").mkdir()
+    (folder / RECORD).symlink_to(secret.parent / "contents.json")
+
+
+def links_the_folder(records: dict[str, Any], folder: Path, secret: Path) -> None:
+    record = records.pop(RECORD)
+    (secret.parent / "contents.json").write_text(json.dumps({**record, "text": SECRET}))
+    (folder / "report").symlink_to(secret.parent)
+
+
+WAYS: list[Callable[[dict[str, Any], Path, Path], None]] = [
+    names_the_deck, names_the_deck_without_a_digest, names_a_table, climbs_to_a_table,
+    links_a_table, links_a_picture, links_the_record, links_the_folder,
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_nothing_of_the_reader_is_shown(
+    way: Callable[[dict[str, Any], Path, Path], None], rocking: Path, tmp_path: Path
+) -> None:
+    import base64
+
+    secret = tmp_path / "home" / "secret.csv"
+    secret.parent.mkdir()
+    secret.write_text("time;CINETIQUE\n0;1\n1;31415926.5\n2;31415926.5\n")
+    folder, records = tmp_path / "theirs", whole(rocking)
+    folder.mkdir()
+    way(records, folder, secret)
+    if (folder / "report").exists():
+        (folder / "summary.json").write_text(json.dumps(records["summary.json"]))
+    else:
+        put(folder, records, rocking)
+    write_report(folder, "en")
+    text = page(folder)
+    assert "ZQX" not in text
+    assert "31415926" not in text
+    assert "3.14159" not in text
+    assert base64.b64encode(secret.read_bytes()).decode()[:30] not in text
+
+
+def test_a_deck_that_is_what_ran_is_shown(rocking: Path, tmp_path: Path) -> None:
+    records = whole(rocking)
+    del records[RECORD]
+    put(tmp_path, records, rocking)
+    assert "T2 = DYNAMIC T1 ;" in read_results(tmp_path).text
+    deck = rocking.parent / "deck.ssi"
+    before = deck.read_text()
+    try:
+        deck.write_text(before + "* later\n")
+        assert read_results(tmp_path).text == ""
+    finally:
+        deck.write_text(before)
+
+
+def test_a_series_reads_its_own_parts_alone(rocking: Path, tmp_path: Path) -> None:
+    from ssilang.report.scenes import SceneError, packed_scene
+
+    elsewhere = tmp_path / "home"
+    elsewhere.mkdir()
+    folder = tmp_path / "theirs"
+    folder.mkdir()
+    for path in rocking.glob("*.vtu"):
+        (elsewhere / path.name).write_bytes(path.read_bytes())
+        (folder / path.name).symlink_to(elsewhere / path.name)
+    (series,) = rocking.glob("*.pvd")
+    for start in ("", f"{elsewhere}/", "../home/"):
+        text = series.read_text().replace('file="', f'file="{start}')
+        (folder / series.name).write_text(text)
+        with pytest.raises(SceneError):
+            packed_scene(folder / series.name, 10**7)
+
+
+def leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Places of a record, not all rows of a list."""
+    yield path
+    if isinstance(value, dict):
+        for name, each in value.items():
+            yield from leaves(each, (*path, name))
+    elif isinstance(value, list):
+        for i in range(min(len(value), 2)):
+            yield from leaves(value[i], (*path, i))
+
+
+BAD: tuple[Any, ...] = (
+    None, "x", -1, 1e300, True, [], {}, [[]], {"a": 1}, 10**400, math.nan, math.inf,
+    "</script><script>alert(1)", "\x1b]0;a\x07", "{x}", "../../etc/passwd", "\0",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["summary.json", RECORD])
+@pytest.mark.parametrize("kind", ["rocking", "verdict_run"])
+def test_wrong_kinds_of_values_are_refused_or_shown(
+    name: str, kind: str, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
+    """Each place of a record, a few values each: a refusal or a page, and no other error."""
+    from ssilang.io.errors import InputError
+
+    source: Path = request.getfixturevalue(kind)
+    records = whole(source)
+    for calculation in records[RECORD]["calculations"]:
+        calculation["scene"] = None  # a second each
+    choose = random.Random(name + kind)
+    refused = shown = 0
+    places = list(leaves(records[name]))[1:]
+    for place in choose.sample(places, min(len(places), 50)):
+        for bad in choose.sample(BAD, 2):
+            changed = copy.deepcopy(records)
+            holder = changed[name]
+            for step in place[:-1]:
+                holder = holder[step]
+            holder[place[-1]] = bad
+            put(tmp_path, changed, source)
+            try:
+                results = read_results(tmp_path)
+            except InputError as problem:
+                refused += problem.code in ("report.not-a-summary", "report.damaged")
+                continue
+            text = page_of(results, "en", lambda text: [])
+            assert "<script>alert" not in text
+            assert "\x1b" not in text
+            refused += any("contents.json" in n for n in results.unread)
+            shown += 1
+    assert refused > 20
+    assert shown > 5
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('{"version": 1}', "version: 1 != text"),
+        ("[" * 100_000, "brackets"),
+        ('{"version": "1", "deck": "a", "seconds": NaN}', "seconds: None != a number"),
+        ('{"version": "1", "deck": "a"}', "seconds = ?"),
+        ("\xff", "cannot be read"),
+    ],
+)
+def test_a_damaged_summary_is_told_by_its_place(
+    text: str, said: str, tmp_path: Path, capsys: Any
+) -> None:
+    (tmp_path / "summary.json").write_bytes(text.encode("latin-1"))
+    assert main(["report", str(tmp_path)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_record_that_is_no_record_says_where(rocking: Path, tmp_path: Path) -> None:
+    records = whole(rocking)
+    records[RECORD]["calculations"][0]["table"] = 3
+    write_report(put(tmp_path, records, rocking), "en")
+    assert "calculations[0].table: 3 != text" in Sections(page(tmp_path)).text["header"]
+
+
+def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> None:
+    put(tmp_path, whole(rocking), rocking)
+    (tmp_path / "top.csv").write_text('a;b\n1;"' + "2" * 200_000)
+    assert read_results(tmp_path).tables == {}
+
+
+@pytest.mark.parametrize(
+    "name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"]
+)
+def test_what_stands_elsewhere_is_not_inside(name: str, tmp_path: Path) -> None:
+    folder = tmp_path / "in"
+    (folder / "d").mkdir(parents=True)
+    (tmp_path / "a").write_text("x")
+    (folder / "b").symlink_to(tmp_path / "a")
+    (folder / "c").symlink_to("c")
+    (folder / "d" / "e").write_text("x")
+    (folder / "f").symlink_to("d/e")
+    assert inside(folder, name) is None
+    assert inside(folder, "d/e") is not None
+    assert inside(folder, "f") is not None
