@@ -15,7 +15,8 @@ import stat
 from contextlib import suppress
 from pathlib import Path
 
-POSIX = os.name == "posix"
+from ssilang.system import POSIX, user_number
+
 _OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _PASSING = stat.S_IXGRP | stat.S_IXOTH
 _SYSTEM = 0  # the user number of root
@@ -53,11 +54,6 @@ def first_private(*folders: Path, closed: int = 0o077) -> Path | None:
         if os.path.lexists(folder) and (folder, fault) not in REFUSED:
             REFUSED.append((folder, fault))  # not only a place where nothing can be made
     return None
-
-
-def user_number() -> int:
-    """Number of the user as whom the process runs (0 where the system has none)."""
-    return os.geteuid() if POSIX else 0
 
 
 def opened_to_others(folder: Path, closed: int = 0o077) -> Path | None:

@@ -207,12 +207,14 @@ def _compile_ahead(source: Source) -> None:
 
 
 def _run_options(options: argparse.Namespace) -> RunOptions:
-    from ssilang.cli.memory import limit_memory
     from ssilang.cli.run import RunOptions
     from ssilang.language.run.session import Limits
+    from ssilang.language.say.errors import SsiError
+    from ssilang.system import limit_memory
 
-    if options.max_memory is not None:
-        limit_memory(options.max_memory)
+    if options.max_memory is not None and not limit_memory(options.max_memory * 2**20):
+        _told(SsiError("cli.no-bound-on-memory", None), options.lang)
+        raise SystemExit(USAGE)
     made = RunOptions(
         output_directory=options.out,
         allowed=[p.resolve() for p in options.allow],

@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from ssilang.system import ENDS
+
 ENDED_BY_CLOSED_PIPE = 141  # what a shell gives for a tool that SIGPIPE ended: 128 + 13
 
 _arrived = threading.Event()  # signals belong to the process, not to a session
@@ -38,10 +40,10 @@ def listening(own: bool = True) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    numbers = [signal.SIGINT, signal.SIGTERM] if own else [signal.SIGINT]
-    hangup = getattr(signal, "SIGHUP", None) if own else None  # not on every system
-    if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:
-        numbers.append(hangup)
+    numbers = [signal.SIGINT]
+    for number in ENDS if own else ():
+        if number == signal.SIGTERM or signal.getsignal(number) is not signal.SIG_IGN:
+            numbers.append(number)
     before = [signal.signal(n, interrupt) for n in numbers]
     ignored, sys.unraisablehook = sys.unraisablehook, _quiet_about_interruptions
     try:

@@ -28,6 +28,7 @@ from ssilang.language.say.diagnostics import sentence
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
 from ssilang.operators.workspace import workspace
+from ssilang.system import peak_memory
 
 NAME = "summary.json"
 _PICTURES = frozenset({".png", ".svg", ".pdf", ".eps", ".ps"})
@@ -47,7 +48,7 @@ def write_summary(
         "exit_code": exit_code,
         "seconds": round(time.perf_counter() - session.started - session.away(), 3),
         "statements": session.evaluator.statement_count,
-        "peak_memory_mb": _peak_memory(),
+        "peak_memory_mb": _megabytes(peak_memory()),
         "files": files,
         "warnings": [_message(w, session.language) for w in session.warnings],
         "errors": [_message(e, session.language) for e in errors],
@@ -60,12 +61,8 @@ def write_summary(
     return path
 
 
-def _peak_memory() -> float | None:
-    try:
-        import resource
-    except ImportError:  # not on Windows
-        return None
-    return round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1)
+def _megabytes(n_bytes: float | None) -> float | None:
+    return None if n_bytes is None else round(n_bytes / 2**20, 1)
 
 
 def _file(path: Path, base: Path) -> dict[str, Any]:

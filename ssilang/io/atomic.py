@@ -6,10 +6,12 @@ import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from itertools import count
 from pathlib import Path
 from typing import IO
 
 from ssilang.io.errors import OutputError
+from ssilang.system import replace, usual_rights
 from ssilang.system_reasons import system_reason
 
 
@@ -35,7 +37,7 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
         with os.fdopen(handle, "wb") as stream:
             yield stream
         os.chmod(aside, usual_rights())
-        os.replace(aside, path)
+        put(aside, path)
     except OSError as error:
         raise cannot_write(path, error) from error
     finally:
@@ -43,17 +45,39 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
             aside.unlink()
 
 
+def put(aside: Path, path: Path, keep: bool = True) -> None:
+    """Put a file that is whole in its place.
+
+    Parameters
+    ----------
+    keep : bool
+        Whether what cannot take the place of a file that another program holds stays beside it,
+        under another name.
+
+    Raises
+    ------
+    OSError
+        If it cannot be put there.
+    OutputError
+        If another program holds the file that is there.
+    """
+    try:
+        replace(aside, path)
+    except PermissionError as error:
+        if not path.is_file():
+            raise
+        other = path
+        if keep:
+            tried = (path.with_name(f"{path.stem}.new{n}{path.suffix}") for n in count(1))
+            other = next(p for p in tried if not os.path.lexists(p))
+            os.replace(aside, other)
+        raise OutputError("io.file-held", path=path, other=other if keep else "") from error
+
+
 def write_text(path: Path, text: str) -> None:
     """Write `text` (UTF-8) to `path`, whole or not at all."""
     with replacing(path) as stream:
         stream.write(text.encode("utf-8"))
-
-
-def usual_rights() -> int:
-    """Rights of a file that is made in the usual way."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask
 
 
 def cannot_write(path: Path, error: OSError) -> OutputError:

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
+from ssilang.system import GUARDED
 from ssilang.system_reasons import system_reason
 
 FORMAT = "ssilang-checkpoint"
@@ -276,8 +277,8 @@ def _write_zip(stream: Any, head: dict[str, Any], arrays: list[NDArray[Any]]) ->
 def _append(path: Path, length: int, arrays: Iterable[NDArray[Any]]) -> int:
     """Write arrays behind the first `length` bytes of a file; its length then."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    flags = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | getattr(os, "O_NOFOLLOW", 0)
-    with os.fdopen(os.open(path, flags, 0o666), "r+b") as stream:
+    handle = os.open(path, os.O_RDWR | os.O_CREAT | GUARDED, 0o666)
+    with os.fdopen(handle, "r+b") as stream:
         stream.truncate(length)
         stream.seek(length)
         for array in arrays:

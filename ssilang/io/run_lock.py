@@ -19,11 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.io.errors import OutputError
-
-try:
-    import fcntl
-except ImportError:  # a system without these locks: runs are told apart by their folders alone
-    fcntl = None  # type: ignore[assignment]
+from ssilang.system import AT_ONCE, GUARDED, POSIX, lock, read_at, write_at
 
 NAME = ".running"
 _PART = re.compile(r"\..+\.[a-z0-9_]{8}\.part")
@@ -47,10 +43,14 @@ class RunLock:
 
     def release(self) -> None:
         """Let another run have the folder."""
+        held = self.is_held()
         with suppress(OSError):
-            if self.is_held():
+            if held:
                 self.path.unlink()
         os.close(self.handle)
+        if held and not POSIX:  # Windows removes no file that is open: not ours, nor the next run's
+            with suppress(OSError):
+                self.path.unlink()
 
 
 def hold(folder: Path) -> RunLock | None:
@@ -61,25 +61,22 @@ def hold(folder: Path) -> RunLock | None:
     OutputError
         If another run holds it.
     """
-    if fcntl is None:
-        return None
     path = folder / NAME
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
     for _ in range(_TRIES):
-        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
         try:
-            handle = os.open(path, flags, 0o666)
+            handle = os.open(path, os.O_RDWR | os.O_CREAT | GUARDED | AT_ONCE, 0o666)
         except OSError:
             return None
         found = RunLock(path, handle)
         try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(handle)
         except BlockingIOError:
             who = _who(handle)
             os.close(handle)
             raise _refused(path, who) from None
-        except OSError:  # a file system without locks
+        except OSError:  # a system or a file system without locks
             os.close(handle)
             return None
         if found.is_held():  # else the run before removed it just now
@@ -88,25 +85,25 @@ def hold(folder: Path) -> RunLock | None:
     return None
 
 
-def _taken(lock: RunLock) -> RunLock:
+def _taken(held: RunLock) -> RunLock:
     """The lock with our name in it; what a killed run has left is removed."""
-    before = _who(lock.handle)
+    before = _who(held.handle)
     if before.get("host", socket.gethostname()) != socket.gethostname():
-        os.close(lock.handle)
-        raise _refused(lock.path, before)
+        os.close(held.handle)
+        raise _refused(held.path, before)
     if before:
-        _remove_parts(lock.path.parent)
+        _remove_parts(held.path.parent)
     text = json.dumps({"pid": os.getpid(), "host": socket.gethostname()}) + "\n"
     with suppress(OSError):  # a full disk: it is held all the same
-        os.ftruncate(lock.handle, 0)
-        os.pwrite(lock.handle, text.encode(), 0)
-    return lock
+        os.ftruncate(held.handle, 0)
+        write_at(held.handle, text.encode(), 0)
+    return held
 
 
 def _who(handle: int) -> dict[str, Any]:
     """Process and host that a lock names; nothing if it names none."""
     try:
-        made = json.loads(os.pread(handle, 1000, 0))
+        made = json.loads(read_at(handle, 1000, 0))
         return {"pid": int(made["pid"]), "host": str(made["host"])}
     except (OSError, ValueError, LookupError, TypeError):
         return {}

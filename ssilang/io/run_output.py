@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import OutputError
+from ssilang.io.file_names import fault_on_windows, names_foreign_drive, portable
 from ssilang.io.plots.figure import Pictures
 from ssilang.io.run_lock import RunLock, hold
+from ssilang.messages.message import Sentence
+from ssilang.system import POSIX
 from ssilang.system_reasons import system_reason
 
 if TYPE_CHECKING:
@@ -93,6 +96,8 @@ class RunOutput:
             For a name that no file can have, or if the output folder is gone.
         """
         path = _place(self.directory, name)
+        if not POSIX and (reason := fault_on_windows(name)):
+            raise OutputError("io.no-such-place", name=_shown(name), reason=reason)
         self.check()
         return path if self._within(path, (self.directory, *self.allowed)) else None
 
@@ -250,8 +255,10 @@ def _place(folder: Path, name: str) -> Path:
         For a name that no file can have: too long, with a sign that names have not, or a link
         that leads to itself.
     """
+    if names_foreign_drive(name):
+        raise OutputError("io.no-such-place", name=_shown(name), reason=Sentence("io.reason-drive"))
     try:
-        path = (folder / name.strip()).resolve()
+        path = (folder / portable(name)).resolve()
         path.exists()
         if os.path.islink(path):  # what resolve leaves is a loop
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))

@@ -90,6 +90,12 @@ MESSAGES: dict[str, Message] = {
         "go to a folder that is there (cd)",
         "allez dans un dossier qui existe (cd)",
     ),
+    "no-bound-on-memory": Message(
+        "this system cannot bound the memory of a process (--max-memory)",
+        "ce système ne peut borner la mémoire d'un processus (--max-memory)",
+        "leave --max-memory out",
+        "ôtez --max-memory",
+    ),
     "kept-folder-refused": Message(
         "others could have put code or words into {folder}: nothing is read from there or kept, "
         "this run makes them anew",

@@ -162,6 +162,14 @@ MESSAGES: dict[str, Message] = {
         "check the directory given by --out, its rights and the space left on the disk",
         "vérifiez le répertoire donné par --out, ses droits et la place qui reste sur le disque",
     ),
+    "file-held": Message(
+        "{path} is held by another program and cannot be replaced{other:?; what was to stand there "
+        "is in {other}}",
+        "{path} est tenu par un autre programme et ne peut être remplacé{other:? ; ce qui devait "
+        "s'y trouver est dans {other}}",
+        "close it there (a spreadsheet, a viewer) and run again",
+        "fermez-le là (un tableur, une visionneuse) et relancez",
+    ),
     "not-readable-pvd-collection": Message(
         "{path} is not a readable .pvd collection: {error}",
         "{path} n'est pas une collection .pvd lisible : {error}",
@@ -233,6 +241,12 @@ MESSAGES: dict[str, Message] = {
     "no-such-place": Message(
         "no file can be called '{name}': {reason}",
         "aucun fichier ne peut s'appeler '{name}' : {reason}",
+    ),
+    "name-stays-here": Message(
+        "'{name}' cannot be the name of a file on Windows: {reason}",
+        "'{name}' ne peut être le nom d'un fichier sous Windows : {reason}",
+        "another name, if the files are to be read there",
+        "un autre nom, si les fichiers doivent y être lus",
     ),
     "series-files-gone": Message(
         "files that the run wrote for the series {path} are gone: {names}",
@@ -501,6 +515,16 @@ MESSAGES: dict[str, Message] = {
     ),
     "reason-there-already": Message("it exists already", "il existe déjà"),
     "reason-name-too-long": Message("the name is too long", "le nom est trop long"),
+    "reason-drive": Message(
+        "it begins with a drive of Windows, which this system has not",
+        "il commence par un lecteur de Windows, que ce système n'a pas",
+    ),
+    "reason-named-device": Message("'{part}' is a device there", "'{part}' y est un périphérique"),
+    "reason-sign": Message("no name has {signs:words} there", "aucun nom n'y a de {signs:words}"),
+    "reason-end": Message(
+        "'{part}' ends in a point or a blank, which are dropped there",
+        "'{part}' finit par un point ou un blanc, qui y sont ôtés",
+    ),
     "reason-links-in-a-ring": Message(
         "its links lead back to themselves", "ses liens ramènent à eux-mêmes"
     ),

@@ -13,7 +13,7 @@ from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.parser import end_of_run, quick_reader
 from ssilang.language.text.printer import same_tree
-from ssilang.language.text.source import Source
+from ssilang.language.text.source import Source, encoding_of
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.late_imports import without_collections
@@ -179,12 +179,8 @@ def _write(source: Source, text: str) -> None:
     path = source.path
     assert path is not None
     data = path.read_bytes()
-    if b"\r\n" in data:
+    encoding = encoding_of(data)
+    if "\r\n" in data.decode(encoding):
         text = text.replace("\n", "\r\n")
-    try:
-        data.decode("utf-8")
-        encoding = "utf-8-sig" if data.startswith(b"\xef\xbb\xbf") else "utf-8"
-    except UnicodeDecodeError:
-        encoding = "latin-1"
     with replacing(path) as stream:
         stream.write(text.encode(encoding))

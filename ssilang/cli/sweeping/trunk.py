@@ -10,12 +10,13 @@ from __future__ import annotations
 import gc
 import os
 from collections.abc import Iterator, Sequence
-from multiprocessing import get_all_start_methods
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import wait
+from typing import Any
 
 from ssilang.cli.sweeping.gathering import run_together
 from ssilang.cli.sweeping.pool import FreshContext, run_here
 from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
+from ssilang.system import CAN_FORK
 
 ROUNDS = 4
 """Runs for each job from which the others may wait for the first one."""
@@ -28,7 +29,7 @@ def run_all(
 
     `together`: see `run_here`.
     """
-    if len(tasks) < ROUNDS * jobs or "fork" not in get_all_start_methods():
+    if len(tasks) < ROUNDS * jobs or not CAN_FORK:
         return run_here(tasks, jobs, work, together=together)
     return run_grown(tasks, jobs, work, together)
 
@@ -61,7 +62,7 @@ def run_grown(
         yield from run_here(rest, jobs, work, together=together)
 
 
-def _received(receiver: Connection, sentinel: int) -> Iterator[Row]:
+def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
     """What the trunk sends, until it says that it is done or is no more."""
     while receiver in wait([receiver, sentinel]):
         try:
@@ -73,7 +74,7 @@ def _received(receiver: Connection, sentinel: int) -> Iterator[Row]:
         yield row
 
 
-def _grow(tasks: list[Task], jobs: int, work: Work, sender: Connection, together: int) -> None:
+def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any, together: int) -> None:
     """The trunk: one run, then the others in forks."""
     try:
         sender.send(run_together(tasks[:1], work)[0])

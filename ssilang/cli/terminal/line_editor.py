@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -52,7 +53,7 @@ def _toolkit(complete: Complete, kept: bool) -> Ask:
 
 def _readline(complete: Complete, kept: bool) -> Ask:
     try:
-        import readline
+        readline: Any = importlib.import_module("readline")
     except ImportError:  # Windows without an emulation
         return input
     readline.set_completer_delims(" \t\n;()=")

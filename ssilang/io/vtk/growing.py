@@ -23,8 +23,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.atomic import cannot_write, usual_rights
+from ssilang.io.atomic import cannot_write, put
+from ssilang.io.errors import OutputError
 from ssilang.io.vtk import hdf5
+from ssilang.system import GUARDED, usual_rights, write_at
 
 _PAGE = 4096
 _COMPRESSED_FROM = 8192  # bytes; an index and filters cost some 3 kB
@@ -83,7 +85,7 @@ class GrowingFile:
         try:
             left = memoryview(data)
             while left:
-                written = os.pwrite(self._handle, left, address)
+                written = write_at(self._handle, left, address)
                 left, address = left[written:], address + written
         except OSError as error:
             raise cannot_write(self.path, error) from error
@@ -101,8 +103,14 @@ class GrowingFile:
             self._root, self._known, self._changes = root, self.end, []
             if self._aside is not None:
                 os.chmod(self._aside, usual_rights())
-                os.replace(self._aside, self.path)
+                os.close(self._handle)  # Windows moves no file that is open
+                try:
+                    put(self._aside, self.path, keep=False)
+                except (OSError, OutputError):
+                    self._handle = os.open(self._aside, os.O_RDWR | GUARDED)
+                    raise
                 self._aside = None
+                self._handle = os.open(self.path, os.O_RDWR | GUARDED)
         except OSError as error:
             raise cannot_write(self.path, error) from error
 

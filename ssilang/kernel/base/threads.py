@@ -14,13 +14,14 @@ from itertools import pairwise
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
+from ssilang.system import after_fork, cores
 
 LEAST = 200_000  # numbers that a thread must have to read before it is worth waking
 
 
 def thread_count() -> int:
     """Processors of the process; OMP_NUM_THREADS limits them, as it does the libraries'."""
-    own = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    own = cores()
     said = os.environ.get("OMP_NUM_THREADS", "").split(",")[0]
     return max(1, min(own, int(said))) if said.isdigit() else own
 
@@ -30,8 +31,7 @@ def _threads(count: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(count, "ssilang")
 
 
-if hasattr(os, "register_at_fork"):  # a forked process has none of these threads
-    os.register_at_fork(after_in_child=_threads.cache_clear)
+after_fork(_threads.cache_clear)  # a forked process has none of these threads
 
 
 def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:

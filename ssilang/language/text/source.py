@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
@@ -25,11 +26,8 @@ class Source:
 
     @classmethod
     def decode(cls, name: str, data: bytes, path: Path | None = None) -> Source:
-        """A source from bytes, UTF-8 or else Latin-1, with any kind of line ends."""
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = data.decode("latin-1")
+        """A source from bytes in any encoding that `encoding_of` knows, with any line ends."""
+        text = data.decode(encoding_of(data))
         return cls(name, text.replace("\r\n", "\n").replace("\r", "\n"), path)
 
     @cached_property
@@ -65,6 +63,17 @@ class Source:
         start = self._line_starts[number - 1]
         end = self.text.find("\n", start)
         return self.text[start:] if end < 0 else self.text[start:end]
+
+
+def encoding_of(data: bytes) -> str:
+    """UTF-16 where its mark stands in front (PowerShell's `>`), UTF-8 or else Latin-1."""
+    kinds = (codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (b"", "utf-8")
+    kind = next(kind for mark, kind in kinds if data.startswith(mark))
+    try:
+        data.decode(kind)
+    except UnicodeDecodeError:
+        return "latin-1"
+    return kind
 
 
 @dataclass(frozen=True, slots=True)

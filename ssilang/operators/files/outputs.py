@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ssilang.io.file_names import fault_on_windows, portable
 from ssilang.io.run_output import RunOutput
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
@@ -42,9 +43,12 @@ def output_path(call: Call, name: str) -> Path:
     SsiError
         'forbidden-path' for a place outside of it that no `--allow` permits.
     """
-    path = run_output(call.session).target(name)
+    output = run_output(call.session)
+    path = output.target(name)
     if path is None:
-        raise _forbidden(call, name, run_output(call.session).directory)
+        raise _forbidden(call, name, output.directory)
+    if path not in output.files and (reason := fault_on_windows(name)):
+        call.warn("io.name-stays-here", name=name.strip(), reason=reason)
     return path
 
 
@@ -81,7 +85,7 @@ def forbidden_path(call: Call, name: str) -> SsiError:
 
 
 def _forbidden(call: Call, name: str, base: Path) -> SsiError:
-    path = (base / name.strip()).resolve()
+    path = (base / portable(name)).resolve()
     return call.error("forbidden-path", name, path=str(path), folder=str(path.parent))
 
 

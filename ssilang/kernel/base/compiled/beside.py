@@ -33,6 +33,7 @@ from typing import IO, TYPE_CHECKING, Any
 from ssilang.kernel.base.compiled import ALLOWED, PLAIN, UNCOMPILED
 from ssilang.kernel.base.compiled.cache import digest
 from ssilang.kernel.base.compiled.kinds import words_of_types
+from ssilang.system import POSIX, cores
 
 if TYPE_CHECKING:
     import subprocess
@@ -47,14 +48,6 @@ KERNEL = "ssilang.kernel."
 
 Task = tuple[str, bytes]
 """Title of a function with its kinds of arguments, and what `task_of` makes of it."""
-
-
-def free_cores() -> int:
-    """Cores that this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on Linux
-        return os.cpu_count() or 1
 
 
 class Beside:
@@ -152,7 +145,7 @@ class Beside:
         if "beside" not in ALLOWED:
             return
         ALLOWED.discard("beside")
-        if PLAIN or UNCOMPILED or os.name != "posix" or free_cores() < 2:
+        if PLAIN or UNCOMPILED or not POSIX or cores() < 2:
             return
         import subprocess  # few runs have anything to compile
         import tempfile

@@ -13,13 +13,11 @@ import math
 import mmap
 import os
 import secrets
-import select
+import selectors
 import shlex
 import shutil
-import signal
 import socket
 import subprocess
-import sys
 import tempfile
 import time
 import weakref
@@ -35,6 +33,7 @@ from ssilang.kernel.base.errors import KernelError, LostSolverError, SingularFac
 from ssilang.kernel.base.memory import fits, gigabytes
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.petsc.server import PROTOCOL, receive, send
+from ssilang.system import end_group, is_of_user, local_socket, shared_memory
 
 SERVER = Path(__file__).with_name("server.py")
 START = 120.0  # seconds until the server must have answered
@@ -286,12 +285,13 @@ class _Line:
 
     def _reply(self) -> dict[str, Any]:
         """The next message; none if the server has ended."""
-        gone, line = False, select.poll()
-        line.register(self.connection, select.POLLIN)
-        while not line.poll(1000):
-            if gone:
-                return {}
-            gone = self.process.poll() is not None
+        gone = False
+        with selectors.DefaultSelector() as line:
+            line.register(self.connection, selectors.EVENT_READ)
+            while not line.select(1.0):
+                if gone:
+                    return {}
+                gone = self.process.poll() is not None
         return receive(self.connection)[0]
 
     def _death(self) -> LostSolverError:
@@ -327,8 +327,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         try:
             process.wait(GRACE)
         except subprocess.TimeoutExpired:
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
+            end_group(process)
             process.wait()
 
 
@@ -336,14 +335,7 @@ def _memory(size: int) -> int:
     """A descriptor of so many bytes of memory without a name, which this user alone may open."""
     if not fits(size):
         raise MemoryError
-    if hasattr(os, "memfd_create"):
-        descriptor = os.memfd_create("ssilang")
-        os.fchmod(descriptor, 0o600)
-    else:  # not on macOS
-        with tempfile.TemporaryFile() as file:
-            descriptor = os.dup(file.fileno())
-    os.ftruncate(descriptor, size)
-    return descriptor
+    return shared_memory(size)
 
 
 def _written(arrays: Arrays) -> tuple[int, list[Any]]:
@@ -368,12 +360,12 @@ def _start(command: str, limit: float) -> tuple[_Line, dict[str, Any]]:
     KernelError
         If it cannot be started, ends, is late, or is no such server.
     """
-    if not hasattr(socket, "AF_UNIX") or not hasattr(socket, "send_fds"):
+    listener = local_socket()
+    if listener is None:
         raise KernelError("kernel.solvers.petsc-system")
     words = _words(command)
     folder = Path(tempfile.mkdtemp(prefix="ssilang-petsc-"))  # its owner's alone
     output = tempfile.TemporaryFile()  # noqa: SIM115  # it lives as long as the line
-    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     process: subprocess.Popen[bytes] | None = None
     try:
         word = secrets.token_hex(32)
@@ -437,7 +429,7 @@ def _met(
             if process.poll() is not None:
                 return None
             continue
-        if not _own(connection):
+        if not is_of_user(connection):
             connection.close()
             continue
         connection.settimeout(max(0.1, deadline - time.monotonic()))
@@ -450,14 +442,6 @@ def _met(
         connection.settimeout(None)
         return connection, greeting
     return None
-
-
-def _own(connection: socket.socket) -> bool:
-    """Whether this user's process is at the other end, as far as the system tells."""
-    if not hasattr(socket, "SO_PEERCRED"):  # not on macOS; the folder keeps others out
-        return True
-    told = connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12)
-    return int.from_bytes(told[4:8], sys.byteorder) == os.getuid()
 
 
 def _not_met(

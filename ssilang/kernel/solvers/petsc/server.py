@@ -45,6 +45,7 @@ MOST_TURNS = 500
 NO_MEMORY = frozenset({-5, -7, -8, -9, -11, -13, -14, -15, -17, -18, -19, -20})  # of MUMPS
 NOT_GIVEN = -13
 SINGULAR = frozenset({-6, -10, -40})
+NOWHERE = "PETSc is not asked on Windows"  # the client says so before
 
 
 class Refused(Exception):
@@ -66,6 +67,8 @@ def connect(folder: str) -> tuple[socket.socket, str]:
     OSError
         If nobody listens: the client has ended. What it left is removed.
     """
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     place, secret = os.path.join(folder, "socket"), os.path.join(folder, "word")
     line = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
@@ -84,6 +87,8 @@ def connect(folder: str) -> tuple[socket.socket, str]:
 
 def receive(line: socket.socket) -> tuple[Message, list[int]]:
     """The next message and the descriptors that came with it; no message if the line ended."""
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     head, descriptors = b"", []
     while len(head) < 4:
         got, new, _, _ = socket.recv_fds(line, 4 - len(head), 4)
@@ -114,6 +119,8 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
     OSError
         If nobody is at the other end, also in programs that let a broken pipe end them (gmsh does).
     """
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     text, quiet = json.dumps(message).encode(), getattr(socket, "MSG_NOSIGNAL", 0)
     whole = struct.pack(">I", len(text)) + text
     # not `send_fds`, which leaves out the flags
@@ -124,6 +131,8 @@ def send(line: socket.socket, message: Message, descriptors: tuple[int, ...] = (
 
 def end_with(line: socket.socket, on: bool) -> None:
     """Let the system end this process, and by it all ranks, when the client ends (SIGIO)."""
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     import fcntl  # the client imports this file, on any system
 
     flags = fcntl.fcntl(line, fcntl.F_GETFL)
@@ -223,6 +232,8 @@ def lines_of(path: str) -> list[str]:
 
 def most_bytes() -> float:
     """The most memory that this process has held."""
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     import resource
 
     unit = 1 if sys.platform == "darwin" else 1024
@@ -507,6 +518,8 @@ def serve(desk: Desk | None, ranks: Ranks, factors: Factors) -> None:
 
 def main(folder: str) -> None:
     """Greet the client and serve it; whatever fails on one rank ends all."""
+    if sys.platform == "win32":
+        raise OSError(NOWHERE)
     import resource
 
     from mpi4py import MPI

@@ -183,7 +183,7 @@ from ssilang.kernel.base import compiled
 from ssilang.kernel.base.compiled import beside
 import program
 
-beside.free_cores = lambda: 2
+beside.cores = lambda: 2
 compiled.ALLOWED.add("beside")
 task = "program", "half", "float64"
 beside.BESIDE.tell(beside.title(*task), beside.task_of(*task, (types.float64,)))

@@ -168,7 +168,7 @@ def test_socket_and_word_are_for_this_user_alone(fake):
 
 
 def test_another_user_is_not_heard(fake, monkeypatch):
-    monkeypatch.setattr(client, "_own", lambda connection: False)
+    monkeypatch.setattr(client, "is_of_user", lambda connection: False)
     assert refusal(fake("greets"), limit=1.0)[0] in ("petsc-late", "petsc-ended-at-start")
 
 

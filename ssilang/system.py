@@ -1,0 +1,207 @@
+"""What systems do each in their own way: the only module that names what POSIX alone has.
+
+Where a name is missing its substitute stands beside it: Windows' locks for `flock`, a seek and a
+write for `pwrite`. Modules and functions that a system may lack are looked up when this module is
+loaded, so that a type checker accepts them for every system.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import socket
+    import subprocess
+
+
+def _module(name: str) -> Any:
+    """A module of the standard library; None where the system has none of that name."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        return None
+
+
+_os: Any = os
+
+POSIX = hasattr(os, "geteuid")
+"""Whether files have owners and rights."""
+GUARDED = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+"""For `os.open`: no link is followed, no other program gets the file, bytes stay as they are."""
+AT_ONCE: int = getattr(os, "O_NONBLOCK", 0)
+"""For `os.open`: a pipe that nobody reads is not waited for."""
+ENDS = tuple(
+    getattr(signal, n) for n in ("SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, n)
+)  # fmt: skip
+"""Signals by which others let a process end: told to, its terminal gone, its window closed."""
+CAN_FORK = hasattr(os, "fork") and sys.platform != "darwin"
+"""Whether a process can go on as two; libraries of macOS do not bear it."""
+
+_LOCKED_BYTE = 1 << 30  # far behind what a lock's file holds: Windows lets nobody read it
+_PATIENCE, _LOOK = 2.0, 0.05  # s that a file may be held by another program; between two tries
+
+
+def user_number() -> int:
+    """Number of the user as whom the process runs (0 where the system has none)."""
+    return int(_os.geteuid()) if POSIX else 0
+
+
+def cores() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(_os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def after_fork(function: Callable[[], object]) -> None:
+    """Call a function in each process that begins with the memory of this one."""
+    if hasattr(os, "register_at_fork"):
+        _os.register_at_fork(after_in_child=function)
+
+
+# ---- files ---------------------------------------------------------------------------------------
+
+
+def lock(handle: int) -> None:
+    """Lock an open file for this process, until it is closed or the process ends.
+
+    Raises
+    ------
+    BlockingIOError
+        If another process has locked it.
+    OSError
+        If files cannot be locked there.
+    """
+    fcntl, msvcrt = _module("fcntl"), _module("msvcrt")
+    if fcntl is not None:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return
+    if msvcrt is None:
+        raise OSError("no locks")
+    os.lseek(handle, _LOCKED_BYTE, os.SEEK_SET)
+    try:
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+    except PermissionError as error:
+        raise BlockingIOError(*error.args) from error
+
+
+def write_at(handle: int, data: bytes | memoryview, address: int) -> int:
+    """Write bytes at a place of an open file; how many were written."""
+    if hasattr(os, "pwrite"):
+        return int(_os.pwrite(handle, data, address))
+    os.lseek(handle, address, os.SEEK_SET)
+    return os.write(handle, data)
+
+
+def read_at(handle: int, count: int, address: int) -> bytes:
+    """Read at most so many bytes at a place of an open file."""
+    if hasattr(os, "pread"):
+        return bytes(_os.pread(handle, count, address))
+    os.lseek(handle, address, os.SEEK_SET)
+    return os.read(handle, count)
+
+
+def replace(made: Path, path: Path) -> None:
+    """Put a file in the place of another, which may be held for a short time by another program.
+
+    Windows replaces no file that is open: a scanner, a search, a table in a spreadsheet.
+
+    Raises
+    ------
+    OSError
+        If it cannot be done; PermissionError where the file is held for longer.
+    """
+    limit = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            os.replace(made, path)
+        except PermissionError:
+            if time.monotonic() > limit or not path.is_file():
+                raise
+            time.sleep(_LOOK)
+        else:
+            return
+
+
+def usual_rights() -> int:
+    """Rights of a file that is made in the usual way."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return 0o666 & ~mask
+
+
+# ---- memory --------------------------------------------------------------------------------------
+
+
+def limit_memory(n_bytes: int) -> bool:
+    """Let the process hold at most so much; whether the system can."""
+    resource = _module("resource")
+    if resource is None:
+        return False
+    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    try:
+        resource.setrlimit(resource.RLIMIT_DATA, (n_bytes, hard))
+    except (OSError, ValueError):  # macOS refuses some
+        return False
+    return True
+
+
+def peak_memory() -> float | None:
+    """The most bytes that this process has held; None where the system does not tell."""
+    resource = _module("resource")
+    if resource is None:
+        return None
+    unit = 1 if sys.platform == "darwin" else 1024
+    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
+
+
+def shared_memory(size: int) -> int:
+    """A descriptor of so many bytes of memory without a name, which this user alone may open."""
+    if hasattr(os, "memfd_create"):
+        descriptor = int(_os.memfd_create("ssilang"))
+        _os.fchmod(descriptor, 0o600)
+    else:  # not on macOS
+        import tempfile
+
+        with tempfile.TemporaryFile() as file:
+            descriptor = os.dup(file.fileno())
+    os.ftruncate(descriptor, size)
+    return descriptor
+
+
+# ---- processes of this machine -------------------------------------------------------------------
+
+
+def local_socket() -> socket.socket | None:
+    """A socket by which processes of this machine hand each other open files, if it has such."""
+    net = _module("socket")
+    if not hasattr(net, "AF_UNIX") or not hasattr(net, "send_fds"):
+        return None
+    made: socket.socket = net.socket(net.AF_UNIX, net.SOCK_STREAM)
+    return made
+
+
+def is_of_user(connection: socket.socket) -> bool:
+    """Whether this user's process is at the other end, as far as the system tells."""
+    net = _module("socket")
+    if not hasattr(net, "SO_PEERCRED"):  # not on macOS; the folder keeps others out
+        return True
+    told = connection.getsockopt(net.SOL_SOCKET, net.SO_PEERCRED, 12)
+    return int.from_bytes(told[4:8], sys.byteorder) == user_number()
+
+
+def end_group(process: subprocess.Popen[bytes]) -> None:
+    """End a process that was started in a session of its own, and those that it started."""
+    if hasattr(os, "killpg"):
+        with suppress(ProcessLookupError):
+            _os.killpg(process.pid, signal.Signals["SIGKILL"])
+    else:
+        process.kill()

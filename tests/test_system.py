@@ -1,0 +1,435 @@
+"""Other systems: their types, and the program without what POSIX alone has.
+
+A child process gets a Python from which these names are gone, and in which a file that is open can
+be neither replaced nor removed, as on Windows. Windows' own locks are played by those of POSIX.
+"""
+
+from __future__ import annotations
+
+import ast
+import csv
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from functools import cache
+from pathlib import Path
+
+import mypy
+import pytest
+
+import ssilang
+from ssilang import system
+from ssilang.io import atomic
+from ssilang.io.errors import OutputError
+from ssilang.io.file_names import fault_on_windows
+from ssilang.io.run_output import RunOutput
+from ssilang.io.vtk.growing import GrowingFile
+from ssilang.messages.message import sentence
+
+_ROOT = Path(ssilang.__file__).parent
+_FREE = {
+    _ROOT / "system.py",
+    _ROOT / "kernel" / "solvers" / "petsc" / "server.py",  # runs alone, on clusters' own Python
+    _ROOT / "io" / "mesh_files" / "gmsh_alone.py",  # runs alone, holds itself by Linux's means
+}
+MODULES = frozenset(["fcntl", "grp", "pty", "pwd", "resource", "termios", "tty", "posix", "syslog"])
+NAMES = frozenset(
+    """
+    fork forkpty killpg pread pwrite getuid geteuid getgid getegid getpgid setpgid setsid
+    setuid sched_getaffinity sched_setaffinity register_at_fork memfd_create fchmod fchown
+    chown mkfifo openpty posix_fallocate sendfile getloadavg getrusage getrlimit setrlimit
+    sysconf statvfs O_NOFOLLOW O_CLOEXEC O_NONBLOCK O_ASYNC O_DIRECTORY AF_UNIX SCM_RIGHTS
+    SO_PEERCRED send_fds recv_fds sendmsg recvmsg SIGHUP SIGKILL SIGIO SIGALRM SIGUSR1 SIGUSR2
+    SIGPIPE SIGQUIT SIGCHLD setitimer alarm PROT_READ MAP_SHARED MAP_PRIVATE
+    """.split()  # noqa: SIM905  # a list would take a screen
+)
+
+
+def used(path: Path) -> set[str]:
+    """The names of POSIX alone that a module uses."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Attribute):
+            found.add(node.attr)
+        elif isinstance(node, ast.ImportFrom):
+            found |= {node.module or "", *(alias.name for alias in node.names)} - {""}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("getattr", "hasattr"):
+            found |= {a.value for a in node.args if isinstance(a, ast.Constant)}
+    return found & (MODULES - {"resource"} | NAMES) | _resource(path)
+
+
+def _resource(path: Path) -> set[str]:
+    """The module of that name: a function of ours is called so, too."""
+    said = re.search(r"^\s*import resource\b", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return {"resource"} if said else set()
+
+
+def test_what_posix_alone_has_stands_in_one_module() -> None:
+    found = {p: used(p) for p in _ROOT.rglob("*.py") if p not in _FREE}
+    assert not {str(p): names for p, names in found.items() if names}
+    assert {"geteuid", "sched_getaffinity", "memfd_create", "O_NOFOLLOW"} <= used(
+        _ROOT / "system.py"
+    )
+
+
+@cache
+def dependent_modules() -> frozenset[str]:
+    """Modules of the standard library whose types are not the same on all systems."""
+    stubs = Path(mypy.__file__).parent / "typeshed" / "stdlib"
+    return frozenset(
+        p.relative_to(stubs).parts[0].removesuffix(".pyi")
+        for p in stubs.rglob("*.pyi")
+        if "sys.platform" in p.read_text(encoding="utf-8")
+    )
+
+
+def imported(path: Path) -> set[str]:
+    """The first parts of what a module imports."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {a.name.partition(".")[0] for a in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            found.add((node.module or "").partition(".")[0])
+    return found
+
+
+def type_errors(platform: str, bad: Path) -> list[str]:
+    """What mypy finds on a system in modules that use what differs, each by itself alone."""
+    files = [str(p) for p in sorted(_ROOT.rglob("*.py")) if imported(p) & dependent_modules()]
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--config-file", os.devnull, "--platform", platform,
+         "--follow-imports", "skip", "--ignore-missing-imports", "--check-untyped-defs",
+         "--python-version", "3.11", "--cache-dir", os.devnull, "--no-error-summary",
+         *files, str(bad)],
+        cwd=_ROOT.parent, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode in (0, 1), done.stderr
+    return [line for line in done.stdout.splitlines() if ": error:" in line]
+
+
+@pytest.fixture(scope="module")
+def bad(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A module that has a fault on other systems."""
+    path = tmp_path_factory.mktemp("types") / "bad.py"
+    path.write_text("import os\nos.sched_getaffinity(0)\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def here(bad: Path) -> list[str]:
+    """What is found on Linux: what another module says is not known, so that some is."""
+    return type_errors("linux", bad)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("platform", ["win32", "darwin"])
+def test_types_hold_on_other_systems(platform: str, bad: Path, here: list[str]) -> None:
+    """A whole look at the types takes ten times as long; machines of other systems have it."""
+    found = [e for e in type_errors(platform, bad) if e not in here]
+    assert len(found) == 1, "\n".join(found)
+    assert f"{bad}:2" in found[0]
+
+
+# ---- the program without these names ------------------------------------------------------------
+
+_AWAY = f"""
+import os, signal, socket, sys
+import fcntl, types
+
+locks = types.ModuleType("msvcrt")
+locks.LK_NBLCK = 2
+def locking(handle, mode, count, lockf=fcntl.lockf, flags=fcntl.LOCK_EX | fcntl.LOCK_NB):
+    try:
+        lockf(handle, flags, count, os.lseek(handle, 0, os.SEEK_CUR))
+    except BlockingIOError as error:
+        raise PermissionError(13, "Permission denied") from error
+locks.locking = locking
+for name in {sorted(MODULES - {"posix"})}:
+    sys.modules[name] = None
+for name in {sorted(NAMES)}:
+    for module in (os, signal, socket):
+        if hasattr(module, name):
+            delattr(module, name)
+
+def is_open(path):
+    try:
+        there = os.stat(path)
+    except OSError:
+        return False
+    for number in os.listdir("/proc/self/fd"):
+        try:
+            if os.path.samestat(os.stat("/proc/self/fd/" + number), there):
+                return True
+        except OSError:
+            pass
+    return False
+
+def shut(name, count):
+    own = getattr(os, name)
+    def refusing(*paths, **more):
+        for path in paths[:count]:
+            if is_open(path):
+                raise PermissionError(13, "The process cannot access the file", str(path))
+        return own(*paths, **more)
+    setattr(os, name, refusing)
+for name, count in (("replace", 2), ("rename", 2), ("unlink", 1), ("remove", 1)):
+    shut(name, count)
+import ssilang.system
+sys.modules["msvcrt"] = locks  # not before: subprocess would take the system for Windows
+"""
+
+
+@pytest.fixture(scope="module")
+def bare(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The environment of a Python without the names of POSIX."""
+    folder = tmp_path_factory.mktemp("bare")
+    (folder / "sitecustomize.py").write_text("import subprocess\n" + _AWAY)
+    paths = os.pathsep.join([str(folder), str(_ROOT.parent)])
+    return os.environ | {"PYTHONPATH": paths}
+
+
+def started(bare: dict[str, str], folder: Path, *arguments: str) -> subprocess.Popen[str]:
+    """The program on its way in such a Python."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "ssilang.cli.main", *arguments],
+        cwd=folder, env=bare, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+
+
+def ran(bare: dict[str, str], folder: Path, *arguments: str, code: int = 0) -> str:
+    """What the program tells there."""
+    process = started(bare, folder, *arguments)
+    out, err = process.communicate(timeout=240)
+    assert process.returncode == code, out + err
+    assert "Traceback" not in out + err
+    return out + err
+
+
+MODEL = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ; LIN1 = PROG 0. PAS 1.E-3 {end} ;
+PS = 0. -1. ; PM = 0. 0. ; JOI = MANU 'SEG2' PS PM ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+T . 'RIGI' = (BLOQ 'UX' 'UY' PS) ET (BLOQ 'UX' PM) ; T . 'MASS' = MASS 'DEPL' 1.E3 PM ;
+T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E7 'KS' 0. ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E4) PM)) ET
+  (CHAR 'MECA' (FORC (0. 3.E4) PM) (EVOL 'MANU' LIN1 (SIN (LIN1 * 500.)))) ;
+T . 'TEMPS_CALCULES' = LIN1 ; T . 'PAS_SAUVES' = {every} ;
+T . 'PAS_SAUVES_VTK' = {every} ; T . 'MAILLAGE_VTK' = JOI ;
+T . 'PAS_SAUVES_CSV' = 1 ; T . 'MAILLAGE_CSV' = PM ;
+T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = {steps} ;
+T2 = DYNAMIC T ;
+"""
+SHORT = MODEL.format(end=0.1, every=1, steps=20)
+LONG = MODEL.format(end=40.0, every=400, steps=200)
+
+
+def state(folder: Path) -> dict[str, bytes]:
+    """Results that do not name the time or place of a run."""
+    found = {p.name: p.read_bytes() for p in folder.iterdir() if p.suffix in (".csv", ".vtkhdf")}
+    assert {Path(n).suffix for n in found} == {".csv", ".vtkhdf"}
+    return found
+
+
+def test_steps_and_series_are_the_same_without_posix(bare: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "case.ssi").write_text(SHORT)
+    ran(bare, tmp_path, "case.ssi")
+    ran(dict(os.environ), tmp_path, "case.ssi", "--out", "truth")
+    there = tmp_path / "results" / "case"
+    assert state(there) == state(tmp_path / "truth")
+    assert sorted(p.name for p in there.iterdir()) == sorted(
+        p.name for p in (tmp_path / "truth").iterdir()
+    )
+    assert '"peak_memory_mb": null' in (there / "summary.json").read_text()
+
+
+def test_a_killed_run_goes_on_without_posix(bare: dict[str, str], tmp_path: Path) -> None:
+    """And its folder is held as long as it lives, and let go of when it is killed."""
+    (tmp_path / "case.ssi").write_text(LONG)
+    process = started(bare, tmp_path, "case.ssi")
+    there = tmp_path / "results" / "case"
+    limit = time.monotonic() + 240
+    while not (there / "checkpoints" / "1.state").exists() and time.monotonic() < limit:
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.005)
+    process.send_signal(signal.SIGSTOP)
+    told = ran(bare, tmp_path, "case.ssi", code=1)
+    assert "another run" in told
+    assert str(process.pid) in told
+    process.kill()
+    process.communicate()
+    assert (there / ".running").exists()
+    assert "goes on behind step" in ran(bare, tmp_path, "case.ssi", "--resume")
+    assert not (there / ".running").exists()
+    ran(dict(os.environ), tmp_path, "case.ssi", "--out", "truth")
+    assert state(there) == state(tmp_path / "truth")
+
+
+def test_a_sweep_needs_no_forks(bare: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "case.ssi").write_text(
+        "AG = 0.3 ; T = TABL ; @VERIFIE T 'square' (AG * AG) 0. 100. ;"
+    )
+    values = ",".join(f"{n}.5" for n in range(9))  # enough that forks would be made
+    ran(bare, tmp_path, "sweep", "case.ssi", "--set", f"AG={values}", "--jobs", "2")
+    table = next((tmp_path / "results").rglob("*.csv"))
+    rows = list(csv.DictReader(table.open(newline="", encoding="utf-8"), delimiter=";"))
+    assert [float(r["square"]) for r in rows] == [(n + 0.5) ** 2 for n in range(9)]
+
+
+def test_a_bound_on_memory_that_cannot_be_is_refused(bare: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "case.ssi").write_text("X = 1 ;")
+    told = ran(bare, tmp_path, "case.ssi", "--max-memory", "500", code=2)
+    assert "leave --max-memory out" in told
+
+
+@pytest.mark.parametrize("page", ["cp1252", "cp437", "ascii"])
+def test_any_console_takes_what_is_printed(page: str, tmp_path: Path) -> None:
+    (tmp_path / "case.ssi").write_text(
+        "MESS 'déplacement µ² → ≤ œ' ; X = 'été' + 1 ;", encoding="utf-8"
+    )
+    env = os.environ | {"PYTHONIOENCODING": page, "PYTHONUTF8": "0"}
+    for words, code in (
+        (["case.ssi", "--lang", "fr"], 1),
+        (["help", "KN", "--lang", "fr"], 0),
+        (["help", "DYNAMIC", "--lang", "fr"], 0),
+        (["check", "case.ssi"], 1),
+    ):
+        done = subprocess.run(
+            [sys.executable, "-m", "ssilang.cli.main", *words],
+            cwd=tmp_path, env=env, capture_output=True, check=False,
+        )  # fmt: skip
+        told = (done.stdout + done.stderr).decode(page)
+        assert done.returncode == code, told
+        assert "Error" not in told
+        if words[0] == "case.ssi":
+            assert ("déplacement µ²" in told) == (page != "ascii")
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        "\ufeffMESS 'été' ;\r\nMESS 'fin' ;\r\n".encode(),
+        "MESS 'été' ;\r\nMESS 'fin' ;".encode("latin-1"),
+        "MESS 'été' ;\r\nMESS 'fin' ;\r\n".encode("utf-16"),
+    ],
+    ids=["mark and CRLF", "latin-1", "PowerShell's"],
+)
+def test_scripts_of_other_editors_are_read(data: bytes, tmp_path: Path) -> None:
+    from ssilang.cli.main import main
+    from ssilang.cli.run import RunOptions, run_file
+
+    (tmp_path / "case.ssi").write_bytes(data)
+    result = run_file(tmp_path / "case.ssi", RunOptions(output_directory=tmp_path / "out"))
+    assert (result.exit_code, result.output) == (0, "été\nfin\n")
+    assert main(["format", str(tmp_path / "case.ssi")]) == 0
+    assert (tmp_path / "case.ssi").read_bytes().rstrip(b"\r\n\0") == data.rstrip(b"\r\n\0")
+
+
+# ---- names of files and files that others hold ---------------------------------------------------
+
+STRANGE = {
+    "AUX": "device", "nul.txt": "device", "a/Com1.csv": "device", "lpt9": "device",
+    "con .x": "device", "a:b": "sign", "a<b": "sign", "x|y?.csv": "sign", "*": "sign",
+    'a"b': "sign", "end.": "end", "a /b": "end", "a./b.csv": "end",
+}  # fmt: skip
+PLAIN = ("a", "auxiliary.csv", "com.csv", "com10", "x.aux", "../a", "./b", "fort.8", "a b", "é²")
+
+
+def test_names_that_windows_refuses_are_told() -> None:
+    found = {name: fault_on_windows(name) for name in (*STRANGE, *PLAIN)}
+    kinds = {n: s.code.rpartition("-")[2] for n, s in found.items() if s is not None}
+    assert kinds == STRANGE
+
+
+@pytest.mark.parametrize("name", STRANGE)
+def test_windows_writes_no_such_file(name: str, tmp_path: Path, monkeypatch) -> None:
+    output = RunOutput(tmp_path / "out", tmp_path)
+    assert output.target(name) is not None
+    monkeypatch.setattr("ssilang.io.run_output.POSIX", False)
+    with pytest.raises(OutputError, match="no file can be called"):
+        output.target(name)
+
+
+def test_a_name_that_stays_here_is_told_once(tmp_path: Path) -> None:
+    from ssilang.cli.run import run_text
+
+    script = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; OPTI SORT '{}' ; SORT 'VTK' L ;"
+    for name, count in (("a:b", 1), ("plain", 0)):
+        result = run_text(script.format(name), output_directory=tmp_path)
+        codes = [w.code for w in result.session.warnings]
+        assert codes == ["io.name-stays-here"] * count
+
+
+def test_a_drive_is_a_place_on_windows_alone(tmp_path: Path, monkeypatch) -> None:
+    output = RunOutput(tmp_path / "out", tmp_path)
+    for ask in (output.target, output.source):
+        for name in (r"C:\x\y.vtu", "c:/x/y.vtu"):
+            with pytest.raises(OutputError) as refused:
+                ask(name)
+            assert "a drive of Windows" in sentence(refused.value.code, refused.value.data)
+    monkeypatch.setattr("ssilang.io.file_names.POSIX", False)
+    output.target("c:/x/y.vtu")
+
+
+def test_backslashes_part_folders(tmp_path: Path) -> None:
+    output = RunOutput(tmp_path / "out", tmp_path)
+    assert output.target(r"a\b.csv") == tmp_path / "out" / "a" / "b.csv"
+    assert output.source(r".\a\b.csv") == tmp_path / "a" / "b.csv"
+    assert output.target(r"..\b.csv") is None  # they lead nowhere else, either
+
+
+@pytest.fixture
+def held(monkeypatch: pytest.MonkeyPatch):
+    """A function that lets a file be held for so many tries to replace it."""
+    own, left = os.replace, dict[Path, int]()
+
+    def replace(made: Path, path: Path) -> None:
+        if left.get(path, 0) > 0:
+            left[path] -= 1
+            raise PermissionError(13, "in use", str(path))
+        own(made, path)
+
+    monkeypatch.setattr(os, "replace", replace)
+    monkeypatch.setattr(system, "_PATIENCE", 0.2)
+    return left.update
+
+
+def test_a_file_that_is_held_for_a_short_time_is_replaced(held, tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("old")
+    held({path: 2})
+    atomic.write_text(path, "new")
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_cannot_replace_a_file_is_kept_under_another_name(held, tmp_path: Path) -> None:
+    path, taken = tmp_path / "x.csv", tmp_path / "x.new1.csv"
+    path.write_text("old")
+    taken.write_text("mine")
+    held({path: 10**9})
+    with pytest.raises(OutputError) as refused:
+        atomic.write_text(path, "new")
+    assert (path.read_text(), taken.read_text()) == ("old", "mine")
+    assert (tmp_path / "x.new2.csv").read_text() == "new"
+    told = sentence(refused.value.code, refused.value.data)
+    assert "is held by another program" in told
+    assert "x.new2.csv" in told
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_a_growing_series_that_is_held_leaves_nothing(held, tmp_path: Path) -> None:
+    path = tmp_path / "x.vtkhdf"
+    path.write_text("old")
+    held({path: 10**9})
+    file = GrowingFile(path)
+    for _ in range(2):  # the calculation may be told to try again
+        with pytest.raises(OutputError, match="held by another program"):
+            file.commit(file.add(b"root"))
+    file.close()
+    assert [p.read_text() for p in tmp_path.iterdir()] == ["old"]
