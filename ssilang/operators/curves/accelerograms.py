@@ -16,7 +16,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE, Range
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
 
 _KINDS = ("DEPL", "VITE", "ACCE")
@@ -223,7 +223,8 @@ PERIODS = opt(
     arg(
         "dampings",
         "LISTREEL",
-        range=Range(0.0, 1.0, open_high=True),
+        range=NOT_NEGATIVE,
+        usual=Range(0.0, 1.0, open_high=True),
         en="dampings",
         fr="amortissements",
     ),

@@ -8,7 +8,7 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE, Range
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
 
 
 @operator(
@@ -24,7 +24,8 @@ from ssilang.language.vocabulary.terms import POSITIVE, Range
     arg(
         "dampings",
         "LISTREEL",
-        range=Range(0.0, 1.0, open_high=True),
+        range=NOT_NEGATIVE,
+        usual=Range(0.0, 1.0, open_high=True),
         en="their dampings",
         fr="leurs amortissements",
     ),
@@ -40,7 +41,8 @@ from ssilang.language.vocabulary.terms import POSITIVE, Range
     arg(
         "damping",
         "FLOTTANT",
-        range=Range(0.0, 1.0, open_high=True),
+        range=NOT_NEGATIVE,
+        usual=Range(0.0, 1.0, open_high=True),
         en="its damping",
         fr="son amortissement",
     ),

@@ -9,7 +9,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Help, arg, flag, key, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import Range
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, Range
 
 _LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
@@ -76,7 +76,7 @@ operator(
     key(
         "dampings",
         "AMOR",
-        arg("dampings", "LISTREEL", range=Range(0.0, 1.0, open_high=True)),
+        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=Range(0.0, 1.0, open_high=True)),
         optional=False,
         en="dampings",
         fr="amortissements",

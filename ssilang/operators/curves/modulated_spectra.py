@@ -34,7 +34,8 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
     opt(
         "damping",
         "FLOTTANT",
-        range=Range(0.0, 1.0, open_high=True),
+        range=NOT_NEGATIVE,
+        usual=Range(0.0, 1.0, open_high=True),
         default=0.05,
         en="damping, 0.05 without it",
         fr="amortissement, 0,05 sans lui",

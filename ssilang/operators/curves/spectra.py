@@ -14,7 +14,7 @@ from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 
 _TIMES = key(
@@ -92,7 +92,7 @@ def osci(
     key(
         "dampings",
         "AMOR",
-        arg("xi", "LISTREEL", "FLOTTANT", range=Range(0.0, 1.0, open_high=True)),
+        arg("xi", "LISTREEL", "FLOTTANT", range=NOT_NEGATIVE),
         optional=False,
         en="damping ratios",
         fr="amortissements réduits",

@@ -52,7 +52,8 @@ def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:
     array, said = given.get("FROT", (np.empty(0), None))
     wrong = array[(array < 0.0) & (array != -1.0)] if array.dtype == float else array[:0]
     if wrong.size:
-        warning = call.error("operators.models.friction-negative", said, name="FROT", value=wrong[0])
+        told = {"name": "FROT", "value": float(wrong[0])}
+        warning = call.error("operators.models.friction-negative", said, **told)
         warning.warns = True
         call.session.report(warning)
 
