@@ -272,7 +272,7 @@ def arithmetic() -> dict[str, str]:
 
     found = {"numpy": np.__version__, "scipy": scipy.__version__}
     for library in (np, scipy):
-        kernels, threads = blas(Path(library.__file__).parent)
+        kernels, threads = blas(Path(str(library.__file__)).parent)
         found |= {f"BLAS of {library.__name__}": kernels, "threads": str(threads)}
     return found | {"processor": processor().split()[1]}
 
