@@ -9,7 +9,13 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ctypes import CDLL
 
 _VARIABLES = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _SETTERS = (
@@ -33,14 +39,32 @@ def one_blas_thread() -> None:
 
 def _tell_loaded(package: Path) -> None:
     """Set the threads of the OpenBLAS that came with a package already imported."""
+    for library in _openblas(package):
+        if setter := _first_of(library, _SETTERS):
+            setter(1)
+
+
+def blas(package: Path) -> tuple[str, int]:
+    """Kernels and threads of the OpenBLAS that came with a package; ('', 0): it has none."""
     import ctypes
+
+    for library in _openblas(package):
+        core = _first_of(library, [s.replace("set_num_threads", "get_corename") for s in _SETTERS])
+        count = _first_of(library, [s.replace("set_num", "get_num") for s in _SETTERS])
+        if core and count:
+            core.restype = ctypes.c_char_p
+            return core().decode(), count()
+    return "", 0
+
+
+def _openblas(package: Path) -> Iterator[CDLL]:
+    from ctypes import CDLL
 
     folders = (package.parent / f"{package.name}.libs", package / ".dylibs")
     for path in (p for folder in folders for p in folder.glob("*openblas*")):
-        try:
-            library = ctypes.CDLL(str(path))
-        except OSError:
-            continue
-        setter = next((s for s in _SETTERS if hasattr(library, s)), None)
-        if setter is not None:
-            getattr(library, setter)(1)
+        with suppress(OSError):
+            yield CDLL(str(path))
+
+
+def _first_of(library: CDLL, names: Iterable[str]) -> Any:
+    return next((getattr(library, name) for name in names if hasattr(library, name)), None)

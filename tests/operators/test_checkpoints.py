@@ -9,6 +9,7 @@ import pytest
 import ssilang.operators.files.saving  # how tables are encoded
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.io.archive import Encoder
+from ssilang.operators.dynamics import checkpoints
 from ssilang.operators.dynamics.checkpoints import KeptCalculation
 from tests.operators.test_friction import BLOCK
 from tests.operators.test_pasapas_stages import LAYERS, PLASTIC
@@ -144,3 +145,28 @@ def test_decks_that_were_ended_go_on_to_the_same_results(name, tmp_path, ended):
         assert codes.count("operators.dynamics.resumed") == 1
         assert codes.count("operators.dynamics.given") == calls - 1
         assert_same(content(again, folder), whole)
+
+
+@pytest.mark.parametrize("elsewhere", [True, False])
+def test_another_machine_goes_on_and_says_what_is_another(tmp_path, ended, monkeypatch, elsewhere):
+    ended(1, 8, KeyboardInterrupt)
+    assert run_text(DECKS["bodies that rock"], tmp_path).exit_code == 1
+    ended(0, 0, None)
+    if elsewhere:
+        own = checkpoints.arithmetic()
+        monkeypatch.setattr(checkpoints, "arithmetic", lambda: own | {"processor": "another"})
+    # its rounding leaves other numbers in the matrices
+    monkeypatch.setattr("ssilang.kernel.stepping.problem.digest.digest_of", lambda problem: "other")
+    again = run_text(DECKS["bodies that rock"], options=RunOptions(tmp_path, resume=True))
+    told = [w for w in again.session.warnings if w.code == "operators.dynamics.resumed-elsewhere"]
+    assert again.exit_code == (0 if elsewhere else 1)
+    assert ["processor=another" in str(w) for w in told] == [True] * elsewhere
+
+
+def test_what_bits_depend_on_has_kernels_and_threads():
+    found = checkpoints.arithmetic()
+    assert found["processor"]
+    assert found["threads"].isdigit()
+    if next(Path(np.__file__).parent.parent.glob("numpy.libs/*openblas*"), None):
+        assert found["BLAS of numpy"]
+        assert int(found["threads"]) >= 1

@@ -211,6 +211,13 @@ MESSAGES: dict[str, Message] = {
         "continue après le pas {step} sur {steps}, t = {time:g}, où un calcul précédent a fini",
         severity="warning",
     ),
+    "resumed-elsewhere": Message(
+        "the steps kept were calculated with {before}, what follows is with {now}: its last digits "
+        "are not those of an undisturbed run",
+        "les pas gardés ont été calculés avec {before}, la suite l'est avec {now} : ses derniers "
+        "chiffres ne sont pas ceux d'un calcul sans interruption",
+        severity="warning",
+    ),
     "given": Message(
         "was done by an earlier run: its {steps} {steps:step|steps} are given back as they were",
         "a été fait par un calcul précédent : {steps:son pas est rendu tel quel|ses {steps} pas "

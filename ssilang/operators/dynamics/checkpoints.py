@@ -10,6 +10,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -20,6 +22,7 @@ from ssilang.language.values import Table
 from ssilang.messages.message import Sentence
 from ssilang.operators.files.outputs import digests_of_read, run_output
 from ssilang.operators.tables.entries import Entries
+from ssilang.threads import blas
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Checkpoints, Rows
@@ -150,6 +153,8 @@ class KeptCalculation:
 
     def last(self) -> State | None:
         """What an earlier run kept; the observers get what they had."""
+        from ssilang.io.checkpoint import changed_names
+
         kept = self.checkpoints.read(self.number)
         if kept is None:
             return None
@@ -168,6 +173,13 @@ class KeptCalculation:
         at = self.problem.times[self._written]
         code = "operators.dynamics.resumed" if self._written < steps else "operators.dynamics.given"
         self.entries.warn(code, step=self._written, steps=steps, time=at)
+        before, now = kept.call["arithmetic"], self._call()["arithmetic"]
+        if changed := changed_names(before, now):
+            told = {"before": before, "now": now}
+            self.entries.warn(
+                "operators.dynamics.resumed-elsewhere",
+                **{key: [f"{n}={d.get(n, '')}" for n in changed] for key, d in told.items()},
+            )
         state: State = kept.state["own"]
         return state | {"energies": energies}
 
@@ -215,11 +227,14 @@ class KeptCalculation:
         from ssilang.kernel.stepping.keeping import leaves
         from ssilang.kernel.stepping.problem.digest import digest_of
 
-        self._known = self._known or digest_of(self.problem)
+        p = self.problem
+        self._known = self._known or digest_of(p)
         bodies = [] if self.bodies is None else [str(np.shape(x)) for x in leaves(self.bodies[1])]
         return {
             "procedure": self.entries.procedure,
             "problem": self._known,
+            "sizes": [len(x) for x in (p.numbering.nodes, p.state, p.times)],
+            "arithmetic": arithmetic(),
             "bodies": bodies,
             "report": run_output(self.session).recording is not None,
             "files": digests_of_read(self.session),
@@ -238,11 +253,28 @@ class KeptCalculation:
             raise self.entries.error(
                 "operators.dynamics.checkpoint-of-report", folder=folder, reported=not own["report"]
             )
-        if any(kept[word] != own[word] for word in ("procedure", "problem", "bodies")):
+        # rounding of another machine leaves other numbers of the same problem
+        same = kept["arithmetic"] == own["arithmetic"]
+        words = ("procedure", "bodies", "sizes", *(("problem",) if same else ()))
+        if any(kept[word] != own[word] for word in words):
             raise self.entries.error(
                 "operators.dynamics.checkpoint-of-call",
                 folder=folder, number=self.number, procedure=kept["procedure"],
             )  # fmt: skip
+
+
+@cache
+def arithmetic() -> dict[str, str]:
+    """What the last bits of a result depend on, by name."""
+    import scipy
+
+    from ssilang.kernel.base.compiled.machine import processor
+
+    found = {"numpy": np.__version__, "scipy": scipy.__version__}
+    for library in (np, scipy):
+        kernels, threads = blas(Path(str(library.__file__)).parent)
+        found |= {f"BLAS of {library.__name__}": kernels, "threads": str(threads)}
+    return found | {"processor": processor().split()[1]}
 
 
 def _holds(observer: Observer) -> bool:
