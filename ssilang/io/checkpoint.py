@@ -29,7 +29,7 @@ from ssilang.system import GUARDED
 from ssilang.system_reasons import system_reason
 
 FORMAT = "ssilang-checkpoint"
-VERSION = 1
+VERSION = 2
 FOLDER = "checkpoints"
 _ARRAY = "@"  # key that stands for an array
 
