@@ -202,7 +202,7 @@ def main(script: str, folder: str, dimension: str, free: str) -> int:
         return UNGUARDED
     try:
         told = mesh(script, written[0], int(dimension))
-    except ImportError as error:
+    except (ImportError, OSError) as error:  # of a library of the system
         told = f"import: {error}"
     Path(written[1]).write_text(told[:2000], encoding="utf-8", errors="replace")
     return 1 if told else 0
