@@ -362,9 +362,9 @@ MESSAGES: dict[str, Message] = {
         "a .geo file is meshed by Gmsh, which {error:?cannot start: {error}|is not installed}",
         "un fichier .geo est maillé par Gmsh, qui {error:?ne peut démarrer : {error}|n'est pas "
         "installé}",
-        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "{error:?apt-get install libgl1 libglu1-mesa libgomp1 libxft2 libxcursor1 libxinerama1|"
         "pip install 'ssilang[gmsh]'}",
-        "{error:?apt-get install libglu1-mesa libxft2 libxcursor1 libxinerama1|"
+        "{error:?apt-get install libgl1 libglu1-mesa libgomp1 libxft2 libxcursor1 libxinerama1|"
         "pip install 'ssilang[gmsh]'}",
     ),
     "geo-reaches-out": Message(
