@@ -39,7 +39,7 @@ def value(run, text, name="X"):
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PRAGER_2 ;", "gives no equation"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE AMADEI ;", "FIMU SGMT I0"),
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
-        ("M = MODE S THERMIQUE ;", "THERMIQUE is not available"),
+        ("M = MODE S THERMIQUE ;", "THERMIQUE (heat) is out of ssilang's scope"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),
         ("OPTI MODE AXIS ; M = MODE L MECANIQUE ELASTIQUE ;", "name one of"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YONG' 3. ;", "YOUN"),

@@ -245,7 +245,7 @@ def test_piloindi_gives_the_factor_by_itself(tmp_path):
         ("T . 'PILOTAGE_INDIRECT' = VRAI ;", "which load is controlled"),
         ("T . 'AUTOMATIQUE' = VRAI ; T . 'PILOTAGE_INDIRECT' = VRAI ;", "exclude"),
         ("T . 'AUTOMATIQUE' = VRAI ; T . 'DYNAMIQUE' = VRAI ;", "static"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'AUTOCRIT' = -1. ;", "positive"),
+        ("T . 'AUTOMATIQUE' = VRAI ; T . 'AUTOCRIT' = -1. ;", "AUTOCRIT > 0"),
         (
             "T . 'PILOTAGE_INDIRECT' = VRAI ; T . 'FORCES_PILOTEES' = F1 ;",
             "PARAMETRE_DE_PILOTAGE",

@@ -126,7 +126,8 @@ def test_every_law_and_element_has_an_example(kind):
     [("law", "JOINT_SDM", "JOINT_SDM"), ("law", "joint_s", "JOINT_SDM"),
      ("law", "ELAS", "ELASTIQUE"),
      ("law", "ELA", ""), ("element", "POUTRE", "POUT"), ("option", "DIMENSION", "DIME"),
-     ("parameter", "YOUNG", ""), ("component", "UX", "UX"), ("component", "UXX", "")],
+     ("parameter", "YOUNG", "YOUN"), ("parameter", "RHOX", ""),
+     ("component", "UX", "UX"), ("component", "UXX", "")],
 )  # fmt: skip
 def test_words_are_found_as_the_language_compares_them(kind, said, name):
     assert vocabulary.full_name(kind, said) == name

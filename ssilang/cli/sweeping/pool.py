@@ -85,7 +85,8 @@ class FreshContext(SpawnContext):
 def can_share() -> bool:
     """Whether processes can wait for each other: a system without /dev/shm has no semaphores."""
     try:
-        get_context("spawn").Lock()
+        with elsewhere():  # it starts what counts them
+            get_context("spawn").Lock()
     except (ImportError, OSError):
         return False
     return True

@@ -6,19 +6,21 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.waves.histories import HISTORIES
 
 
 def negative_unknowns(matrix: Matrix) -> list[tuple[int, str, float]]:
     """Node, name and stiffness of unknowns where springs make the diagonal negative.
 
-    A spring below zero beside a stiffer one, or a condition, is meant (a weight that leans).
+    A spring below zero beside a stiffer one, or a condition, is meant (a weight that leans), and so
+    are the diagonals of stresses of a matched layer.
     """
     looked = [b for b in matrix.blocks if b.zone is None and (_diagonal(b) < 0.0).any()]
     if not looked:
         return []
     nodes = np.unique(np.concatenate([b.nodes.ravel() for b in looked]))
     found = []
-    for name in dict.fromkeys(n for b in looked for n in b.unknowns):
+    for name in dict.fromkeys(n for b in looked for n in b.unknowns if n not in HISTORIES):
         total = np.zeros(len(nodes))
         for block in matrix.blocks:
             for row in np.flatnonzero([n == name for n in block.unknowns]):

@@ -81,10 +81,6 @@ MESSAGES: dict[str, Message] = {
         "the generator skips a number of terms, found {skip}",
         "le générateur saute un nombre de termes positif ou nul, trouvé {skip}",
     ),
-    "negative-mean-or-count": Message(
-        "the mean and the number of values are not negative",
-        "la moyenne et le nombre de valeurs ne sont pas négatifs",
-    ),
     "not-third-degree": Message(
         "the polynomial is not of the third degree: A3 is 0",
         "le polynôme n'est pas du troisième degré : A3 est nul",

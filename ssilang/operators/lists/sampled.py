@@ -9,7 +9,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.registry import Chosen, Help, arg, choice, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 
 
 @operator(
@@ -76,7 +76,7 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
     key(
         "before",
         "NPNE",
-        arg("n", "ENTIER", range=POSITIVE),
+        arg("n", "ENTIER", range=NOT_NEGATIVE),
         en="number of its values before 0; by default it is symmetric",
         fr="nombre de ses valeurs avant 0 ; par défaut elle est symétrique",
     ),

@@ -20,7 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -71,15 +71,13 @@ _SKIP = opt(
 @BRUI.form(
     _NOISE,
     choice("law", ("POIS",), optional=False, en="Poisson's law", fr="loi de Poisson"),
-    arg("mean", "ENTIER", en="mean", fr="moyenne"),
-    arg("count", "ENTIER", range=POSITIVE, en="number of values", fr="nombre de valeurs"),
+    arg("mean", "ENTIER", range=NOT_NEGATIVE, en="mean", fr="moyenne"),
+    arg("count", "ENTIER", range=NOT_NEGATIVE, en="number of values", fr="nombre de valeurs"),
     _SKIP,
 )
 def _poisson(
     call: Call, noise: bool, law: str, mean: int, count: int, skip: int | None
 ) -> ListEnti:
-    if mean < 0 or count < 0:
-        raise call.error("operators.numbers.negative-mean-or-count")
     return ListEnti(session_generator(call, skip).poisson(mean, count))
 
 

@@ -107,14 +107,14 @@ def test_kept_words_are_those_of_the_grammar(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     for _ in range(2):  # made, then read
         assert grammar_words() == words_of_grammar()
-    assert len(list((tmp_path / "ssilang").iterdir())) == 1
+    assert len(list((tmp_path / "ssilang" / "started").iterdir())) == 1
 
 
 @pytest.mark.parametrize("damage", ["", "{", "[1, 2]", '{"sum": 1, "words": 3}', "cut", "changed"])
 def test_damaged_words_are_made_again(tmp_path, monkeypatch, damage):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     grammar_words()
-    (path,) = (tmp_path / "ssilang").iterdir()
+    (path,) = (tmp_path / "ssilang" / "started").iterdir()
     good = path.read_text()
     texts = {"cut": good[:-20], "changed": good.replace("OWN", "OWM")}
     path.write_text(texts.get(damage, damage))

@@ -161,7 +161,7 @@ def swings(problem: Problem) -> list[Swing]:
         stiffness = stiffness + joints.J.T @ (closed @ joints.J)
     forces = np.column_stack([T.T @ f for f, _ in given])
     K = (T.T @ (stiffness @ T)).toarray()
-    if not K.any():
+    if not K.any() or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
     try:
         motions = np.linalg.solve(K, forces)
