@@ -27,6 +27,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.say.diagnostics import render
+from tests.windows import can_draw, needs_window
 
 _CORNER = view_along(np.array([1.0, -1.2, 0.8]))  # three faces of a cube
 _LINES = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], dtype=float)
@@ -34,6 +35,8 @@ _LINES = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], dtype=float)
 
 @pytest.fixture(scope="module")
 def stage() -> Iterator[Stage]:
+    if not can_draw():
+        pytest.skip("no EGL and no OSMesa")
     made = Stage()
     yield made
     made.close()
@@ -266,6 +269,7 @@ def test_a_system_that_cannot_draw_keeps_the_run(
     assert not list(tmp_path.glob("out/*"))
 
 
+@needs_window
 def test_edges_of_another_mesh_over_what_hides_them(tmp_path: Path) -> None:
     """ARET: the box hides, edges of its cells (red) are not drawn but those of the other mesh."""
     from PIL import Image
