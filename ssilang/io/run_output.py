@@ -260,7 +260,7 @@ def _place(folder: Path, name: str) -> Path:
     try:
         path = (folder / portable(name)).resolve()
         path.exists()
-        if os.path.islink(path):  # what resolve leaves is a loop
+        if any(map(os.path.islink, (path, *path.parents))):  # what resolve leaves is a loop
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     except (OSError, ValueError, RuntimeError) as error:
         reason = system_reason(error)

@@ -17,6 +17,7 @@ from ssilang.cli.main import main
 from ssilang.cli.run import run_text
 from ssilang.io.errors import InputError
 from ssilang.io.viewer import Series, Wish, chosen_file, draw
+from tests.windows import needs_window
 
 BEAM = (
     "OPTI DIME 3 ELEM SEG2 MODE TRID ; L = DROI 4 (0. 0. 0.) (4. 0. 0.) ; OPTI ELEM QUA4 ; "
@@ -54,6 +55,7 @@ def test_a_folder_stands_for_its_results(results: Path) -> None:
     assert Series(chosen_file(results / "one")).times == pytest.approx([0.1, 0.2, 0.3])
 
 
+@needs_window
 def test_displacements_are_shown_and_amplified(results: Path, tmp_path: Path) -> None:
     """The end goes up by 0.032 m, the box's diagonal is 4.2 m: ten times that is 8 % of it."""
     usual = shown(results / "one", tmp_path / "x.png")
@@ -65,6 +67,7 @@ def test_displacements_are_shown_and_amplified(results: Path, tmp_path: Path) ->
     assert high < low - 10
 
 
+@needs_window
 def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path) -> None:
     heat = shown(results / "one", tmp_path / "heat.png", field="HEAT", scale=0.0)
     columns = heat[painted(heat).any(axis=1)]
@@ -75,6 +78,7 @@ def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path)
     assert right[1] > right[2]  # green to yellow
 
 
+@needs_window
 def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
     """In a file of the whole series as in one of an instant."""
     by_name = shown(results / "one", tmp_path / "z.png", field="U:UZ", scale=0.0)
@@ -89,6 +93,7 @@ def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
     assert refused.value.data["names"] == ("UX", "UY", "UZ")
 
 
+@needs_window
 def test_a_gif_holds_all_instants(
     results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -100,6 +105,7 @@ def test_a_gif_holds_all_instants(
     assert np.abs(frames[0] - frames[2]).max() > 60
 
 
+@needs_window
 def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
     points = np.array([(0.0, 0, 0), (4, 0, 0), (4, 1, 0), (0, 1, 0)])
     mesh = meshio.Mesh(points, [("triangle", np.array([(0, 1, 2), (0, 2, 3)]))])
@@ -142,6 +148,7 @@ def test_meshes_are_read_by_the_door_of_scripts(tmp_path: Path) -> None:
         (["one", "--lang", "fr"], "il n'y a pas d'écran"),
     ],
 )
+@needs_window
 def test_what_cannot_be_shown_is_said(
     words: list[str],
     said: str,

@@ -13,6 +13,7 @@ from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
 from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Arrows, Deformed
+from tests.windows import needs_window
 
 PLATE = (
     "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; L = DROI 4 (0. 0.) (2. 0.) ; S = TRAN L 2 (0. 1.) ; "
@@ -93,6 +94,7 @@ SOLID = (
         "TRAC X V 'SECT' (0. 0.5 0.) (1. 0.5 0.) (0. 0.5 1.) ;",
     ],
 )
+@needs_window
 def test_views_in_space(text: str, tmp_path: Path) -> None:
     result = run_text(SOLID + text, tmp_path)
     assert result.exit_code == 0, result.message

@@ -5,6 +5,7 @@ import pytest
 from script_runs import found, refused
 
 from ssilang.cli.run import run_text
+from tests.windows import needs_window
 
 _BAND = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 4 (4. 0.)) TRAN 2 (0. 1.) ; "
@@ -113,6 +114,7 @@ def test_axes_refuse_sizes_that_do_not_come_by_dimension():
     assert "come by 2" in refused("OPTI DIME 2 ; A = @REPERE (PROG 1. 2. 3.) ;")
 
 
+@needs_window
 def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
     script = _BAND + (
         "MO = MODE S MECANIQUE ELASTIQUE ; R = (RIGI MO (MATE MO YOUN 1.E3 NU 0.)) ET "

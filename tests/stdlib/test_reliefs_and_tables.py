@@ -4,6 +4,7 @@ import pytest
 from script_runs import found, refused
 
 from ssilang.cli.run import run_text
+from tests.windows import needs_window
 
 
 def drawn(script, folder):
@@ -27,6 +28,7 @@ _SAME = "A = EGA (VALE 'MODE') 'PLANCONT' ; B = EGA (VALE 'ELEM') 'SEG3' ; C = V
         "TABLO3D 1 1 (PROG 3.) ;",
     ],
 )
+@needs_window
 def test_tables_are_drawn_and_leave_the_options_alone(call, tmp_path):
     result, pictures = drawn(_STATE + call + _SAME, tmp_path)
     assert len(pictures) == 1
@@ -40,6 +42,7 @@ def test_tables_want_as_many_values_as_cells():
 
 
 @pytest.mark.parametrize("word", ["'VOLUME'", "'VOLUME' 'CACHE'", "'FLECHE'", "'SUPER'"])
+@needs_window
 def test_reliefs_are_drawn_and_leave_the_options_alone(word, tmp_path):
     script = (
         "OPTI DIME 2 MODE PLAN CONT ELEM QUA8 ; S = ((0. 0.) DROI 3 (2. 0.)) TRAN 3 (0. 2.) ; "
@@ -50,6 +53,7 @@ def test_reliefs_are_drawn_and_leave_the_options_alone(word, tmp_path):
     assert [result.session.root.find(n) for n in "ABC"] == [True, True, 2]
 
 
+@needs_window
 def test_relief_takes_a_second_field_and_an_eye(tmp_path):
     script = (
         "OPTI DIME 2 ELEM QUA4 ; S = ((0. 0.) DROI 3 (2. 0.)) TRAN 3 (0. 2.) ; "

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from tests.windows import needs_window
 
 
 def solved(script):
@@ -87,6 +88,7 @@ def test_unknown_components_are_named():
     assert "ZUT" in run_text(script).message
 
 
+@needs_window
 def test_the_picture_is_drawn_and_options_come_back(tmp_path):
     result = run_text(
         "OPTI DIME 2 MODE FOUR 3 ELEM SEG2 ; L = DROI 4 (1. 0.) (1. 2.) ; Z = COOR 2 L ;"

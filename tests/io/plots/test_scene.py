@@ -27,6 +27,7 @@ from ssilang.kernel.fields.deformed import Deformed, DeformedPart
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
+from tests.windows import needs_window
 
 
 def grid(n: int = 4, size: float = 1.0) -> Mesh:
@@ -248,6 +249,7 @@ def test_nothing_to_draw_is_said() -> None:
         draw_scene((Layer(Mesh(NodeTable(), ())),))
 
 
+@needs_window
 def test_hidden_faces_are_not_seen() -> None:
     # a red square above a blue one, seen from above and from below
     table = NodeTable()
@@ -269,6 +271,7 @@ def test_outer_faces_of_a_volume() -> None:
     assert sum(len(f.nodes) for f in visible_faces(cube(3))) == 6 * 9
 
 
+@needs_window
 def test_behind_a_plane() -> None:
     mesh = cube(2)
     plane = Plane.through(*np.array([(0.0, 0.5, 0), (1, 0.5, 0), (0, 0.5, 1)]))
