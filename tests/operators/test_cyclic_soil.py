@@ -48,6 +48,19 @@ def test_a_sheared_cell_follows_masings_rules(found, body):
     assert found(body + material() + CYCLED, *NAMES) == pytest.approx(wanted(), rel=1e-9)
 
 
+@pytest.mark.parametrize("body", [SQUARE, CUBE], ids=["plane", "space"])
+@pytest.mark.parametrize(("last", "told"), [(5e-3, False), (3.9e-3, True), (1.5e-3, True)])
+def test_strains_beyond_the_last_point_of_a_curve_are_told(body, last, told):
+    """Also where the path has come back; what an earlier calculation reached is not told again."""
+    given = f"'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4 {last}) (PROG 1. 0.8 0.1))"
+    back = CYCLED.replace("4.E-3", "0.") if last == 1.5e-3 else CYCLED
+    more = "T . 'TEMPS_CALCULES' = PROG 4. 'PAS' 0.25 5. ; PASAPAS T ; "
+    result = run_text(body + material(given) + back + more)
+    assert not result.errors
+    found = [w for w in result.session.warnings if w.code == "operators.dynamics.beyond-curve"]
+    assert [w.data["share"] for w in found] == pytest.approx([100.0] * told)
+
+
 @pytest.mark.parametrize("given", ["'GAMR' 3.E-4", "'GAMR' (MANU 'CHML' M 'GAMR' 3.E-4)"])
 def test_a_reference_strain_stands_for_a_hyperbola(found, given):
     """Its polygon is within 0.56 % of the hyperbola: a branch adds twice that, a turn once."""

@@ -36,6 +36,8 @@ FreeStrain = Callable[[float], FloatArray]
 State = tuple[PointState, ...]
 
 
+ROUNDING = 1e-6
+"""Slip beyond a curve's last strain, over that strain, which is rounding."""
 MANY_POINTS = 2_000
 """Points from which a zone is worth the loading of compiled code for a few steps."""
 
@@ -239,6 +241,26 @@ class Bulk:
         """Elastic energy."""
         pairs = zip(self.passes, self.zones, state, strict=True)
         return sum((z if over is None else over).stored(s) for over, z, s in pairs)
+
+    def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
+        """The zones that yield, with what they have of a state."""
+        return list(zip(self.zones, state, strict=True))
+
+    def beyond_curves(self, begun: State, state: State) -> dict[str, float]:
+        """Share of the points of each law that went beyond the last point of its curve."""
+        seen: dict[str, list[NDArray[np.bool_]]] = {}
+        pairs = zip(self.points_of(begun), self.points_of(state), strict=True)
+        for (zone, first), (_, last) in pairs:
+            if zone.law.slid is None:
+                continue
+            before, after = (
+                zone.law.slid(zone.parameters, s.stress, s.plastic, s.variables)
+                for s in (first, last)
+            )
+            beyond = (np.abs(after - before) > ROUNDING).any(axis=1)
+            seen.setdefault(zone.zone.behaviour[-1], []).append(beyond)
+        shares = {law: float(np.concatenate(beyond).mean()) for law, beyond in seen.items()}
+        return {law: share for law, share in shares.items() if share > 0.0}
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars)."""

@@ -30,6 +30,7 @@ def history_of(path: PathRun, trace: Trace, seconds: float) -> History:
     """The steps as other calculations report them."""
     history = History(np.array(trace.times), np.array(path.energies), solver="SuperLU")
     history.loop = "path following"
+    history.beyond = path.run.bulk.beyond_curves(path.run.begun, path.run.state)
     history.iterations, history.seconds = path.iterations, seconds
     return history
 

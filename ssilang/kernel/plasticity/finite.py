@@ -30,6 +30,7 @@ from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffnes
 from ssilang.kernel.plasticity.finite_beam import finite_beam, is_plane_beam
 from ssilang.kernel.plasticity.finite_meridian import finite_plane_shell, is_plane_shell
 from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, is_space_beam
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 
 class FiniteZone(Protocol):
@@ -262,6 +263,10 @@ class FiniteBulk(Bulk):
     def searched(self) -> bool:
         """Whole steps of Newton."""
         return False
+
+    def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
+        """No zone yields."""
+        return []
 
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,)."""

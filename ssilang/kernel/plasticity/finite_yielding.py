@@ -80,6 +80,10 @@ class YieldingBulk(FiniteBulk):
         """Newton's steps are cut where what is out of balance would grow."""
         return True
 
+    def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
+        """The zones that yield, with what they have of a state."""
+        return [(z.points, s) for z, s in zip(self.yielding, _parts(state)[1], strict=True)]
+
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,)."""
         before, old = _parts(state)

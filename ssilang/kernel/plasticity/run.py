@@ -77,9 +77,10 @@ class BulkRun:
     full: bool = False
     motion: Motion = field(init=False)
     force: FloatArray = field(init=False)
+    begun: State = field(init=False)
 
     def __post_init__(self) -> None:
-        p = self.problem
+        p, self.begun = self.problem, self.state
         self.force, self._energy = self.bulk.force(self.state), (self.state, np.nan)
         if p.scheme.conserving or p.scheme.adaptive:
             raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
@@ -174,6 +175,7 @@ def _recorded(run: BulkRun) -> Iterator[History]:
     finally:
         for observer in run.observers:
             observer.close()
+    history.beyond = run.bulk.beyond_curves(run.begun, run.state)
     history.seconds += time.perf_counter() - started
 
 

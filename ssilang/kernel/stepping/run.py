@@ -85,6 +85,8 @@ class History:
     again : callable or None
         Finds the energies of a run that did not keep them; `worst` is then its imbalance, `seen`
         the largest energy at the ends of its chunks.
+    beyond : dict of str to float
+        Share of the points of a law that went beyond the last point of its curve, by law.
     together : int
         Motions that advanced side by side; `seconds` is the share of one.
     """
@@ -101,6 +103,7 @@ class History:
     seen: float = 0.0
     together: int = 1
     method: Sentence | None = None
+    beyond: dict[str, float] = field(default_factory=dict)
 
     @property
     def energies(self) -> FloatArray:

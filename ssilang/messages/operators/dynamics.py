@@ -490,6 +490,15 @@ MESSAGES: dict[str, Message] = {
         "joints 'JOINT_SDM' à la place des relations",
         severity="warning",
     ),
+    "beyond-curve": Message(
+        "{share:.2g} % of the points of {law} were strained beyond the last point of the curve of "
+        "G/Gmax: their shear stress stayed there, as if the soil flowed",
+        "{share:.2g} % des points de {law} ont été déformés au-delà du dernier point de la courbe "
+        "G/Gmax : leur contrainte de cisaillement y est restée, comme si le sol s'écoulait",
+        "give the curve 'GGAM' up to the strains that are reached",
+        "donnez la courbe 'GGAM' jusqu'aux déformations atteintes",
+        severity="warning",
+    ),
     "impacts-uncorrected": Message(
         "impacts on 'MINI' or 'MAXI' relations brought {share:.2g} % of energy: this scheme does "
         "not correct velocities",

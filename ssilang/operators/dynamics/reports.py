@@ -81,6 +81,8 @@ def report(
             "seconds_preparing_the_basis": history.reduction.prepared,
         }
     session.statistics.setdefault("calculations", []).append(line)
+    for law, share in history.beyond.items():
+        entries.warn("operators.dynamics.beyond-curve", law=law, share=100.0 * share)
     told = warn_impacts(entries, problem, history)
     # at an impact of relations alone it is off for a step: what lasts is told by itself
     impacts = problem.contact is not None and problem.interface is None and not in_statics

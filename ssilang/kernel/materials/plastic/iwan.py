@@ -102,6 +102,31 @@ def locked(
     return found
 
 
+def slid_last(
+    parts: Backbones,
+    parameters: PointParameters,
+    stress: FloatArray,
+    plastic: FloatArray,
+    variables: FloatArray,
+) -> FloatArray:
+    """Slip (m, 5) of the last part to yield, in shear strains over its threshold.
+
+    Other than before a run where the strain was beyond the last point of the curve on the way.
+    """
+    last = np.array([np.flatnonzero(share)[-1] for share in parts.shares])[parts.which]
+    m = np.arange(len(stress))
+    bears = variables[:, 1:].reshape(len(stress), -1, 5)[m, last]
+    own = parts.shares[parts.which, last] * parameters.shear
+    kept = [0, 1, 3, 4, 5]
+    mean = np.array([1.0, 1.0, 0.0, 0.0, 0.0]) / 3.0
+    elastic = stress[:, kept] - stress[:, :3].sum(axis=1)[:, None] * mean
+    flown = plastic[:, kept] - plastic[:, :3].sum(axis=1)[:, None] * mean
+    flown[:, 2:] *= 0.5
+    slip = elastic / (2.0 * parameters.shear)[:, None] + flown - bears / (2.0 * own)[:, None]
+    found: FloatArray = 2.0 * slip / parts.strains[parts.which, last][:, None]
+    return found
+
+
 def _sum(inner: FloatArray) -> FloatArray:
     """Stresses (m, 6) of the parts together."""
     total = inner.sum(axis=1)

@@ -71,6 +71,8 @@ class PlasticLaw:
         at all steps. See `law_at`.
     parts : Backbones or None
         Parts side by side, of a law that is shaped to have them.
+    slid : callable or None
+        Slip (m, n) beyond the last point of the law's curve, from stress, plastic strain, variables.
     """
 
     respond: Respond
@@ -88,6 +90,7 @@ class PlasticLaw:
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
     parts: Backbones | None = None
+    slid: Callable[[PointParameters, FloatArray, FloatArray, FloatArray], FloatArray] | None = None
 
 
 def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
@@ -98,6 +101,7 @@ def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
         parts=parts,
         respond=partial(iwan.respond, parts),
         locked=partial(iwan.locked, parts),
+        slid=partial(iwan.slid_last, parts),
     )
 
 
