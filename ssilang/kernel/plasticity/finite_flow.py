@@ -27,7 +27,7 @@ from ssilang.kernel.elements.results.tensors import as_components, as_tensor
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.plasticity.finite import FiniteSolid
 from ssilang.kernel.plasticity.finite_yielding import InsideOutError, YieldingSolid
-from ssilang.kernel.plasticity.points import PointState
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 Function = tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray, FloatArray], FloatArray]]
 """A function of a number, and its divided difference (f(a) - f(b)) / (a - b)."""
@@ -243,7 +243,7 @@ class FlowingSolid(YieldingSolid):
         return self.at(u, _components(S, False), tangent)
 
 
-LAGRANGIAN = {
+LAGRANGIAN: dict[str, Callable[[FiniteSolid, PlasticPoints], YieldingSolid]] = {
     "MI_PAS": FlowingSolid,
     "FIN_PAS": partial(FlowingSolid, halfway=False),
     "TOTAL": YieldingSolid,
