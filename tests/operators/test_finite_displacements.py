@@ -90,9 +90,11 @@ YIELDING = (
 )
 
 
-def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp_path):
+@pytest.mark.parametrize("word", ["TOTAL", "FIN_PAS", "MI_PAS"])
+def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp_path, word):
     result = run_text(
-        YIELDING + "PASAPAS T ; TS = T . 'CONTRAINTES' ; TV = T . 'VARIABLES_INTERNES' ; "
+        YIELDING + f"T . 'LAGRANGIEN' = '{word}' ; "
+        "PASAPAS T ; TS = T . 'CONTRAINTES' ; TV = T . 'VARIABLES_INTERNES' ; "
         "X1 = MAXI (EXCO 'SMXX' (TS . 1)) ; Y1 = MAXI (EXCO 'SMYY' (TS . 1)) ; "
         "X7 = MAXI (EXCO 'SMXX' (TS . 7)) ; Y7 = MAXI (EXCO 'SMYY' (TS . 7)) ; "
         "Z7 = MAXI (ABS (EXCO 'SMXY' (TS . 7))) ; Z1 = MAXI (EXCO 'SMZZ' (TS . 1)) ; "
@@ -102,11 +104,14 @@ def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp
     assert result.exit_code == 0, result.message
     find = result.session.root.find
     x, y, z = find("X1"), find("Y1"), find("Z1")
-    # Kirchhoff stress F S F^T / det F: S yields at 200 in Green's strain E = 0.004 + 0.004^2 / 2
-    home = np.array([x / 1.004, y * 1.004, z * 1.004])
-    mean = 2e5 / (3 * 0.4) * (0.004 + 0.004**2 / 2)
-    assert home.mean() == pytest.approx(mean)  # plastic flow changes no volume
-    assert np.sqrt(1.5 * ((home - mean) ** 2).sum()) == pytest.approx(200.0)
+    home, strain = np.array([x, y, z]), np.log(1.004)
+    if word == "TOTAL":
+        # Kirchhoff stress F S F^T / det F: S yields at 200 in Green's strain 0.004 + 0.004^2 / 2
+        home, strain = home * [1 / 1.004, 1.004, 1.004], 0.004 + 0.004**2 / 2
+    near = 5e-3 if word == "MI_PAS" else 1e-9  # beside the elastic strain, here mostly of volume
+    mean = 2e5 / (3 * 0.4) * strain
+    assert home.mean() == pytest.approx(mean, rel=near)  # plastic flow changes no volume
+    assert np.sqrt(1.5 * ((home - home.mean()) ** 2).sum()) == pytest.approx(200.0, rel=near)
     assert find("P1") > 1e-3
     assert find("Y7") == pytest.approx(x, rel=1e-9)
     assert find("X7") == pytest.approx(y, rel=1e-9)
@@ -114,26 +119,95 @@ def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp
     assert find("P7") == pytest.approx(find("P1"), rel=1e-9)
 
 
-def test_a_yielding_body_pulled_out_carries_its_strength_times_its_stretch(tmp_path):
-    """Nominal force `F11 S11` with S11 = SIGY, the sides being free."""
-    result = run_text(
-        "OPTI DIME 3 ELEM CUB8 ; V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 'TRAN' 1 "
-        "(0 0 1) ; M = MODE V 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
-        "A = MATE M 'YOUN' 2.E5 'NU' 0.3 'SIGY' 200. ; "
-        "D = BLOQ 'UX' (V POIN 'PLAN' (1 0 0) (1 1 0) (1 0 1) 1.E-6) ; "
-        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
-        "T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UX' (V POIN 'PLAN' (0 0 0) (0 1 0) (0 0 1) 1.E-6)) ET "
-        "(BLOQ 'UY' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 0 1) 1.E-6)) ET "
-        "(BLOQ 'UZ' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 1 0) 1.E-6)) ET D ; "
-        "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D 0.05) "
-        "(EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; "
-        "PASAPAS T ; R = RESU (REDU (EXCO 'FX' (T . 'REACTIONS' . 10)) "
-        "(V POIN 'PLAN' (1 0 0) (1 1 0) (1 0 1) 1.E-6)) ; "
-        "F = MAXI (ABS R) ;",
-        output_directory=tmp_path,
-    )
+BARS = {
+    "CUB8": (
+        "OPTI DIME 3 ELEM CUB8 ; V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 'TRAN' 2 "
+        "(0 0 1) ; Q = (BLOQ 'UX' (V POIN 'PLAN' (0 0 0) (0 1 0) (0 0 1) 1.E-6)) ET "
+        "(BLOQ 'UY' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 0 1) 1.E-6)) ; "
+        "Z = BLOQ 'UZ' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 1 0) 1.E-6) ; "
+        "SD = V POIN 'PLAN' (0 0 1) (1 0 1) (0 1 1) 1.E-6 ; C = 'UZ' ; SI = 'SMZZ' ; AREA = 1. ; "
+    ),
+    "TE10": (
+        "OPTI DIME 3 ELEM TE10 ; V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 'TRAN' 1 "
+        "(0 0 1) ; Q = (BLOQ 'UX' (V POIN 'PLAN' (0 0 0) (0 1 0) (0 0 1) 1.E-6)) ET "
+        "(BLOQ 'UY' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 0 1) 1.E-6)) ; "
+        "Z = BLOQ 'UZ' (V POIN 'PLAN' (0 0 0) (1 0 0) (0 1 0) 1.E-6) ; "
+        "SD = V POIN 'PLAN' (0 0 1) (1 0 1) (0 1 1) 1.E-6 ; C = 'UZ' ; SI = 'SMZZ' ; AREA = 1. ; "
+    ),
+    "AXIS": (
+        "OPTI DIME 2 MODE AXIS ELEM QUA8 ; L = DROI 2 (0 0) (1 0) ; V = L TRAN 2 (0. 1.) ; "
+        "Q = BLOQ 'UR' (V POIN 'DROI' (0 0) (0 1) 1.E-6) ; Z = BLOQ 'UZ' L ; "
+        "SD = V COTE 3 ; C = 'UZ' ; SI = 'SMZZ' ; "
+        f"AREA = {np.pi} ; "
+    ),
+    "PLANE STRESS": (
+        "OPTI DIME 2 MODE PLAN CONT ELEM TRI6 ; L = DROI 1 (0 0) (1 0) ; V = L TRAN 1 (0. 1.) ; "
+        "Q = BLOQ 'UX' (V POIN 'DROI' (0 0) (0 1) 1.E-6) ; Z = BLOQ 'UY' L ; "
+        "SD = V POIN 'DROI' (0 1) (1 1) 1.E-6 ; C = 'UY' ; SI = 'SMYY' ; AREA = 1. ; "
+    ),
+}
+PULLED = (
+    "M = MODE V 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
+    "A = MATE M 'YOUN' 2.E5 'NU' 0.3 'SIGY' 200. ; D = BLOQ C SD ; "
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+    "T . 'BLOCAGES_MECANIQUES' = Q ET Z ET D ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
+    "T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI D (LAST - 1.)) "
+    "(EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.125 1. ; "
+    "PASAPAS T ; R = RESU (REDU (T . 'REACTIONS' . 8) SD) ; "
+    "F = (MAXI (ABS R)) / AREA ; S = MAXI (EXCO SI (T . 'CONTRAINTES' . 8)) ; "
+    "S0 = MINI (EXCO SI (T . 'CONTRAINTES' . 8)) ; "
+    "E = MAXI (EXCO 'EPSE' (T . 'VARIABLES_INTERNES' . 8)) ; "
+)
+
+
+@pytest.mark.parametrize("last", [1.6, 0.5])
+@pytest.mark.parametrize("word", ["FIN_PAS", None])
+@pytest.mark.parametrize("name", BARS)
+def test_a_bar_that_flows_carries_its_strength_on_its_present_section(tmp_path, name, word, last):
+    """Cauchy's stress is SIGY, the section that of the volume J = exp((1 - 2 nu) SIGY / E)."""
+    chosen = f"T . 'LAGRANGIEN' = '{word}' ; PASAPAS T" if word else "PASAPAS T"
+    text = BARS[name] + f"LAST = {last} ; " + PULLED.replace("PASAPAS T", chosen)
+    result = run_text(text, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
-    assert result.session.root.find("F") == pytest.approx(1.05 * 200.0, rel=1e-6)
+    find, way = result.session.root.find, np.sign(last - 1.0)
+    near = 1e-7 if word else 1e-3  # elastic strains, 0.8 SIGY / E
+    assert find("S") == pytest.approx(way * 200.0, rel=near)
+    assert find("S0") == pytest.approx(way * 200.0, rel=near)
+    volume = np.exp(way * 0.4 * 1e-3)
+    assert find("F") == pytest.approx(200.0 * volume / last, rel=near)
+    assert find("E") == pytest.approx(abs(np.log(last)) - 1e-3, rel=1e-6)
+
+
+def test_total_carries_strength_times_stretch_and_says_that_strains_are_too_large(tmp_path):
+    """Nominal force `F11 S11` with S11 = SIGY, the sides being free."""
+    pulled = PULLED.replace("PASAPAS T", "T . 'LAGRANGIEN' = 'TOTAL' ; PASAPAS T")
+    text = BARS["CUB8"] + "LAST = 1.08 ; " + pulled
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("F") == pytest.approx(1.08 * 200.0, rel=1e-6)
+    (told,) = [
+        w for w in result.session.warnings if w.code == "operators.statics.small-strains-left"
+    ]
+    assert told.data["strain"] == pytest.approx(0.5 * (1.08**2 - 1.0))
+
+
+def test_elastic_bodies_in_large_strains_say_which_law_they_have(tmp_path):
+    text = BARS["CUB8"] + "LAST = 1.2 ; " + PULLED.split("E = MAXI")[0]
+    result = run_text(text.replace(" 'PLASTIQUE' 'PARFAIT'", "").replace(" 'SIGY' 200.", ""),
+                      output_directory=tmp_path)  # fmt: skip
+    assert result.exit_code == 0, result.message
+    assert [w.code for w in result.session.warnings] == ["operators.statics.elastic-strains-large"]
+
+
+def test_a_word_that_lagrangien_does_not_have_is_refused(tmp_path):
+    text = (
+        BARS["CUB8"]
+        + "LAST = 1.2 ; "
+        + PULLED.replace("PASAPAS T", "T . 'LAGRANGIEN' = 'EULER' ; PASAPAS T")
+    )
+    result = run_text(text, output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert "'MI_PAS' | 'FIN_PAS' | 'TOTAL'" in result.message
 
 
 def test_a_yielding_body_goes_on_from_where_it_was(tmp_path):

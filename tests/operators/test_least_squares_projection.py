@@ -67,3 +67,29 @@ def test_projections_that_make_no_sense_are_refused(text, said):
     result = run_text(start + "C = CHAN 'CHAM' (NOMC 'SCAL' X) M1 ; " + text)
     assert result.exit_code == 1
     assert said in result.message
+
+
+@pytest.mark.parametrize(
+    ("place", "count", "code"),
+    [
+        ("(MANU 'POI1' (0.5 0.5)) ET (MANU 'POI1' (2.5 0.5)) ET (MANU 'POI1' (3. 0.))", 2,
+         "projected-nowhere-outside"),
+        ("M2", 2, "projected-zero-outside"),
+        ("M2 'MINI'", 3, "projected-zero-outside"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize(("tolerance", "told"), [("1.E-5", True), ("9.", False)])
+def test_points_outside_are_told_and_raise_the_flag(place, count, code, tolerance, told):
+    """M2 is twice as long as the field's mesh."""
+    text = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ; "
+        "R = (DROI 1 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; M2 = MODE R 'MECANIQUE' 'ELASTIQUE' ; "
+        "C = CHAN 'CHAM' (NOMC 'SCAL' (1. + (0. * (COOR 1 S)))) S ; "
+    )
+    words = place.replace("M2 'MINI'", "M2 C 'MINI'")
+    call = f"PROI {words} {tolerance}" if "MINI" in words else f"PROI ({words}) C {tolerance}"
+    result = run_text(text + f"P = {call} ; Z = SOUC ;")
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("Z") is told
+    found = [(w.code.rpartition(".")[2], w.data["count"]) for w in result.session.warnings]
+    assert found == ([(code, count)] if told else [])

@@ -1,15 +1,15 @@
-"""Plastic continuous elements in finite displacements: large rotations, small strains.
+"""Plastic continuous elements in finite displacements.
 
-The law of small strains is taken between Green-Lagrange strains and second Piola-Kirchhoff
-stresses (Bathe, Finite Element Procedures, section 6.6.3: total Lagrangian, large displacements and
-small strains). At each state the zone is an elastic one with the consistent tangent as moduli and
-an initial stress that gives the law's: forces, tangent and Cauchy stresses are then those of
-`FiniteSolid`.
+Large strains are those of `finite_flow`. What stands here takes the law of small strains between
+Green-Lagrange strains and second Piola-Kirchhoff stresses ('LAGRANGIEN' 'TOTAL'; Bathe, Finite
+Element Procedures, section 6.6.3: large displacements, small strains). At each state the zone is an
+elastic one with the consistent tangent as moduli and an initial stress that gives the law's: forces
+and tangent are then those of `FiniteSolid`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -33,12 +33,50 @@ Fields = tuple[CellField | None, CellField | None, CellField | None]
 """Cauchy stresses, internal variables, plastic strains; None: none."""
 
 
+class InsideOutError(Exception):
+    """A displacement under trial turns matter inside out."""
+
+
 @dataclass(frozen=True, eq=False)
 class YieldingSolid:
     """A zone: its kinematics in finite displacements, its law at the points."""
 
     solid: FiniteSolid
     points: PlasticPoints
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether its tangents are."""
+        return self.points.law.symmetric
+
+    def respond(
+        self, before: FloatArray, u: FloatArray, last: PointState, time: float
+    ) -> tuple[PointState, FiniteSolid]:
+        """The state after a step between displacements (n_cells, n_rows), the zone there."""
+        points = self.points
+        strain = self.strains(u) - self.strains(before)
+        found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
+        elastic = found.elastic_strain(points.parameters, last.stress)
+        plastic = last.plastic + whole - elastic
+        state = PointState(found.stress, plastic, last.free, found.variables, time)
+        return state, self.at(u, found.stress, found.tangent)
+
+    def standing(self, u: FloatArray, last: PointState) -> FiniteSolid:
+        """The zone where its points have that state, with the moduli at rest."""
+        return self.at(u, last.stress, None)
+
+    def shown(self, u: FloatArray, last: PointState) -> FloatArray:
+        """Cauchy stresses (n_cells, n_components, n_points)."""
+        return self.standing(u, last).shown(u)
+
+    def taken(self, given: FloatArray, u: FloatArray, last: PointState) -> FloatArray:
+        """The law's stresses (m, 6) that are shown as the given ones at u."""
+        solid = self.solid.stressed(given, u)
+        return self.points.spread(np.moveaxis(solid._stress(solid._transformation(u)), -1, 1))
+
+    def stored(self, u: FloatArray, last: PointState) -> float:
+        """Elastic energy."""
+        return self.points.stored(last)
 
     def strains(self, u: FloatArray) -> FloatArray:
         """Green-Lagrange strains (m, 6) of the displacements (n_cells, n_rows)."""
@@ -73,7 +111,7 @@ class YieldingBulk(FiniteBulk):
     @property
     def symmetric(self) -> bool:
         """Whether all tangents are."""
-        return all(z.points.law.symmetric for z in self.yielding)
+        return all(z.symmetric for z in self.yielding)
 
     @property
     def searched(self) -> bool:
@@ -92,18 +130,15 @@ class YieldingBulk(FiniteBulk):
         tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
         after = []
         for zone, places, last in zip(self.yielding, self.at, old, strict=True):
-            points = zone.points
-            strain = zone.strains(u[places]) - zone.strains(before[places])
-            found, whole = points.respond(last.stress, strain, last.variables, time - last.time)
-            elastic = found.elastic_strain(points.parameters, last.stress)
-            after.append(
-                PointState(
-                    found.stress, last.plastic + whole - elastic, last.free, found.variables, time
-                )
-            )
-            now = zone.at(u[places], found.stress, found.tangent)
-            force += np.bincount(places.ravel(), now.forces(u[places]).ravel(), self.size)
-            tangents.append(now.tangent(u[places]))
+            try:
+                reached, now = zone.respond(before[places], u[places], last, time)
+                moved = now.forces(u[places]).ravel()
+            except InsideOutError:  # no force balances anything: the step is cut
+                reached, now = last, zone.standing(before[places], last)
+                moved = np.full(places.size, np.nan)
+            after.append(reached)
+            force += np.bincount(places.ravel(), moved, self.size)
+            tangents.append(now.tangent((u if np.isfinite(moved).all() else before)[places]))
         whole_answer = replace(self, places=(*self.places, *self.at))
         work = 0.5 * float((self.force(state) + force) @ du)
         return Answer(force, lambda: whole_answer._assembled(tangents), _state(u, after), work)
@@ -113,23 +148,22 @@ class YieldingBulk(FiniteBulk):
         u, points = _parts(state)
         total = self._sum(u)
         for zone, places, last in zip(self.yielding, self.at, points, strict=True):
-            now = zone.at(u[places], last.stress, None)
+            now = zone.standing(u[places], last)
             total += np.bincount(places.ravel(), now.forces(u[places]).ravel(), self.size)
         return total
 
     def stored(self, state: State) -> float:
         """Elastic energy."""
-        total = super().stored(state)
-        for zone, last in zip(self.yielding, _parts(state)[1], strict=True):
-            total += zone.points.stored(last)
-        return total
+        u, points = _parts(state)
+        three = zip(self.yielding, self.at, points, strict=True)
+        return super().stored(state) + sum(z.stored(u[p], last) for z, p, last in three)
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Cauchy stresses."""
         u, points = _parts(state)
         blocks = super().stresses(state)
         for zone, places, last in zip(self.yielding, self.at, points, strict=True):
-            shown = zone.at(u[places], last.stress, None).shown(u[places])
+            shown = zone.shown(u[places], last)
             where = zone.points.zone
             blocks.append(cell_block(where, family_of(where).stress_names(where), shown))
         return blocks
@@ -163,8 +197,11 @@ def yielding_bulk(
     u: FloatArray,
     given: Fields,
     time: float,
+    made_of: Callable[[FiniteSolid, PlasticPoints], YieldingSolid],
 ) -> tuple[YieldingBulk, State]:
     """Zones placed on a numbering, and their state at the displacement u (n,).
+
+    `made_of` makes a zone of its kinematics and its law: `YieldingSolid`, or one of `finite_flow`.
 
     Raises
     ------
@@ -178,7 +215,7 @@ def yielding_bulk(
         if not isinstance(solid, FiniteSolid) or points.law.timed:
             raise FieldError("kernel.plasticity.finite-yielding-not-built", element=zone.element)
         at: NDArray[np.int32] = block_indices(without_stiffness(zone), numbering).astype(np.int32)
-        made = YieldingSolid(solid, points)
+        made = made_of(solid, points)
         zones.append(made)
         places.append(at)
         states.append(_start(made, u[at], given, time))
@@ -202,6 +239,4 @@ def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> Po
         return state
     values = seen.matrix(names, "STRESSES")
     values = np.broadcast_to(values, (*values.shape[:2], points.weights.shape[1]))
-    solid = made.solid.stressed(values, u)
-    home = solid._stress(solid._transformation(u))
-    return replace(state, stress=points.spread(np.moveaxis(home, -1, 1)))
+    return replace(state, stress=made.taken(values, u, state))

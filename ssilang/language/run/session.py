@@ -169,6 +169,10 @@ class Session:
         except OSError:  # nobody can be told; it is in the summary
             self.on_warning = None
 
+    def doubt(self, level: int = 1) -> None:
+        """Raise the flag that SOUC reads: it only grows."""
+        self.options["SOUC"] = max(int(self.options.get("SOUC", 0)), level)
+
     def note(self, text: str) -> None:
         """Say what a calculation does, to who asked to hear it."""
         if self.on_note is not None:

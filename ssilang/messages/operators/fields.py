@@ -3,6 +3,24 @@
 from ssilang.messages.message import Message
 
 MESSAGES: dict[str, Message] = {
+    "projected-nowhere-outside": Message(
+        "{count} {count:point lies|points lie} outside of the field's cells, the first at {at}: "
+        "no value there, and SOUC is raised",
+        "{count} {count:point est|points sont} hors des éléments du champ, le premier en {at} : "
+        "pas de valeur là, et SOUC est levé",
+        "a larger tolerance as last number, relative to the cells, takes in what is near",
+        "une plus grande tolérance, dernier nombre, relative aux éléments, prend ce qui est près",
+        severity="warning",
+    ),
+    "projected-zero-outside": Message(
+        "{count} {count:point lies|points lie} outside of the field's cells, the first at {at}: "
+        "0 there, and SOUC is raised",
+        "{count} {count:point est|points sont} hors des éléments du champ, le premier en {at} : "
+        "0 là, et SOUC est levé",
+        "a larger tolerance as last number, relative to the cells, takes in what is near",
+        "une plus grande tolérance, dernier nombre, relative aux éléments, prend ce qui est près",
+        severity="warning",
+    ),
     "no-inverse-of-zero": Message(
         "component {name} is 0 at ({at:.4g}): it has no inverse there",
         "la composante {name} vaut 0 en ({at:.4g}) : elle n'y a pas d'inverse",

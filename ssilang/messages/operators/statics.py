@@ -7,6 +7,27 @@ MESSAGES: dict[str, Message] = {
         "follower loads of a procedure are not built for structures",
         "les forces suiveuses d'une procédure ne sont pas faites pour les structures",
     ),
+    "small-strains-left": Message(
+        "'LAGRANGIEN' 'TOTAL' is for small strains, and these reach {strain:.2g}: forces and "
+        "stresses are wrong by some {error:.0%}",
+        "'LAGRANGIEN' 'TOTAL' est fait pour de petites déformations, et celles-ci atteignent "
+        "{strain:.2g} : forces et contraintes sont fausses d'environ {error:.0%}",
+        "leave 'LAGRANGIEN' out: the law is then taken on the present geometry",
+        "ôtez 'LAGRANGIEN' : la loi est alors prise sur la géométrie actuelle",
+        severity="warning",
+    ),
+    "elastic-strains-large": Message(
+        "elastic solids strain by {strain:.2g}: their law ties Green-Lagrange strains to "
+        "Piola-Kirchhoff stresses, and Cauchy's differ by some {error:.0%} from those of "
+        "'LAGRANGIEN' 'MI_PAS'",
+        "les massifs élastiques se déforment de {strain:.2g} : leur loi lie les déformations de "
+        "Green-Lagrange aux contraintes de Piola-Kirchhoff, et celles de Cauchy diffèrent "
+        "d'environ {error:.0%} de celles de 'LAGRANGIEN' 'MI_PAS'",
+        "MODE ... 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' with a SIGY that is never reached follows "
+        "LAGRANGIEN",
+        "MODE ... 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' avec un SIGY jamais atteint suit LAGRANGIEN",
+        severity="warning",
+    ),
     "strains-of-large-displacements": Message(
         "'DEFTO' of 'MES_SAUVEGARDES' keeps linear strains, not those of large displacements",
         "'DEFTO' de 'MES_SAUVEGARDES' garde les déformations linéaires, pas celles des grands "

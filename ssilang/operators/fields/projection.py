@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NoReturn, cast
 
-from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
+from ssilang.kernel.elements.results.projection import Lost, by_least_squares, on_mesh, on_model
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
@@ -55,12 +55,14 @@ _TOLERANCE = opt(
         "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
         "or at the points of a support). 'MINI': nodal values in each cell of the model with the "
         "least integral of squared differences, by N1 points in each direction (3). The tolerance "
-        "is relative to the cells (1.E-5).",
+        "is relative to the cells (1.E-5); points beyond it get no value on a mesh and 0 on a "
+        "model, which is told, and raises SOUC.",
         fr="Projection d'un champ par éléments, donné aux noeuds, par ses fonctions de forme : sur "
         "un maillage (un champ par points, là où les noeuds sont à l'intérieur), ou sur un modèle "
         "(un champ par éléments aux noeuds ou aux points d'un support). 'MINI' : valeurs nodales, "
         "dans chaque élément du modèle, qui rendent minimale l'intégrale du carré de l'écart, par "
-        "N1 points par direction (3). La tolérance est relative aux éléments (1.E-5).",
+        "N1 points par direction (3). La tolérance est relative aux éléments (1.E-5) ; au-delà, un "
+        "point n'a pas de valeur sur un maillage et 0 sur un modèle, ce qui est dit et lève SOUC.",
         syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
         "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
         examples=(
@@ -91,19 +93,32 @@ _TOLERANCE = opt(
     ),
 )
 def proi(
-    place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float
+    call: Call, place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float
 ) -> CellField:
     """Projection on a model."""
-    points = "NOEUD" if support in (None, "NOEUDS") else support
-    return on_model(fields[-1], place, cast(Support, points), tolerance)
+    points, lost = "NOEUD" if support in (None, "NOEUDS") else support, Lost()
+    made = on_model(fields[-1], place, cast(Support, points), tolerance, lost)
+    _tell(call, fields[-1], lost, "operators.fields.projected-zero-outside")
+    return made
+
+
+def _tell(call: Call, field: CellField, lost: Lost, code: str) -> None:
+    """Warn of points outside of a field's cells, and raise the flag that SOUC reads."""
+    count = sum(len(x) for x in lost)
+    if count:
+        first = next(x[0] for x in lost if len(x))
+        call.warn(code, count=count, at=field.blocks[0].cells.nodes.shown(first))
+        call.session.doubt()
 
 
 @proi.form(_MESH, _FIELDS, _SUPPORT, _TOLERANCE)
 def proi_on_mesh(
-    place: Mesh, fields: tuple[CellField, ...], support: str | None, tolerance: float
+    call: Call, place: Mesh, fields: tuple[CellField, ...], support: str | None, tolerance: float
 ) -> NodeField:
     """Projection on a mesh."""
-    return on_mesh(fields[-1], place, tolerance)
+    made = on_mesh(fields[-1], place, tolerance, lost := Lost())
+    _tell(call, fields[-1], lost, "operators.fields.projected-nowhere-outside")
+    return made
 
 
 @proi.form(said("MINI"), _MODEL, _FIELDS, _COUNT, _TOLERANCE)
@@ -113,7 +128,9 @@ def proi_by_least_squares(
     """Projection on a model by least squares."""
     if count < 1:
         raise call.error("operators.fields.integration-points-none", count, points=count)
-    return by_least_squares(fields[-1], place, count, tolerance)
+    made = by_least_squares(fields[-1], place, count, tolerance, lost := Lost())
+    _tell(call, fields[-1], lost, "operators.fields.projected-zero-outside")
+    return made
 
 
 @proi.form(said("MINI"), _MESH)

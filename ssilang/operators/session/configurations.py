@@ -40,14 +40,18 @@ class Configuration:
         en="Moves all nodes: to the coordinates of a configuration if one is given, then by a "
         "field of displacements if one is given. Gives the configuration that is then in force; "
         "alone it only gives the present one. With a model and its parameters, gives these too: "
-        "the local axes of beams, pipes and joints JOI1 whose model says LIE have turned by "
-        "the mean of the rotations of the cell's nodes in that field (a rotation of any size).",
+        "the local axes of beams and pipes have turned by the mean of the rotations of the cell's "
+        "nodes in that field (a rotation of any size), those of joints JOI1 whose model says LIE "
+        "with the segment between the nodes: about it by the part along it of that mean, then the "
+        "shortest way to where it goes (where both nodes are at one place, by the mean).",
         fr="Déplace tous les noeuds : aux coordonnées d'une configuration si elle est donnée, "
         "puis d'un champ de déplacements s'il est donné. Rend la configuration alors en "
         "vigueur ; seul, il rend la configuration présente. Avec un modèle et ses "
-        "caractéristiques, rend aussi celles-ci, où les axes locaux des poutres, des tuyaux et des "
-        "joints JOI1 dont le modèle dit LIE ont tourné de la moyenne des rotations des noeuds de "
-        "l'élément dans ce champ (une rotation quelconque).",
+        "caractéristiques, rend aussi celles-ci, où les axes locaux des poutres et des tuyaux ont "
+        "tourné de la moyenne des rotations des noeuds de l'élément dans ce champ (une rotation "
+        "quelconque), ceux des joints JOI1 dont le modèle dit LIE avec le segment entre les "
+        "noeuds : autour de lui de la part de cette moyenne le long de lui, puis au plus court "
+        "vers où il va (de la moyenne, si les deux noeuds sont au même endroit).",
         syntax="(CONF2 (CAR2) =) FORM (CONF1) (CHPO1) (MODL1 CAR1) ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; C = FORM ; FORM (MANU 'CHPO' P 'UX' 2.) ; "
@@ -55,7 +59,7 @@ class Configuration:
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (0. 0.1) ; "
             "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' 'LIE' ; "
             "A = MATE M 'DIRECTION' (0. 1.) 'KN' 4. 'KS' 1. ; "
-            "C B = FORM (MANU 'CHPO' L 'RZ' (PI / 6.)) M A ; LIST (EXCO (MOTS 'V1X' 'V1Y') B) ;",
+            "C B = FORM (MANU 'CHPO' (L POIN 2) 'UX' 0.1) M A ; LIST (EXCO (MOTS 'V1X' 'V1Y') B) ;",
         ),
     ),
 )

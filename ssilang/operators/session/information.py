@@ -101,14 +101,12 @@ SOUC = shared(
 
 @SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", fr="niveau, 0 pour annuler"))
 def _raise_flag(session: Session, level: int) -> None:
-    session.options["SOUC"] = max(_level(session), level) if level else 0
+    if level:
+        session.doubt(level)
+    else:
+        session.options["SOUC"] = 0
 
 
 @SOUC.form()
 def _is_raised(session: Session) -> bool:
-    return _level(session) != 0
-
-
-def _level(session: Session) -> int:
-    """The level of doubts, which lives in the session's options."""
-    return int(session.options.get("SOUC", 0))
+    return bool(session.options.get("SOUC", 0))

@@ -6,7 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
@@ -62,6 +65,7 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
+        from ssilang.kernel.plasticity.finite_flow import LAGRANGIAN
         from ssilang.kernel.plasticity.finite_yielding import yielding_bulk
 
         yielding = tuple(z for z in zones if is_plastic(z))
@@ -71,6 +75,7 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
             return yielding_bulk(
                 elastic, yielding, material, problem.numbering, problem.u,
                 (stress, variables, plastic), float(problem.times[0]),
+                LAGRANGIAN[str(entries.get("LAGRANGIEN"))],
             )  # fmt: skip
         given = start.of("CONTRAINTES")
         bulk = finite_bulk(zones, material, problem.numbering, problem.u, given)
@@ -85,6 +90,33 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     if model is None or not entries.flag("GRANDS_DEPLACEMENTS"):
         return ()
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
+
+
+def warn_of_strains(entries: Entries, displacement: NodeField | None) -> None:
+    """Tell, once, of solids whose law is taken at rest and that strain beyond what it holds for."""
+    from ssilang.kernel.elements.boundary import is_solid
+    from ssilang.kernel.elements.solids.finite_motion import motion_of
+
+    zones = [z for z in finite_zones(entries) if is_solid(z)]
+    for plastic, (code, most) in _HELD.items():
+        asked = [z for z in zones if is_plastic(z) is plastic]
+        told = any(
+            w.code == code and w.span == entries.place for w in entries.call.session.warnings
+        )
+        if displacement is None or told or (plastic and entries.get("LAGRANGIEN") != "TOTAL"):
+            continue
+        moved = [motion_of(z, displacement, "STRESSES") for z in asked]
+        strains = [0.5 * abs(F.swapaxes(2, 3) @ F - np.eye(3)).max() for F in moved]
+        strain = max(strains, default=0.0)
+        if strain > most:
+            entries.warn(code, strain=float(strain), error=2.0 * float(strain))
+
+
+_HELD = {
+    True: ("operators.statics.small-strains-left", 0.05),
+    False: ("operators.statics.elastic-strains-large", 0.1),
+}
+"""Codes, and the strains from which they are told, of plastic and of elastic solids."""
 
 
 def _given(bulk: Bulk, start: Any) -> State | None:

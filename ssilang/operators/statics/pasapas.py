@@ -36,7 +36,13 @@ from ssilang.operators.dynamics.reports import (
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
-from ssilang.operators.statics.bodies import Bodies, finite_bodies, finite_zones, plastic_bodies
+from ssilang.operators.statics.bodies import (
+    Bodies,
+    finite_bodies,
+    finite_zones,
+    plastic_bodies,
+    warn_of_strains,
+)
 from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
 from ssilang.operators.statics.linear_zones import linear_blocks
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
@@ -187,6 +193,8 @@ def _stretch(
         line.close()
     if record is not None:
         record.save(history)
+    if finite:
+        warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     added = work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
     return state_table(reached.values)

@@ -16,8 +16,11 @@ from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 
 
-def pipe_parameters(zone: Zone, parameters: ZoneField) -> ZoneField:
-    """The parameters with the ring's SECT INRY INRZ TORS (flexibility of elbows included)."""
+def pipe_parameters(zone: Zone, parameters: ZoneField, bends: bool = True) -> ZoneField:
+    """The parameters with the ring's SECT INRY INRZ TORS, the flexibility of elbows included.
+
+    Without `bends` the inertia is that of the ring: the intensity factors of stresses hold for it.
+    """
     if "EPAI" not in parameters or "SECT" in parameters:
         return parameters
     n = len(zone.cells)
@@ -27,7 +30,8 @@ def pipe_parameters(zone: Zone, parameters: ZoneField) -> ZoneField:
     inertia = np.pi / 4 * (outer**4 - inner**4)
     bend = _column(parameters, "RACO", n, 0.0)
     ratio = h * bend / mean**2
-    flexible = np.where(bend > 0, np.maximum(1.65 / np.where(bend > 0, ratio, 1.0), 1.0), 1.0)
+    curved = bends & (bend > 0)
+    flexible = np.where(curved, np.maximum(1.65 / np.where(bend > 0, ratio, 1.0), 1.0), 1.0)
     made = {"SECT": area, "INRY": inertia / flexible, "INRZ": inertia / flexible}
     made["TORS"] = 2 * inertia
     columns = {k: v[:, None] for k, v in made.items()}

@@ -51,7 +51,7 @@ def _of_pipes(
     """Membrane, torsion and bending stresses of a pipe with their intensity factors."""
     names = family_of(zone).stress_names(zone)
     forces, support = components_at_home(zone, field, names)
-    ring = pipe_parameters(zone, zone_field(zone, material))
+    ring = pipe_parameters(zone, zone_field(zone, material), bends=False)
     h, outer = ring.at("EPAI", "GRAVITE"), ring.at("RAYO", "GRAVITE")
     mean, bend = outer - h / 2, ring.at("RACO", "GRAVITE", 0.0)
     ratio = np.where(bend > 0, h * bend / mean**2, 1.0)

@@ -1,7 +1,9 @@
 """Local axes among the parameters of beams, pipes and joints of two points, turned by a motion.
 
-The axes of a cell turn by the mean of the rotations of its nodes: a rotation vector of any size.
-What lies along the line needs none of this, since it follows the nodes themselves.
+The axes of a beam or pipe turn by the mean of the rotations of its nodes: a rotation vector of any
+size. What lies along the line needs none of this, since it follows the nodes themselves. Those of a
+joint turn with the segment between its nodes: about it by the part along it of that mean, then the
+shortest way to where the segment goes; where both nodes are at one place, by the mean.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Point
@@ -39,7 +42,7 @@ def following_axes(model: Model, material: CellField, motion: NodeField) -> Cell
             continue
         for i, block in enumerate(blocks):
             if block.cells is zone.cells and block.element in ("", zone.element):
-                blocks[i] = _turned(block, _mean_rotations(zone, motion))
+                blocks[i] = _turned(block, _turns_of(zone, motion))
     return CellField(tuple(blocks), material.title)
 
 
@@ -50,20 +53,35 @@ def _turns(zone: Zone) -> bool:
     return kind is not None and kind.family in _LINES
 
 
-def _mean_rotations(zone: Zone, motion: NodeField) -> FloatArray:
-    """Rotation vectors of the cells, (n, 3)."""
-    nodes = zone.cells.connectivity
-    out = np.zeros((len(nodes), 3))
-    for i, name in enumerate(("RX", "RY", "RZ")):
-        if name in motion.components:
-            out[:, i] = motion.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
-    return out
-
-
-def _turned(block: CellFieldBlock, rotations: FloatArray) -> CellFieldBlock:
+def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
+    """Turns of the cells' axes, (n, 3, 3); the nodes stand where the motion has taken them."""
     from scipy.spatial.transform import Rotation
 
-    turn = Rotation.from_rotvec(rotations).as_matrix()
+    nodes, ends = zone.cells.connectivity, zone.cells.coordinates
+    mean = np.zeros((len(nodes), 3))
+    for i, name in enumerate(("RX", "RY", "RZ")):
+        if name in motion.components:
+            mean[:, i] = motion.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
+    plain = Rotation.from_rotvec(mean)
+    if zone.element != "JOI1":
+        return plain.as_matrix()
+    starts = ends - displacements(zone.cells.nodes, motion)[nodes]
+    before, after = starts[:, 1] - starts[:, 0], ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
+    apart = lengths > 0.0
+    axis = before / np.where(apart, np.linalg.norm(before, axis=1), 1.0)[:, None]
+    about = Rotation.from_rotvec(np.vecdot(mean, axis)[:, None] * axis)
+    across = np.cross(before, after)
+    sine = np.linalg.norm(across, axis=1)
+    back = (sine == 0.0) & (np.vecdot(before, after) < 0.0)  # any axis across the segment does
+    across[back] = np.cross(before[back], np.eye(3)[np.abs(before[back]).argmin(axis=1)])
+    size = np.linalg.norm(across, axis=1)
+    angle = np.arctan2(sine, np.vecdot(before, after))
+    swing = Rotation.from_rotvec(across * (angle / np.where(size > 0.0, size, 1.0))[:, None])
+    return np.where(apart[:, None, None], (swing * about).as_matrix(), plain.as_matrix())
+
+
+def _turned(block: CellFieldBlock, turn: FloatArray) -> CellFieldBlock:
     made = dict(block.components)
     for names in _VECTORS:
         if any(n in made for n in names):

@@ -17,11 +17,17 @@ from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.mesh.mesh import Mesh
 
+Lost = list[FloatArray]
+"""Where a field was asked for and has no value."""
+
 
 def _interpolated(
-    field: CellField, x: FloatArray, tolerance: float
+    field: CellField, x: FloatArray, tolerance: float, lost: Lost
 ) -> dict[str, tuple[IntArray, FloatArray]]:
-    """For each component the points (m,) inside the field's cells and its values there."""
+    """For each component the points (m,) inside the field's cells and its values there.
+
+    Points (n, 3) that no component has are added to `lost`.
+    """
     out: dict[str, tuple[IntArray, FloatArray]] = {}
     seen: dict[str, np.ndarray] = {}
     for block in field.blocks:
@@ -37,29 +43,33 @@ def _interpolated(
             old_rows, old_values = out.get(name, (np.empty(0, np.int64), np.empty(0)))
             out[name] = (np.concatenate([old_rows, rows]), np.concatenate([old_values, here]))
             seen[name] = seen.get(name, np.zeros(len(x), bool)) | fresh
+    if seen:
+        lost.append(x[~np.logical_or.reduce(list(seen.values()))])
     return out
 
 
-def on_mesh(field: CellField, mesh: Mesh, tolerance: float) -> NodeField:
+def on_mesh(field: CellField, mesh: Mesh, tolerance: float, lost: Lost) -> NodeField:
     """Values of a field, given at nodes of its cells, at the nodes of a mesh inside them."""
     nodes = mesh.sorted_node_ids
     parts = {}
     for name, (rows, values) in _interpolated(
-        field, mesh.nodes.coordinates[nodes], tolerance
+        field, mesh.nodes.coordinates[nodes], tolerance, lost
     ).items():
         order = np.argsort(rows)
         parts[name] = NodeValues(nodes[rows[order]], values[order])
     return NodeField(mesh.nodes, parts, "DIFFUS")
 
 
-def on_model(field: CellField, model: Model, support: Support, tolerance: float) -> CellField:
+def on_model(
+    field: CellField, model: Model, support: Support, tolerance: float, lost: Lost
+) -> CellField:
     """Values of a field at the points of a support of a model, zero outside the field's cells."""
     blocks = []
     for zone in model.zones:
         x = points_of(zone, support)
         n, p, _ = x.shape
         components = {}
-        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
             flat = np.zeros(n * p)
             flat[rows] = values
             components[name] = flat.reshape(n, p)
@@ -81,7 +91,9 @@ def _points_per_direction(shape: str, n: int) -> Rule:
     return quadrature(shape, n**power)
 
 
-def by_least_squares(field: CellField, model: Model, n: int, tolerance: float) -> CellField:
+def by_least_squares(
+    field: CellField, model: Model, n: int, tolerance: float, lost: Lost
+) -> CellField:
     """Nodal values in each cell of a model whose integrated squared distance to a field is least.
 
     Parameters
@@ -117,7 +129,7 @@ def by_least_squares(field: CellField, model: Model, n: int, tolerance: float) -
         weighted = weights[:, :, None] * geometry.shapes
         squares = np.einsum("cpk,pl->ckl", weighted, geometry.shapes)
         components = {}
-        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance).items():
+        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
             flat = np.zeros(x.shape[0] * x.shape[1])
             flat[rows] = values
             right = np.einsum("cpk,cp->ck", weighted, flat.reshape(x.shape[:2]))

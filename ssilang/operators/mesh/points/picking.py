@@ -338,8 +338,7 @@ def made_of_lists(
 def _doubted_if_empty(session: Session, found: Mesh) -> Mesh:
     """The points found; none raise the flag that SOUC reads."""
     if not found.n_cells:
-        options = session.options
-        options["SOUC"] = max(int(options.get("SOUC", 0)), 1)
+        session.doubt()
     return found
 
 
