@@ -72,7 +72,7 @@ class PlasticLaw:
     parts : Backbones or None
         Parts side by side, of a law that is shaped to have them.
     slid : callable or None
-        Slip (m, n) beyond the last point of the law's curve, from stress, plastic strain, variables.
+        Slip (m, n) beyond the last point of the curve, from stress, plastic strain, variables.
     """
 
     respond: Respond

@@ -18,7 +18,7 @@ def enumerate_sets(W, q, B, r):
         on = np.flatnonzero(choice)
         system = np.block([[W[np.ix_(on, on)], B[on]], [B[on].T, np.zeros((k, k))]])
         right = -np.concatenate([q[on], r])
-        if np.linalg.matrix_rank(system) < len(right):
+        if system.size and np.linalg.matrix_rank(system) < len(right):
             continue
         x = np.linalg.solve(system, right)
         p = np.zeros(m)

@@ -31,7 +31,7 @@ def test_any_rows_are_met_exactly_and_spanned_fully(C, seed):
     T = found.T.toarray()
     assert found.eliminated.all()
     assert T.shape[1] == C.shape[1] - np.linalg.matrix_rank(C)
-    assert np.linalg.matrix_rank(T) == T.shape[1]
+    assert T.size == 0 or np.linalg.matrix_rank(T) == T.shape[1]
     np.testing.assert_allclose(C @ T, 0.0, atol=1e-9)
     d = C @ rng.normal(size=C.shape[1])
     np.testing.assert_allclose(C @ found.particular(d), d, atol=1e-8)
