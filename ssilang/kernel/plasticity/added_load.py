@@ -17,6 +17,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 SHIFT = 1e-6
 """Small displacement over the size of the bodies, small turn, small time over that of the run."""
@@ -88,6 +89,10 @@ class LoadedBulk(Bulk):
     def begin(self, bodies: State, u: FloatArray, time: float) -> State:
         """The state at the start."""
         return cast(State, _Loaded(bodies, u.copy(), self.law(time, u).force))
+
+    def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
+        """Those of the bodies."""
+        return self.bodies.points_of(_of(state).bodies)
 
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent of bodies and load after a step."""

@@ -257,9 +257,9 @@ class Bulk:
                 zone.law.slid(zone.parameters, s.stress, s.plastic, s.variables)
                 for s in (first, last)
             )
-            beyond = (np.abs(after - before) > ROUNDING).any(axis=1)
+            beyond: NDArray[np.bool_] = np.any(np.abs(after - before) > ROUNDING, axis=1)
             seen.setdefault(zone.zone.behaviour[-1], []).append(beyond)
-        shares = {law: float(np.concatenate(beyond).mean()) for law, beyond in seen.items()}
+        shares = {law: float(np.concatenate(found).mean()) for law, found in seen.items()}
         return {law: share for law, share in shares.items() if share > 0.0}
 
     def stresses(self, state: State) -> list[CellFieldBlock]:

@@ -1,0 +1,1 @@
+"""Bodies that yield in large strains."""
