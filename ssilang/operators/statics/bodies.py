@@ -65,8 +65,8 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
-        from ssilang.kernel.plasticity.finite_yielding import yielding_bulk
         from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
+        from ssilang.kernel.plasticity.large.finite_yielding import yielding_bulk
 
         yielding = tuple(z for z in zones if is_plastic(z))
         if yielding:

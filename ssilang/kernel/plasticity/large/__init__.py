@@ -1,1 +1,1 @@
-"""Bodies that yield in large strains."""
+"""Bodies that yield in large displacements and strains."""

@@ -26,7 +26,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.plasticity.finite import FiniteSolid
-from ssilang.kernel.plasticity.finite_yielding import InsideOutError, YieldingSolid
+from ssilang.kernel.plasticity.large.finite_yielding import InsideOutError, YieldingSolid
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 Function = tuple[Callable[[FloatArray], FloatArray], Callable[[FloatArray, FloatArray], FloatArray]]

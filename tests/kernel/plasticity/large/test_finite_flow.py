@@ -5,8 +5,8 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.plasticity.finite import finite_zone
-from ssilang.kernel.plasticity.finite_yielding import InsideOutError
 from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
+from ssilang.kernel.plasticity.large.finite_yielding import InsideOutError
 from ssilang.kernel.plasticity.points import PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
