@@ -78,7 +78,7 @@ class _Rules(ctypes.Structure):
 
 
 class _Below(ctypes.Structure):
-    _pack_ = 1
+    _layout_, _pack_ = "ms", 1
     _fields_ = [("rights", ctypes.c_uint64), ("folder", ctypes.c_int32)]
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 TRIED = {
-    "Python": ("3.11", "3.12", "3.13"),
+    "Python": ("3.11", "3.12", "3.13", "3.14"),
     "numba": ("0.68",),
     "llvmlite": ("0.50",),
     "numpy": ("2.0", "2.1", "2.2", "2.3", "2.4"),
