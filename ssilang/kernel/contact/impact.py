@@ -18,7 +18,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
-from ssilang.kernel.contact.struck import STILL, press, strike
+from ssilang.kernel.contact.struck import STILL, press, slow_down, strike
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -78,7 +78,7 @@ class ImpactRule:
 
     def _strike(self, motion: Motion, closing: BoolArray, rate: FloatArray) -> float | None:
         """Bodies that are struck while they are held; their rows no longer count as `closing`."""
-        m, G, (X, W, mass, flexibility) = len(rate), self.contact.G, self._bodies
+        m, G, (X, W, _, flexibility) = len(rate), self.contact.G, self._bodies
         p = motion.contact[:m]
         v = G @ motion.v - rate
         c = v - 2.0 / self._effective.dt * (flexibility @ p)
@@ -88,17 +88,27 @@ class ImpactRule:
         impulse, change = np.zeros(m), np.zeros(m)
         if not (closing | stays).any():
             return None
-        if strike(W, c, v, closing | stays, held, body, struck, impulse) == 0:
+        dt = self._effective.dt
+        step, a = np.array([0.5 * dt, 2.0 / dt]), G @ motion.a
+        if strike(W, flexibility, c, v, a, step, closing | stays, held, body, struck, impulse) == 0:
             return None
-        move, T, V = X @ impulse, self._problem.constraints.T, self._problem.constraints.V
-        motion.v[:] += move
-        if self._problem.C.nnz:
-            motion.a[:] -= T @ mass.solve(V.T @ (self._problem.C @ move))
+        self._push(motion, impulse)
         press(W, G @ motion.a, struck, p, change)
         motion.a[:] += X @ change
         p += change
         closing &= ~body
-        return float(rate @ (impulse - 0.5 * self._effective.dt * change))
+        work = rate @ (impulse - 0.5 * dt * change)
+        slow_down(W, G @ motion.v - rate, G @ motion.a, v * step[0], body, struck, impulse)
+        self._push(motion, impulse)
+        return float(work + rate @ impulse)
+
+    def _push(self, motion: Motion, impulse: FloatArray) -> None:
+        """Velocities and accelerations after impulses (m,) on the rows."""
+        X, _, mass, _ = self._bodies
+        move, T, V = X @ impulse, self._problem.constraints.T, self._problem.constraints.V
+        motion.v[:] += move
+        if self._problem.C.nnz:
+            motion.a[:] -= T @ mass.solve(V.T @ (self._problem.C @ move))
 
     @cached_property
     def _bodies(self) -> tuple[FloatArray, FloatArray, Inverse, FloatArray]:

@@ -20,7 +20,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_fused
 from ssilang.kernel.contact.active_set import ActiveSet, find_active
-from ssilang.kernel.contact.struck import COUPLED, STILL, press, strike
+from ssilang.kernel.contact.struck import COUPLED, STILL, press, slow_down, strike
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.modal.diagonal import (
@@ -236,19 +236,15 @@ def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: n
         held[i] = stops.closed[i] and not closing[i] and c[i] <= 0.0
         if held[i] and x.contact[i] > 0.0:
             strikes[i] = _stays(stops, Q, x, rate, i)
-    if strike(W, c, v, strikes, held, body, struck, impulse) == 0:
+    step = np.array([1.0 / stops.newmark.v_du, stops.newmark.a_du / stops.newmark.v_du])
+    a = np.zeros(m)
+    _rows_of(stops.G, x.a, a)
+    if strike(W, Q, c, v, a, step, strikes, held, body, struck, impulse) == 0:
         return np.nan
-    for j in range(r):
-        move = 0.0
-        for i in range(m):
-            move += by[j, i] * impulse[i]
-        x.v[j] += move
-        x.a[j] -= stops.slowing[j] * move
-    for i in range(m):
-        v[i] = 0.0
-        for j in range(r):
-            v[i] += stops.G[i, j] * x.a[j]
-    press(W, v, struck, x.contact, change)
+    _push(stops, x, impulse)
+    a[:] = 0.0
+    _rows_of(stops.G, x.a, a)
+    press(W, a, struck, x.contact, change)
     work = 0.0
     for i in range(m):
         closing[i] = closing[i] and not body[i]
@@ -256,7 +252,25 @@ def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: n
         x.contact[i] += change[i]
         for j in range(r):
             x.a[j] += by[j, i] * change[i]
+        c[i], v[i], a[i] = v[i] * step[0], -rate[i], 0.0
+    _rows_of(stops.G, x.v, v)
+    _rows_of(stops.G, x.a, a)
+    slow_down(W, v, a, c, body, struck, impulse)
+    _push(stops, x, impulse)
+    for i in range(m):
+        work += rate[i] * impulse[i]
     return work
+
+
+@compiled_fused
+def _push(stops: Stops, x: Motion, impulse: FloatArray) -> None:
+    """Velocities and accelerations after impulses (m,) on the rows."""
+    for j in range(len(x.v)):
+        move = 0.0
+        for i in range(len(impulse)):
+            move += stops.struck.by[j, i] * impulse[i]
+        x.v[j] += move
+        x.a[j] -= stops.slowing[j] * move
 
 
 @compiled_fast

@@ -11,6 +11,11 @@ restitution:
 A row that holds is let go where the others' impulses lift it, and pressed where they push it on.
 So is a row that was turned round and pushes in the next step all the same: it did not rebound.
 What is struck then moves by the equilibrium with the reactions of the rows that stay.
+
+Rows meet within a step, and the step is solved as if they met at its end. `strike` takes back what
+loads did to the rows after they met, `slow_down` does it again with those that are left open: at
+constant accelerations kinetic energies are right where the rows meet and where they are at the
+step's end, whatever the step.
 """
 
 from __future__ import annotations
@@ -20,7 +25,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fused
-from ssilang.kernel.contact.active_set import ActiveSet, answer, find_active
+from ssilang.kernel.contact.active_set import ActiveSet, anew, answer, find_active, list_closed
 
 COUPLED = 1e-6  # of the flexibilities of two rows: an impulse on one moves the other
 APART = 1e-8  # added to the diagonal of W, whose rows may depend on one another; taken back after
@@ -32,24 +37,29 @@ STILL = 1e-9  # of the velocity that a row would have without the last reactions
 @seldom
 @compiled_fused
 def strike(
-    W: FloatArray, c: FloatArray, v: FloatArray, closing: np.ndarray, held: np.ndarray,
-    body: np.ndarray, struck: np.ndarray, impulse: FloatArray,
+    W: FloatArray, Q: FloatArray, c: FloatArray, v: FloatArray, a: FloatArray, step: FloatArray,
+    closing: np.ndarray, held: np.ndarray, body: np.ndarray, struck: np.ndarray,
+    impulse: FloatArray,
 ) -> int:  # fmt: skip
     """Rows of the bodies that are struck while they are held, and what stops them.
 
     Parameters
     ----------
-    W : array (m, m)
-        Flexibilities of the rows by the mass.
+    W, Q : arrays (m, m)
+        Flexibilities of the rows by the mass, and by the step's matrix.
     c, v : arrays (m,)
         Velocities at the step's end without its last reactions, and with them.
+    a : array (m,)
+        Accelerations at the step's end.
+    step : array (2,)
+        Displacements and accelerations of a step by its change of velocity.
     closing, held : arrays (m,) of bool
         Rows that push since this step, and since before; both: rows that were turned round and
         push all the same.
     body, struck : arrays (m,) of bool, overwritten
-        Rows of such bodies that touch; those of them that have an impulse.
+        Rows of such bodies that touch; those of them that are brought to rest.
     impulse : array (m,), overwritten
-        Impulses that bring the struck rows from v to rest.
+        Impulses that bring the rows from v to their velocities after the impact.
 
     Returns
     -------
@@ -65,17 +75,104 @@ def strike(
             rows[n] = i
             n += 1
     active, before, found = _active(W, rows, n), np.zeros(n), np.zeros(n)
-    for i in range(n):
-        active.free[i] = c[rows[i]]
-        before[i] = v[rows[i]]
+    met = _meet(Q, c, v, a, step, rows, closing, held, active.free)
     find_active(active)
+    few = active.tally[0]
+    for i in range(n):
+        before[i], struck[rows[i]] = v[rows[i]], active.closed[i]
+    if met:
+        _rest(W, rows, active, active.free, found)
+        for i in range(n):
+            if not active.closed[i]:
+                before[i] -= _answered(W, rows, active.free, found, i)
+        _close(active, np.ones(n, np.bool_))
     _rest(W, rows, active, before, found)
-    few = 0
     for i in range(n):
         if active.closed[i]:
-            struck[rows[i]], impulse[rows[i]] = True, found[i]
-            few += 1
+            impulse[rows[i]] = found[i]
     return few
+
+
+@compiled_fused
+def _meet(
+    Q: FloatArray, c: FloatArray, v: FloatArray, a: FloatArray, step: FloatArray, rows: IntArray,
+    closing: np.ndarray, held: np.ndarray, speed: FloatArray,
+) -> bool:  # fmt: skip
+    """Velocities (n,) of the rows when they meet, while what holds the body holds on.
+
+    The step has gone on as if nothing were met: at its end the closing rows would have come
+    through by a depth, and loads would have done work on it, which is taken back. Rows that were
+    turned round do not meet: theirs are velocities of the step's end.
+    """
+    n, before, after = len(speed), 0.0, 0.0
+    active, kept, found = _active(Q, rows, n), np.zeros(n, np.bool_), np.zeros(n)
+    for i in range(n):
+        speed[i] = c[rows[i]]
+        kept[i] = held[rows[i]]
+    _close(active, kept)
+    _rest(Q, rows, active, speed, found)
+    for i in range(n):
+        row, end = rows[i], _answered(Q, rows, speed, found, i)
+        active.found[i] = end
+        if kept[i] or end >= 0.0 or v[row] <= end:
+            continue
+        change = v[row] - end
+        before += end**2
+        after += max(end**2 + 2.0 * (a[row] - change * step[1]) * (change * step[0]), 0.0)
+    if before == 0.0:
+        return False
+    for i in range(n):
+        speed[i] = 0.0 if kept[i] else active.found[i] * np.sqrt(after / before)
+    return True
+
+
+@seldom
+@compiled_fused
+def slow_down(
+    W: FloatArray, v: FloatArray, a: FloatArray, depth: FloatArray, body: np.ndarray,
+    struck: np.ndarray, impulse: FloatArray,
+) -> None:  # fmt: skip
+    """Impulses (m,) for what loads did since rows met: others have opened by `depth` (m,) since.
+
+    `v` and `a` (m,) are velocities just after the impact and accelerations.
+    """
+    rows, n, before, after = np.empty(len(v), np.int64), 0, 0.0, 0.0
+    for i in range(len(v)):
+        impulse[i] = 0.0
+        if body[i]:
+            rows[n] = i
+            n += 1
+        if body[i] and not struck[i] and v[i] > 0.0 and depth[i] > 0.0:
+            before += v[i] ** 2
+            after += max(v[i] ** 2 + 2.0 * a[i] * depth[i], 0.0)
+    if before == 0.0:
+        return
+    active, change, found = _active(W, rows, n), np.zeros(n), np.zeros(n)
+    for i in range(n):
+        if not struck[rows[i]]:
+            change[i] = (1.0 - np.sqrt(after / before)) * v[rows[i]]
+    _close(active, np.ones(n, np.bool_))
+    _rest(W, rows, active, change, found)
+    for i in range(n):
+        impulse[rows[i]] = found[i]
+
+
+@compiled_fused
+def _answered(W: FloatArray, rows: IntArray, v: FloatArray, impulse: FloatArray, i: int) -> float:
+    """Velocity of the row i of `rows` after their impulses (n,), from v (n,)."""
+    total = v[i]
+    for j in range(len(v)):
+        total += W[rows[i], rows[j]] * impulse[j]
+    return total
+
+
+@compiled_fused
+def _close(active: ActiveSet, wanted: np.ndarray) -> None:
+    """Exchange the rows that are wanted."""
+    for i in range(len(wanted)):
+        active.closed[i] = wanted[i]
+    anew(active)
+    list_closed(active)
 
 
 @seldom
@@ -164,9 +261,7 @@ def _rest(
         impulse[i] = 0.0
     for _ in range(TURNS):
         for i in range(n):
-            left[i] = v[i]
-            for j in range(n):
-                left[i] += W[rows[i], rows[j]] * impulse[j]
+            left[i] = _answered(W, rows, v, impulse, i)
         answer(active, left, change)
         for i in range(n):
             if active.closed[i]:

@@ -98,30 +98,27 @@ def restitution(motion: Rocking):
 
 @pytest.mark.parametrize("alpha", [0.15, 0.3])
 def test_each_impact_keeps_the_momentum_about_the_corner_that_lands(alpha):
-    """Housner's r, to which steps converge: an impact comes half a step early or late."""
+    """Housner's r, wherever in a step an impact comes: to the second order, coarse steps too."""
     r = HousnerBlock(R, alpha).restitution
-    worst = []
-    for dt in (1e-3, 5e-4, 2.5e-4):
+    for dt in (2e-2, 1e-2, 2.7e-3, 2.5e-4):
         found = restitution(rock(dt, 3.0, alpha))
         assert len(found) >= 2
-        worst.append(np.abs(found - r).max())
-        assert worst[-1] < 4.0 * dt
-    assert worst[-1] < 1e-3
+        assert np.abs(found - r).max() < 0.3 * dt**2
 
 
 def test_swings_and_half_periods_are_those_of_housner():
     """Piecewise cosh between impacts; p^2 and the angle of small rotations about the corners."""
-    alpha, motion = 0.2, rock(2.5e-4)
+    alpha, dt, motion = 0.2, 4e-3, rock(4e-3)
     r, a = HousnerBlock(R, alpha).restitution, np.tan(alpha)
     p = HousnerBlock(R, alpha).p * np.sqrt(np.cos(alpha))
     k = motion.upright
-    t = motion.times[k] + 2.5e-4 * motion.theta[k] / (motion.theta[k] - motion.theta[k + 1])
+    t = motion.times[k] + dt * motion.theta[k] / (motion.theta[k] - motion.theta[k + 1])
     swings = [np.abs(motion.theta[i:j]).max() for i, j in zip([0, *k[:-1]], k, strict=True)]
     exact = a * (1 - np.sqrt(1 - r ** (2 * np.arange(len(k))) * (1 - (1 - TILT) ** 2)))
-    np.testing.assert_allclose(swings, exact, rtol=3e-3)
+    np.testing.assert_allclose(swings, exact, rtol=3e-5)
     halves = 2.0 / p * np.arccosh(1.0 / (1.0 - exact / a))
     halves[0] *= 0.5
-    np.testing.assert_allclose(np.diff(t, prepend=0.0), halves, rtol=2e-3)
+    np.testing.assert_allclose(np.diff(t, prepend=0.0), halves, rtol=1e-4)
 
 
 def test_what_impacts_take_is_told_as_lost():
@@ -162,7 +159,8 @@ def test_damped_loops_agree(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     two = rock(2e-3, 2.0, damping=0.4)
     assert (one.history.loop, two.history.loop) == ("compiled", "condensed")
-    for part, same in {"u": SAME, "v": SAME, "a": 1e-5, "contact": 1e-5}.items():
+    # massless nodes are given 1e-10 in one loop, and swings multiply what differs by e^(p t) = 14
+    for part, same in {"u": 10 * SAME, "v": 10 * SAME, "a": 1e-5, "contact": 1e-5}.items():
         size = np.abs(two.record.of(part)).max()
         assert np.abs(one.record.of(part) - two.record.of(part)).max() < same * size, part
     np.testing.assert_allclose(one.history.energies, two.history.energies, atol=1e-6)
