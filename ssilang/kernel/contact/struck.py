@@ -77,7 +77,7 @@ def strike(
     active, before, found = _active(W, rows, n), np.zeros(n), np.zeros(n)
     met = _meet(Q, c, v, a, step, rows, closing, held, active.free)
     find_active(active)
-    few = active.tally[0]
+    few = int(active.tally[0])
     for i in range(n):
         before[i], struck[rows[i]] = v[rows[i]], active.closed[i]
     if met:
@@ -160,7 +160,7 @@ def slow_down(
 @compiled_fused
 def _answered(W: FloatArray, rows: IntArray, v: FloatArray, impulse: FloatArray, i: int) -> float:
     """Velocity of the row i of `rows` after their impulses (n,), from v (n,)."""
-    total = v[i]
+    total = float(v[i])
     for j in range(len(v)):
         total += W[rows[i], rows[j]] * impulse[j]
     return total
