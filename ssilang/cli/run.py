@@ -363,7 +363,8 @@ def _flush(out: TextIO, errors: list[SsiError]) -> None:
     try:
         out.flush()
     except BrokenPipeError:
-        errors.append(SsiError("reader-left", None))
+        if all(e.code != "reader-left" for e in errors):
+            errors.append(SsiError("reader-left", None))
     except OSError as problem:
         errors.append(unprinted(problem))
 

@@ -78,6 +78,9 @@ class Parser(argparse.ArgumentParser):
         self._told = told
         self.add_argument("-h", "--help", action="help", help="cli.usage-help")
 
+    def _check_help(self, action: argparse.Action) -> None:
+        """Nothing: since Python 3.14 each argument's help would be worded as it is added."""
+
     def error(self, message: str) -> NoReturn:
         """Say how the command is used and what is wrong; the exit code is 2."""
         self.print_usage(sys.stderr)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -259,7 +260,8 @@ def _place(folder: Path, name: str) -> Path:
         raise OutputError("io.no-such-place", name=_shown(name), reason=Sentence("io.reason-drive"))
     try:
         path = (folder / portable(name)).resolve()
-        path.exists()
+        with suppress(FileNotFoundError, NotADirectoryError):
+            os.lstat(path)
         if any(map(os.path.islink, (path, *path.parents))):  # what resolve leaves is a loop
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     except (OSError, ValueError, RuntimeError) as error:
