@@ -158,6 +158,31 @@ def test_phrases_are_evaluated_with_objects_of_python_and_leave_no_names(swing):
         swing.evaluate("MAXI ABSENT")
 
 
+@pytest.mark.parametrize(
+    ("given", "kind", "phrase", "value"),
+    [
+        (np.float32(0.5), "FLOTTANT", "X + 0.", 0.5), (np.float64(2.0), "FLOTTANT", "X + 0.", 2.0),
+        (np.int16(-3), "ENTIER", "X + 0", -3), (np.bool_(True), "LOGIQUE", "X ET VRAI", True),
+        (np.bool_(False), "LOGIQUE", "X OU FAUX", False), (np.str_("ab"), "MOT", "CHAI X 'c'", "abc"),
+        ([1, 2.5], "LISTREEL", "EXTR X 2", 2.5), ([2.5, 1], "LISTREEL", "EXTR X 2", 1.0),
+        ([np.float32(1.5), 2], "LISTREEL", "EXTR X 1", 1.5), ((3, 4), "LISTENTI", "EXTR X 1", 3),
+        (np.arange(3, dtype=np.uint8), "LISTENTI", "EXTR X 3", 2),
+        (range(5, 1, -2), "LISTENTI", "EXTR X 2", 3), (["b", "a"], "LISTMOTS", "EXTR X 2", "a"),
+        ([np.str_("b"), "a"], "LISTMOTS", "EXTR X 1", "b"), ([], "LISTREEL", "DIME X", 0),
+    ],
+)  # fmt: skip
+def test_python_s_values_are_the_language_s(swing, given, kind, phrase, value):
+    assert str(swing.evaluate("TYPE X", X=given)).strip() == kind
+    found = swing.evaluate(phrase, X=given)
+    assert (type(found), found) == (type(value), value)
+
+
+@pytest.mark.parametrize("given", [["a", 1], [1, "a"], [None], np.eye(2), [1j], {"a": 1}, None])
+def test_what_the_language_has_no_object_for_is_refused(swing, given):
+    with pytest.raises(ssilang.Error, match=f"takes no {type(given).__name__} of Python"):
+        swing.evaluate("TYPE X", X=given)
+
+
 def test_lists_of_a_table_as_a_frame():
     r = ssilang.run("T = TABL ; T . 'A' = PROG 1. 2. ; T . 'B' = LECT 3 4 ; T . 'C' = 1 ;")
     assert r["T"].frame().to_dict("list") == {"A": [1.0, 2.0], "B": [3, 4]}

@@ -82,8 +82,11 @@ def test_a_circle_is_the_same_in_all_directions_and_axes_change_no_percentile() 
 
 def test_what_no_filter_is_is_refused() -> None:
     for order, low, high, code in (
-        (0, 1.0, None, "filter-order"), (4, 60.0, None, "filter-corner"),
-        (4, 2.0, 1.0, "filter-corners-cross"),
+        (0, 1.0, None, "filter-order"), (13, 1.0, None, "filter-order"),
+        (4, 60.0, None, "filter-corner"), (4, 50.0, None, "filter-corner"),
+        (4, 0.0, 1.0, "filter-corner"), (4, None, 0.0, "filter-corner"),
+        (4, None, -1.0, "filter-corner"), (4, 2.0, 1.0, "filter-corners-cross"),
+        (4, 2.0, 2.0, "filter-corners-cross"),
     ):  # fmt: skip
         with pytest.raises(FieldError) as caught:
             butterworth(np.ones(50), STEP, order, low, high, causal=True)
