@@ -163,7 +163,8 @@ def test_phrases_are_evaluated_with_objects_of_python_and_leave_no_names(swing):
     [
         (np.float32(0.5), "FLOTTANT", "X + 0.", 0.5), (np.float64(2.0), "FLOTTANT", "X + 0.", 2.0),
         (np.int16(-3), "ENTIER", "X + 0", -3), (np.bool_(True), "LOGIQUE", "X ET VRAI", True),
-        (np.bool_(False), "LOGIQUE", "X OU FAUX", False), (np.str_("ab"), "MOT", "CHAI X 'c'", "abc"),
+        (np.bool_(False), "LOGIQUE", "X OU FAUX", False),
+        (np.str_("ab"), "MOT", "CHAI X 'c'", "abc"),
         ([1, 2.5], "LISTREEL", "EXTR X 2", 2.5), ([2.5, 1], "LISTREEL", "EXTR X 2", 1.0),
         ([np.float32(1.5), 2], "LISTREEL", "EXTR X 1", 1.5), ((3, 4), "LISTENTI", "EXTR X 1", 3),
         (np.arange(3, dtype=np.uint8), "LISTENTI", "EXTR X 3", 2),
