@@ -238,6 +238,7 @@ PROBLEMS = {
 """Problems by the loop that they get."""
 
 
+@pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_types_that_are_told_ahead_are_those_of_a_run():
     """Else the other process compiles in vain: correct `ahead.toml`."""
     for make in PROBLEMS.values():
@@ -309,6 +310,7 @@ def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatc
     assert entered == rooms
 
 
+@pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_the_other_process_leaves_what_the_run_has_begun(tmp_path, monkeypatch):
     run, other = pair(tmp_path)
     monkeypatch.setattr(half.function, "name", None)  # nothing is kept

@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 
+from ssilang.kernel.base.compiled import PLAIN as NUMBA_ALONE
 from ssilang.kernel.base.compiled.cache import state_of
 
 PROGRAM = """
@@ -127,6 +128,7 @@ def test_state_changes_with_what_a_module_imports_and_nothing_else(tree, edited,
     assert (state_of("ssilang.kernel.loop", again) != before) == changes
 
 
+@pytest.mark.skipif(NUMBA_ALONE, reason="plain numba compiles whole functions")
 def test_functions_apart_are_kept_compiled_when_called_and_can_fail_or_stop(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     (tmp_path / "run.py").write_text(RUN)

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from ssilang.kernel.base.compiled import cache, kept, kinds, machine
+from ssilang.kernel.base.compiled import PLAIN, cache, kept, kinds, machine
 from ssilang.kernel.base.compiled.machine import Code
 
 
@@ -60,6 +60,7 @@ if sys.argv[1:]:  # code that is not kept yet, with kept code in it
 """
 
 
+@pytest.mark.skipif(PLAIN, reason="plain numba keeps code as it does")
 def test_kept_code_loads_without_the_compiler_and_serves_new_code(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     (tmp_path / "run.py").write_text(RUN)
