@@ -6,6 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from ssilang.cli.run import run_text
+
 
 def test_the_summary_has_the_figures_of_the_histories(verdict_run):
     summary = json.loads((verdict_run / "summary.json").read_text())
@@ -44,3 +46,14 @@ def test_the_report_has_them_with_their_limits_marked(verdict_run):
     assert max(pressure["lines"][0]["y"]) == pytest.approx(
         verdict["peaks"]["PRESSION"]["value"], rel=1e-5
     )
+
+
+@pytest.mark.parametrize("given", [{}, {"FROTTEMENT": 0.7}, {"CAPACITE": 2e5},
+                                   {"FROTTEMENT": 0.4, "CAPACITE": 3e5}])  # fmt: skip
+def test_friction_and_capacity_are_told_each_by_itself(given):
+    tables = "G = TABL ; F = TABL ; F . 'PICS' = TABL ; F . 'RESIDUS' = TABL ; F . 'AIRE' = 12. ; "
+    entries = "".join(f"G . '{name}' = {value} ; " for name, value in given.items())
+    run = run_text(tables + entries + "ZBIL G F ;")
+    (verdict,) = run.session.statistics["verdicts"]
+    told = (verdict["area"], verdict["friction"], verdict["capacity"])
+    assert told == (12.0, given.get("FROTTEMENT"), given.get("CAPACITE"))

@@ -135,3 +135,17 @@ def test_words_need_no_folder(tmp_path, monkeypatch):
     blocked.write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))
     assert grammar_words() == words_of_grammar()
+
+
+@pytest.mark.parametrize("read", [quick, lambda s: parse_by_grammar(s, s.code)])
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1.5d3", 1500.0), ("1.5D-3", 0.0015), ("2e2", 200.0), ("2.E+2", 200.0), ("-.5d1", -5.0),
+        ("7", 7), ("-12", -12), ("0.25", 0.25), ("3.", 3.0),
+    ],
+)  # fmt: skip
+def test_numbers_have_their_values(read, text, value):
+    (statement,) = read(Source("x", f"A = {text} ;"))
+    found = statement.items[0].value
+    assert (type(found), found) == (type(value), value)
