@@ -133,6 +133,47 @@ def test_supports_of_the_joints_themselves_move():
     assert (np.array([s.w[:, -1] for s in kept]) > 1e-6).any()
 
 
+def footing_made_rigid(problem):
+    """The upper sides of the joints move as one rigid body, told by relations."""
+    places = problem.numbering.table.coordinates[problem.numbering.nodes]
+    above = np.flatnonzero(problem.interface.J.toarray().max(axis=0) > 0.0)
+    assert (places[above, 1] == 0.0).all()
+    across, up = (np.intersect1d(above, problem.numbering.where(n)) for n in ("UX", "UY"))
+    left, right = up[places[up, 0].argmin()], up[places[up, 0].argmax()]
+    rows = []
+    for i in across[1:]:
+        rows.append({i: 1.0, across[0]: -1.0})
+    for i in up:
+        if i not in (left, right):
+            s = (places[i, 0] - places[left, 0]) / (places[right, 0] - places[left, 0])
+            rows.append({i: 1.0, left: s - 1.0, right: -s})
+    assert len(rows) > 5
+    ties = sparse.lil_array((len(rows), problem.numbering.size))
+    for k, row in enumerate(rows):
+        for i, factor in row.items():
+            ties[k, i] = factor
+    old = problem.constraints.C
+    return replace(
+        problem, constraints=EliminatedConstraints(sparse.csr_array(sparse.vstack([old, ties]))),
+        loading=replace(problem.loading, imposed=np.vstack(
+            [problem.loading.imposed, np.zeros((len(rows), problem.loading.imposed.shape[1]))]
+        )),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("moving", [False, True])
+@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
+def test_a_footing_tied_to_a_rigid_body_on_joints(moving, damping):
+    problem = soil_block(steps=100, size=SIZE, damping=damping, moving=moving)
+    tied = footing_made_rigid(problem)
+    kept = assert_same(tied)
+    assert (np.array([s.w[:, -1] for s in kept]) > 1e-6).any()
+    rng = np.random.default_rng(5)
+    u, v = (tied.constraints.T @ (1e-4 * rng.standard_normal(tied.constraints.T.shape[1]))
+            for _ in range(2))  # fmt: skip
+    assert_same(replace(tied, u=tied.u + u, v=tied.v + v), 1e-8)
+
+
 def test_a_first_motion_that_the_supports_do_not_allow():
     problem = soil_block(steps=60, size=SIZE)
     rng = np.random.default_rng(3)
