@@ -472,13 +472,18 @@ def block_of(x, state, w, t):
     return block
 
 
-def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer():
+@pytest.mark.parametrize("beside", ["face", "two springs"])
+def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer(beside):
     """Surface joints and a macro-element in one interface: each as if it stood alone."""
     bench = Bench(PLANE)
     soil, base = bench.node(0.0, -1.0), bench.node(0.0, 0.0)
-    upper, lower = ([bench.node(x, 5.0) for x in (6.0, 8.0)] for _ in range(2))
+    below = 5.0 if beside == "face" else 4.0
+    upper, lower = ([bench.node(x, y) for x in (6.0, 8.0)] for y in (5.0, below))
     bench.joint("SEG2", [[soil, base]], "JOI1", "MACRO_SEMELLE", **STRIP, COHE=C)
-    bench.joint("RAC2", [[*upper, *lower]], "JOI2", KN=2e7, KS=1e7)
+    if beside == "face":
+        bench.joint("RAC2", [[*upper, *lower]], "JOI2", KN=2e7, KS=1e7)
+    else:
+        bench.joint("SEG2", [*zip(lower, upper, strict=True)], "JOI1", KN=2e7, KS=1e7)
     for node in (soil, base, *upper, *lower):
         for unknown in ("UX", "UY", "RZ"):
             bench.spring(1.0, node, unknown=unknown)
@@ -510,6 +515,9 @@ def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer():
     forces = x.J.T @ f
     _, t_alone, _, _ = alone.tried(motion)
     np.testing.assert_allclose(forces[places], alone.force(t_alone), rtol=1e-12)
+    opened = [u[numbering.index_of(one, "UY")] - u[numbering.index_of(other, "UY")]
+              for one, other in zip(upper, lower, strict=True)]  # fmt: skip
+    assert abs(w[:2, 1].sum()) == pytest.approx(abs(sum(opened)), rel=1e-9)
     plain = np.minimum(w[:2, 1], 0.0) * 2e7
     np.testing.assert_allclose(t[:2, 1], plain, rtol=1e-12, atol=1e-9)
     again = state_from_field(x, state_field(x, new, w, t))
