@@ -11,6 +11,7 @@ from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping import run_many as together
 from ssilang.kernel.stepping.choose import only
@@ -393,6 +394,32 @@ def test_extremes_are_the_maximum_over_all_steps(name, monkeypatch):
     assert unasked.known is only(rule)[0].inside
     if unasked.known:
         assert_largest(unasked, recorder)
+
+
+def test_extremes_of_reactions_that_act_elsewhere_than_their_condition():
+    """u1 = u2 / 2 is kept by forces on the second and the third of the masses."""
+    bench = Bench()
+    nodes = [bench.node(float(i), 0.0) for i in range(3)]
+    for i, node in enumerate(nodes):
+        bench.fix(node, "UX")
+        bench.spring(2e4 * (i + 1), node)
+        bench.mass(2.0 + i, node)
+    bench.spring(1e4, nodes[1], nodes[2])
+    bench.relate([(1.0, "UY", nodes[0]), (-0.5, "UY", nodes[1])])
+    rows = bench.relations[-1]
+    pull = [Term(-0.4, "UY", np.array([nodes[1]])), Term(0.9, "UY", np.array([nodes[2]]))]
+    dual = replace(relation_rows(bench.table, pull, 0), raw_multipliers=rows.raw_multipliers)
+    bench.relations[-1] = replace(rows, dual=dual)
+    times = 5e-3 * np.arange(121)
+    load = bench.load(bench.field((nodes[0], "FY", 100.0)), times.tolist(), np.sin(9 * times))
+    problem = make_problem(Inputs(bench.stiffness, times, bench.mass_matrix, load=load))
+    recorder, extremes = Recorder(len(times)), Extremes(problem=problem)
+    integrate(problem, [recorder, extremes])
+    pushed = np.array([s.support_forces for s in recorder.snapshots])
+    at = [problem.numbering.index_of(node, "UY") for node in nodes]
+    assert np.abs(pushed[:, at]).max(axis=0)[0] < 1e-9 * np.abs(pushed).max()
+    assert (np.abs(pushed[:, at[1:]]).max(axis=0) > 1.0).all()
+    assert_largest(extremes, recorder)
 
 
 def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
