@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from references.recorder import Recorder
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.matrices.matrix import Matrix
@@ -119,6 +120,31 @@ def test_newton_converges_quadratically() -> None:
     assert near
     i = near[-1]
     assert r[i + 1] < 1e-10 or np.log(r[i + 1]) / np.log(r[i]) > 1.6
+
+
+@pytest.mark.parametrize("sense", ["", "'MINI'"])
+@pytest.mark.parametrize("down", [-0.01, 0.02])
+def test_supports_that_move_are_met_before_the_first_turn(sense: str, down: float) -> None:
+    """Nothing yields: what the tangents of the start predict is the answer."""
+    result = run_text(
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ; S = (DROI 4 (0 0) (3 0)) TRAN 2 (0 1) ; "
+        "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT ; A = MATE M YOUN 1.E3 NU .3 SIGY 1.E6 ; "
+        f"B = (BLOQ UX (COTE 4 S)) ET (BLOQ UY {sense} (COTE 1 S)) ; H = BLOQ UY (COTE 3 S) ; "
+        f"B = B ET H ; F = DEPI H {down} ; C = CHAR DIMP F (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;"
+    )
+    assert result.exit_code == 0, result.message
+    zones, support = plastic_zones(at(result, "M")), at(result, "B")
+    stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
+    problem = make_problem(Inputs(stiffness, np.linspace(0, 1, 3), load=at(result, "C")))
+    bulk = bulk_of(zones, at(result, "A"), problem.numbering)
+    run = BulkRun(problem, bulk, bulk.unloaded())
+    run.observers = [recorder := Recorder(3)]
+    step_bulk_statics(run)
+    assert len(run.residuals[0]) <= 2
+    assert run.residuals[0][0] < 1e-9
+    top = problem.numbering.where("UY")
+    top = top[problem.numbering.table.coordinates[problem.numbering.nodes[top], 1] == 1.0]
+    np.testing.assert_allclose(recorder.of("u")[-1, top], down, rtol=1e-12)
 
 
 BAR = """
