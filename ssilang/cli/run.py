@@ -147,8 +147,12 @@ def execute(session: Session, source: Source) -> None:
     for name in sorted(session.given.keys() - session.assignments.keys()):
         refuse_unknown(name, source, session.assignments)
         session.root.assign(name, session.given.pop(name))
+    for left in script.unclosed:
+        session.report(left)
     try:
         session.evaluator.run_top(script.body)
+        if script.unclosed:  # and no FIN was met in them
+            raise SeveralErrors([SsiError(e.code, e.span, **e.data) for e in script.unclosed])
     except StopRun:
         return
     except SsiError as error:

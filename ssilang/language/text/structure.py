@@ -88,14 +88,26 @@ def structure(statements: list[Statement], source: Source) -> Script:
             }
             if not late:
                 errors.append(error)
-    for left in reversed(stack[1:]):
-        assert left.statement is not None
-        if left.unnamed:
-            continue
-        errors.append(_unclosed(left))
-    if errors:
-        raise SeveralErrors(errors)
-    return Script(tuple(stack[0].body), Span(source, 0, len(source.text)))
+    unclosed = [_unclosed(left) for left in reversed(stack[1:]) if not left.unnamed]
+    if errors or (unclosed and not _ends_run(stack)):
+        raise SeveralErrors(errors + unclosed)
+    for left in unclosed:
+        left.warns = True
+    while len(stack) > 1:
+        top = stack[-1]
+        if top.kind == "REPE":
+            stack.pop()
+            stack[-1].body.append(_loop(top, statements[-1]))
+        else:
+            _finsi(stack, statements[-1])
+    return Script(tuple(stack[0].body), Span(source, 0, len(source.text)), tuple(unclosed))
+
+
+def _ends_run(stack: list[_Open]) -> bool:
+    """Whether what is left open ends the run: FIN alone in the innermost of loops and branches."""
+    return not any(left.kind[:3] == "DEB" for left in stack) and any(
+        isinstance(node, Statement) and control_word(node) == "FIN" for node in stack[-1].body
+    )
 
 
 def _unclosed(left: _Open) -> SsiError:

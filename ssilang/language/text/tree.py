@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from ssilang.language.text.source import Span
+
+if TYPE_CHECKING:
+    from ssilang.language.say.errors import SsiError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,10 +158,17 @@ Node = Statement | If | Loop | Definition
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Script:
-    """A parsed and structured source."""
+    """A parsed and structured source.
+
+    Attributes
+    ----------
+    unclosed : tuple of SsiError
+        What opens blocks that are never closed, but in which FIN ends the run.
+    """
 
     body: tuple[Node, ...]
     span: Span
+    unclosed: tuple[SsiError, ...] = ()
 
 
 def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from ssilang.cli.run import run_text
+
 
 @pytest.mark.parametrize(("test", "value"), [("1 < 2", 1), ("1 > 2", 2)])
 def test_si_runs_one_branch(run, test, value):
@@ -128,6 +130,31 @@ def test_blocks_must_close(fails):
     assert fails("SI VRAI ; x = 1 ;") == "unclosed-block"
     assert fails("REPE b 2 ; x = 1 ;") == "unclosed-block"
     assert fails("x = 1 ; FINSI ;") == "stray-block-end"
+
+
+@pytest.mark.parametrize(
+    ("text", "x", "missing"),
+    [
+        ("REPE B 6 ; x = x + 1 ; FIN ; x = 10 ; FIN ;", 1, ["FIN B"]),
+        ("SI VRAI ; x = 5 ; FIN ; x = 6 ;", 5, ["FINSI"]),
+        ("SI FAUX ; x = 5 ; SINON ; x = 7 ; FIN ;", 7, ["FINSI"]),
+        ("REPE B 3 ; x = x + 1 ; SI (x > 0) ; x = 9 ; FIN ;", 9, ["FINSI", "FIN B"]),
+    ],
+)
+def test_fin_in_a_block_that_is_never_closed_ends_the_run(text, x, missing):
+    done = run_text(f"x = 0 ; {text}")
+    assert (done.exit_code, done.session.root.find("X")) == (0, x)
+    assert [w.code for w in done.session.warnings] == ["unclosed-block"] * len(missing)
+    assert [w.data["missing"] for w in done.session.warnings] == missing
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["SI FAUX ; x = 5 ; FIN ;", "REPE B 2 ; SI FAUX ; FIN ; FINSI ;", "DEBP P ; x = 1 ; FIN ;",
+     "SI FAUX ; x = 5 ; FIN ; SINON ; x = 7 ;"],
+)  # fmt: skip
+def test_a_block_that_is_never_closed_is_refused_where_no_fin_is_met(fails, text):
+    assert fails(text) == "unclosed-block"
 
 
 def test_quit_of_no_open_loop_is_an_error(fails):
