@@ -188,13 +188,6 @@ MESSAGES: dict[str, Message] = {
         "{near_hint}",
         "{near_hint}",
     ),
-    "operator-of-no-use": Message(
-        "{name} is not built; nothing reads what it would give: the run goes on without it",
-        "{name} n'est pas fait ; rien ne lit ce qu'il donnerait : le calcul continue sans",
-        "{near_hint}",
-        "{near_hint}",
-        severity="warning",
-    ),
     "set-later": Message(
         "{name} has no value here: line {line} gives it one",
         "{name} n'a pas de valeur ici : c'est la ligne {line} qui lui en donne une",

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.language.run.call import Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
-from ssilang.language.run.leftovers import is_call, is_of_no_use, leftover_error
+from ssilang.language.run.leftovers import is_call, leftover_error
 from ssilang.language.run.phrase_errors import (
     name_as_word,
     no_result,
@@ -167,9 +167,6 @@ class Evaluator(PhraseRunner):
         try:
             self._statement(statement)
         except SsiError as error:
-            if is_of_no_use(statement, error):
-                self.session.warn("operator-of-no-use", error.span, **error.data)
-                return
             if self.session.options.get("ERRE") != "IGNORE":
                 raise
             if error.span is None:

@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from ssilang.language.cast3m import find_cast3m_word
 from ssilang.language.registry import find_operator
 from ssilang.language.run.call import Operand
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
-from ssilang.language.text.tree import Name, Statement
 from ssilang.language.values import ANNULE, Mot, type_of
 
 _JOINED = frozenset({"RIGIDITE", "MAILLAGE", "MMODEL", "MCHAML", "CHARGEME", "EVOLUTIO"})
@@ -84,25 +82,6 @@ def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
         line = place.source.position(place.start)[0]
         return SsiError("set-later", operand.span, name=name, line=line)
     return SsiError("unknown-operator", operand.span, name=name)
-
-
-def is_of_no_use(statement: Statement, error: SsiError) -> bool:
-    """Whether an operator of Cast3M that is not built gives what the script never reads."""
-    targets = statement.targets
-    if error.code != "unknown-operator" or not targets or error.span is None:
-        return False
-    known = find_cast3m_word(str(error.data["name"]))
-    if known is None or known.kind != "operator":
-        return False
-    if not all(isinstance(target, Name) for target in targets):
-        return False
-    code = statement.span.source.code
-    for target in targets:
-        name = re.escape(target.span.text)
-        given = len(re.findall(rf"(?<![\w.]){name}\s*=(?!=)", code, re.IGNORECASE))
-        if len(re.findall(rf"(?<!\w){name}(?!\w)", code, re.IGNORECASE)) > given:
-            return False
-    return True
 
 
 def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:

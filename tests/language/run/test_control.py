@@ -133,26 +133,6 @@ def test_blocks_must_close(fails):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("SA = STRU 1. 2. ; x = 3 ;", True), ("SAB = 1 ; SA = 2 * (STRU 1.) ; x = SAB + 2 ;", True),
-        ("SA = STRU 1. ;\n* SA is not read\nSA = 4 ; x = 3 ;", True),
-        ("SA = STRU 1. ; x = 3 ; MESS SA ;", False), ("STRU 1. ; x = 3 ;", False),
-        ("SA = STRV 1. ; x = 3 ;", False), ("SA SB = STRU 1. ; x = 3 ;", False),
-        ("T = TABL ; T . 1 = STRU 1. ; x = 3 ;", False),
-    ],
-)  # fmt: skip
-def test_an_operator_that_is_not_built_may_give_what_nothing_reads(text, told):
-    done = run_text(text)
-    if told:
-        assert (done.exit_code, done.session.root.find("X")) == (0, 3)
-        (warning,) = done.session.warnings
-        assert (warning.code, warning.span.text) == ("operator-of-no-use", "STRU")
-    else:
-        assert [e.code for e in done.errors] == ["unknown-operator"]
-
-
-@pytest.mark.parametrize(
     ("text", "x", "missing"),
     [
         ("REPE B 6 ; x = x + 1 ; FIN ; x = 10 ; FIN ;", 1, ["FIN B"]),
