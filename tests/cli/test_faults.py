@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -95,10 +94,10 @@ def test_a_deck_s_name_that_no_file_can_have_is_told(shell):
 
 
 def test_a_word_that_fills_the_memory_is_told(shell, tmp_path):
-    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (4 * 10**7) + "' ;")
+    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (8 * 10**7) + "' ;")
     code, _, told = shell("$S large.ssi --max-memory 150")
     assert code == 1
-    assert re.match("error: (large.ssi|CHAINE) needs more memory than there is", told)
+    assert told.startswith("error: large.ssi needs more memory than there is")
 
 
 @pytest.mark.parametrize("name", ["b" * 300, "b\0c", "@" + "b" * 300])

@@ -159,8 +159,8 @@ def test_damped_loops_agree(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     two = rock(2e-3, 2.0, damping=0.4)
     assert (one.history.loop, two.history.loop) == ("compiled", "condensed")
-    # massless nodes are given 1e-10 in one loop, and swings multiply what differs by e^(p t) = 14
-    for part, same in {"u": 10 * SAME, "v": 10 * SAME, "a": 1e-5, "contact": 1e-5}.items():
+    # an impact takes its velocities from accelerations too, which loops have to 2e-7 of the largest
+    for part, same in {"u": 10 * SAME, "v": SAME, "a": 1e-5, "contact": 1e-5}.items():
         size = np.abs(two.record.of(part)).max()
         assert np.abs(one.record.of(part) - two.record.of(part)).max() < same * size, part
     np.testing.assert_allclose(one.history.energies, two.history.energies, atol=1e-6)
