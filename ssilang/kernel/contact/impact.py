@@ -79,17 +79,16 @@ class ImpactRule:
     def _strike(self, motion: Motion, closing: BoolArray, rate: FloatArray) -> float | None:
         """Bodies that are struck while they are held; their rows no longer count as `closing`."""
         m, G, (X, W, _, flexibility) = len(rate), self.contact.G, self._bodies
-        p = motion.contact[:m]
-        v = G @ motion.v - rate
-        c = v - 2.0 / self._effective.dt * (flexibility @ p)
+        p, dt = motion.contact[:m], self._effective.dt
+        v, step = G @ motion.v - rate, np.array([0.5 * dt, 2.0 / dt])
+        c = v - step[1] * (flexibility @ p)
         held = self.closed & ~closing & (c <= 0.0)
         stays = held & (p > 0.0) & (rate == 0.0) & (np.abs(v) > STILL * np.abs(c))
         body, struck = np.zeros(m, bool), np.zeros(m, bool)
         impulse, change = np.zeros(m), np.zeros(m)
         if not (closing | stays).any():
             return None
-        dt = self._effective.dt
-        step, a = np.array([0.5 * dt, 2.0 / dt]), G @ motion.a
+        a = G @ motion.a
         if strike(W, flexibility, c, v, a, step, closing | stays, held, body, struck, impulse) == 0:
             return None
         self._push(motion, impulse)
