@@ -1,8 +1,8 @@
 """From a code and its data to a sentence, in one language, at the very end.
 
-A code is `room.name`: the room is a module of this package (`kernel.mesh`, `operators.modal`),
-loaded when one of its sentences is first told; a code without a room is the language's own. Data
-fill the templates:
+A code is `room.name`: the room is a file beside this one (`kernel.mesh` is `kernel/mesh.toml`),
+read when one of its sentences is first told; a code without a room is the language's own. Each
+table of a file is a `Message`; its data fill the templates:
 
 ===============================  ==================================================================
 `{size:.3g}`                     as in str.format
@@ -31,8 +31,7 @@ from collections.abc import (
 )
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from string import Formatter
 from typing import Any, Literal, Protocol, TypeGuard, runtime_checkable
 
@@ -53,12 +52,17 @@ COLON = {"en": ": ", "fr": " : "}
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Sentence and hint of one code, in two languages; `number` is Cast3M's, 0 if it has none."""
+    """Sentence and hint of one code, in two languages; `number` is Cast3M's, 0 if it has none.
+
+    `script` is the hint in the words of scripts, where it differs: the kernel knows no operators.
+    """
 
     en: str
     fr: str
     hint_en: str = ""
     hint_fr: str = ""
+    script_en: str = ""
+    script_fr: str = ""
     number: int = 0
     severity: Severity = "error"
 
@@ -142,7 +146,7 @@ def find(code: str) -> Message:
     room, _, name = code.rpartition(".")
     try:
         return _room(room or "language")[name]
-    except (ModuleNotFoundError, KeyError):
+    except (FileNotFoundError, KeyError):
         raise LookupError(f"no message has the code '{code}'") from None
 
 
@@ -154,8 +158,11 @@ def places(template: str) -> int:
 
 @cache
 def _room(name: str) -> dict[str, Message]:
-    found: dict[str, Message] = import_module(f"ssilang.messages.{name}").MESSAGES
-    return found
+    import tomllib  # most runs tell nothing
+
+    path = Path(__file__).parent.joinpath(*name.split(".")).with_suffix(".toml")
+    found = tomllib.loads(path.read_text(encoding="utf-8"))
+    return {code: Message(**fields) for code, fields in found.items()}
 
 
 def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
@@ -168,11 +175,10 @@ def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
 def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:
     """What to do about it, '' if nothing is known; `script`: in the words of scripts."""
     message = find(code)
-    hints = (message.hint_en, message.hint_fr)
-    if script and code.startswith("kernel."):
-        from ssilang.messages.script import HINTS
-
-        hints = HINTS.get(code, hints)
+    of_script = script and message.script_en
+    hints = (
+        (message.script_en, message.script_fr) if of_script else (message.hint_en, message.hint_fr)
+    )
     return filled(spoken(*hints, language), data, language, script)
 
 

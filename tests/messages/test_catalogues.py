@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ast
-import importlib
 import re
+import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -19,8 +19,7 @@ from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS
 from ssilang.language.vocabulary.entries import THEMES
 from ssilang.language.vocabulary.terms import Word
-from ssilang.messages.message import Message, Sentence, hint, sentence
-from ssilang.messages.script import HINTS
+from ssilang.messages.message import Message, Sentence, find, hint, sentence
 from ssilang.operators.loader import load_operators
 from ssilang.operators.vocabulary.pages import label_code
 
@@ -45,13 +44,11 @@ class Site:
 def catalogue() -> dict[str, Message]:
     """All messages by their whole code."""
     found = {}
-    for path in sorted(_MESSAGES.rglob("*.py")):
+    for path in sorted(_MESSAGES.rglob("*.toml")):
         room = ".".join(path.relative_to(_MESSAGES).with_suffix("").parts)
-        if path.stem in ("__init__", "message", "script"):
-            continue
-        module = importlib.import_module(f"ssilang.messages.{room}")
-        for name, message in module.MESSAGES.items():
-            found[name if room == "language" else f"{room}.{name}"] = message
+        for name in tomllib.loads(path.read_text(encoding="utf-8")):
+            code = name if room == "language" else f"{room}.{name}"
+            found[code] = find(code)
     return found
 
 
@@ -99,8 +96,8 @@ def names_of(template: str) -> set[str]:
 
 def texts(code: str) -> tuple[str, ...]:
     """All templates that are filled with the data of a code."""
-    message = catalogue()[code]
-    return message.en, message.fr, message.hint_en, message.hint_fr, *HINTS.get(code, ())
+    m = catalogue()[code]
+    return m.en, m.fr, m.hint_en, m.hint_fr, m.script_en, m.script_fr
 
 
 def _own(code: str) -> bool:
@@ -216,9 +213,22 @@ def test_procedures_of_the_library_refuse_by_code():
     )
 
 
-@pytest.mark.parametrize("code", sorted(HINTS))
-def test_hints_for_scripts_are_those_of_codes(code):
-    english, french = HINTS[code]
-    assert code in catalogue()
-    assert "À TRADUIRE" not in french
-    assert names_of(english) == names_of(french)
+def test_only_the_kernel_has_other_hints_for_scripts():
+    """The others' own are in the words of scripts already."""
+    with_both = {c: m for c, m in catalogue().items() if m.script_en or m.script_fr}
+    assert len(with_both) > 50
+    assert {c.partition(".")[0] for c in with_both} == {"kernel"}
+    assert all(names_of(m.script_en) == names_of(m.script_fr) for m in with_both.values())
+
+
+def test_codes_say_the_thing():
+    """No code is another one with a number behind it."""
+    assert not [c for c in catalogue() if re.search(r"-\d$", c)]
+
+
+@pytest.mark.parametrize(
+    "code", ["..messages.x", "kernel/mesh.x", "../language.x", "x.y", "kernel.x"]
+)
+def test_a_code_without_a_message_is_a_defect(code):
+    with pytest.raises(LookupError, match="no message has the code"):
+        find(code)

@@ -54,6 +54,8 @@ def _values(path: Path, lines: list[str], begin: int) -> FloatArray:
         if not (text := line.strip()):
             continue
         if not _is_number(text):
-            raise InputError("io.line-no-number-2", name=path.name, number=number, rest=text[:20])
+            raise InputError(
+                "io.record-line-no-number", name=path.name, number=number, rest=text[:20]
+            )
         found.append(float(text))
     return finite(path, np.array(found))

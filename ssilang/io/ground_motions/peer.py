@@ -60,6 +60,8 @@ def _values(path: Path, lines: list[str]) -> list[str]:
     found: list[str] = []
     for number, line in enumerate(lines[_HEADER:], start=_HEADER + 1):
         if (rest := _NUMBER.sub("", line).strip()) != "":
-            raise InputError("io.line-no-number-2", name=path.name, number=number, rest=rest[:20])
+            raise InputError(
+                "io.record-line-no-number", name=path.name, number=number, rest=rest[:20]
+            )
         found += _NUMBER.findall(line)
     return found

@@ -202,7 +202,7 @@ def _multiplied_block(
         made = {k: run(k, v, b.components[k]) for k, v in a.components.items()}
     else:
         raise FieldError(
-            "kernel.fields.field-field-not-defined-2",
+            "kernel.fields.cells-field-by-field-not-defined",
             components=a.components,
             components_2=b.components,
         )
@@ -269,7 +269,7 @@ def extracted(
     known = component_names(field)
     for name, _ in pairs:
         if check and name not in known:
-            raise FieldError("kernel.fields.field-no-component-2", name=name, known=known)
+            raise FieldError("kernel.fields.field-no-component", name=name, known=known)
     blocks = []
     for block in field.blocks:
         made = {n: block.components[o] for o, n in pairs if o in block.components}

@@ -190,7 +190,7 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
             fibre_laws=FIBRE_LAWS,
         )
     if family not in PLASTIC_FAMILIES:
-        raise MaterialError("kernel.materials.elements-family-no-plastic-2", family=family)
+        raise MaterialError("kernel.materials.elements-family-no-plastic-law", family=family)
     if family == "plate" and law not in LAYER_LAWS:
         raise MaterialError(
             "kernel.materials.thin-shells-no-plastic", law=law, layer_laws=LAYER_LAWS

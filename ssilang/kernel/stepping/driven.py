@@ -196,7 +196,7 @@ def _force(problem: Problem, additions: Additions) -> FloatArray:
             continue
         lost = outside(given, problem.numbering)
         if lost:
-            raise KernelError("kernel.stepping.force-added-during-calculation-2", lost=lost[0])
+            raise KernelError("kernel.stepping.force-added-on-missing-unknowns", lost=lost[0])
         found += field_to_vector(given, problem.numbering)
     if not np.isfinite(found).all():
         raise KernelError("kernel.stepping.force-added-during-calculation")

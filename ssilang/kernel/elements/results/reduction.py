@@ -58,7 +58,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
                 CellFieldBlock(cells, full, block.support, block.element, block.constituent)
             )
     if not blocks:
-        raise FieldError("kernel.elements.no-cell-mesh-belongs-2")
+        raise FieldError("kernel.elements.no-cell-mesh-belongs-to-support")
     return CellField(tuple(blocks), field.title)
 
 

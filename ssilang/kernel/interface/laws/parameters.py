@@ -56,7 +56,7 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
     """
     columns = {p.name: parameters[:, p] for p in Parameter}
     if not np.isfinite(parameters).all():
-        raise MaterialError("kernel.interface.joint-parameter-not-finite-2")
+        raise MaterialError("kernel.interface.joint-parameter-not-finite-or-steep")
     _refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
         _refuse(columns[name] < 0, columns[name], name, ">= 0")

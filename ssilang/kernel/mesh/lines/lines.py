@@ -126,7 +126,7 @@ def line_chain(line: Mesh) -> IntArray:
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
         kinds = [b.cell_type for b in line.blocks]
-        raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=kinds)
+        raise MeshError("kernel.mesh.line-of-segments-needed", kinds=kinds)
     table = line.single_block().connectivity
     if not np.array_equal(table[1:, 0], table[:-1, -1]):
         table = _in_order(table, line.nodes)

@@ -31,7 +31,7 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
 
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
-        raise MeshError("kernel.mesh.line-seg2-seg3-needed-2", kinds=block.cell_type)
+        raise MeshError("kernel.mesh.line-of-segments-needed", kinds=block.cell_type)
     table = block.connectivity
     nodes, places = np.unique(table[:, [0, -1]], return_inverse=True)
     pairs = places.reshape(-1, 2)

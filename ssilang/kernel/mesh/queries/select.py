@@ -153,7 +153,7 @@ def inside_contour(positions: FloatArray, contour: Mesh, strict: bool) -> BoolAr
     normal = np.cross(starts - origin, ends - origin).sum(axis=0)
     size = float(np.linalg.norm(normal))
     if size == 0.0:
-        raise MeshError("kernel.mesh.contour-encloses-no-area-2")
+        raise MeshError("kernel.mesh.selecting-contour-encloses-no-area")
     first, second = plane_axes(normal / size)
     p = np.column_stack([(positions - origin) @ first, (positions - origin) @ second])
     a = np.column_stack([(starts - origin) @ first, (starts - origin) @ second])

@@ -67,7 +67,7 @@ def _grid(quads: IntArray) -> IntArray:
         rows.append(_strip(a, b, owner, used))
     table = [[p[0] for p in rows[0]], *([p[1] for p in row] for row in rows)]
     if len({len(r) for r in table}) > 1 or len(used) != len(quads):
-        raise MeshError("kernel.mesh.face-no-grid-quadrangles-2")
+        raise MeshError("kernel.mesh.face-strips-differ")
     return np.array(table, dtype=np.int64)
 
 

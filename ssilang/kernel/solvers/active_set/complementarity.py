@@ -71,7 +71,7 @@ def solve_contact(problem: ContactProblem, start: BoolArray | None = None) -> Co
         guess = _least_energy(problem)
         found = _iterate(problem, guess, limit, one_by_one=True) or _accepted(problem, guess)
     if found is None:
-        raise ConvergenceError("kernel.solvers.no-set-active-unilateral-2")
+        raise ConvergenceError("kernel.solvers.no-set-of-conditions-holds-body")
     return found
 
 

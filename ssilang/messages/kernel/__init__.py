@@ -1,1 +1,0 @@
-"""What the kernel refuses, one module a room."""

@@ -1,1 +1,0 @@
-"""What operators refuse and warn of, one module a family."""
