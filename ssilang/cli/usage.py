@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -34,11 +34,15 @@ _MISTAKES = {
         "cli.usage-invalid-choice"
     ),
     r"argument (?P<name>.*?): invalid int value: (?P<value>'.*')": "cli.usage-invalid-int",
+    r"argument (?P<name>.*?): (?P<value>\S+) is below (?P<least>.*)": "cli.usage-below",
     r"argument (?P<name>.*?): expected one argument": "cli.usage-expected-one",
     r"argument (?P<name>.*?): ignored explicit argument (?P<value>'.*')": "cli.usage-ignored",
     r"ambiguous option: (?P<name>.*?) could match (?P<choices>.*)": "cli.usage-ambiguous",
 }
 """How argparse words what is wrong; what else it may say stands as it is."""
+
+LEAST_MEMORY = 128
+"""MB: in less the libraries themselves end in C, 115 with two threads of BLAS."""
 
 
 class _Formatter(argparse.HelpFormatter):
@@ -68,6 +72,18 @@ class _Formatter(argparse.HelpFormatter):
 
     def _get_help_string(self, action: argparse.Action) -> str | None:
         return self._told(action.help) if action.help else action.help
+
+
+def _from(least: int) -> Callable[[str], int]:
+    """Reads integers that are not below a bound."""
+
+    def read(word: str) -> int:
+        if (value := int(word)) < least:
+            raise argparse.ArgumentTypeError(f"{value} is below {least}")
+        return value
+
+    read.__name__ = "int"  # what argparse says of words that are no integers
+    return read
 
 
 class Parser(argparse.ArgumentParser):
@@ -169,8 +185,10 @@ def _sweep(sweep: argparse.ArgumentParser) -> None:
     )
     sweep.add_argument("--motions", type=Path, metavar="DIR", help="cli.usage-motions")
     sweep.add_argument("--out", type=Path, help="cli.usage-out-sweep")
-    sweep.add_argument("--jobs", type=int, default=0, help="cli.usage-jobs")
-    sweep.add_argument("--together", type=int, default=8, metavar="N", help="cli.usage-together")
+    sweep.add_argument("--jobs", type=_from(0), default=0, help="cli.usage-jobs")
+    sweep.add_argument(
+        "--together", type=_from(1), default=8, metavar="N", help="cli.usage-together"
+    )
     sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
     sweep.add_argument("--report", action="store_true", help="cli.usage-report-sweep")
     _allowed(sweep)
@@ -199,10 +217,12 @@ def _session_arguments(to: argparse.ArgumentParser) -> None:
     to.add_argument("-v", "--verbose", action="store_true", help="cli.usage-verbose")
     to.add_argument("-q", "--quiet", action="store_true", help="cli.usage-quiet")
     to.add_argument("--debug", action="store_true", help="cli.usage-debug")
-    to.add_argument("--max-recursion", type=int, default=200, help="cli.usage-max-recursion")
-    to.add_argument("--max-statements", type=int, help="cli.usage-max-statements")
+    to.add_argument("--max-recursion", type=_from(1), default=200, help="cli.usage-max-recursion")
+    to.add_argument("--max-statements", type=_from(1), help="cli.usage-max-statements")
     to.add_argument("--petsc", metavar="COMMAND", help="cli.usage-petsc")
-    to.add_argument("--max-memory", type=int, metavar="MB", help="cli.usage-max-memory")
+    to.add_argument(
+        "--max-memory", type=_from(LEAST_MEMORY), metavar="MB", help="cli.usage-max-memory"
+    )
 
 
 def _allowed(to: argparse.ArgumentParser) -> None:

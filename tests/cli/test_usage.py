@@ -61,6 +61,13 @@ def test_each_option_has_a_help_in_the_catalogue():
         (("check",), "the following arguments are required: files", "il manque les arguments"),
         (("check", "a", "--none"), "unrecognized arguments: --none", "arguments inconnus : --none"),
         (("run", "a", "--max-memory", "much"), "invalid int value: 'much'", "n'est pas un entier"),
+        (("run", "a", "--max-memory", "20"), "20 is below the least value, 128", "inférieur à la"),
+        (
+            ("run", "a", "--max-recursion", "0"),
+            "0 is below the least value, 1",
+            "moindre valeur, 1",
+        ),
+        (("sweep", "a", "--jobs", "-1"), "-1 is below the least value, 0", "moindre valeur, 0"),
         (("run", "a", "--out"), "--out: expected one argument", "--out : il y faut une valeur"),
         (("run", "--max", "1"), "--max could match", "option ambiguë : --max peut être"),
         (("run", "--debug=1", "a"), "ignored explicit argument '1'", "la valeur '1' n'a pas"),

@@ -49,13 +49,15 @@ def _called(table: str, document: Document, library: Library) -> Iterator[Holder
 
 
 def _given(document: Document) -> dict[str, set[str]]:
-    """Indices of each table that the script gives values to."""
+    """Indices of each table that the script makes or gives values to."""
     found: dict[str, set[str]] = {}
     for phrase in document.phrases:
-        equal = phrase.equal
-        tokens = phrase.tokens[: equal or 0]
+        equal = phrase.equal or 0
+        tokens, value = phrase.tokens[:equal], phrase.tokens[equal + 1 : equal + 2]
         if len(tokens) >= 3 and tokens[1].kind == "_DOT":
             found.setdefault(tokens[0].name, set()).add(tokens[2].name)
+        elif len(tokens) == 1 and value and value[0].name in ("TABL", "TABLE"):
+            found.setdefault(tokens[0].name, set())
     return found
 
 

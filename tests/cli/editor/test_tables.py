@@ -22,7 +22,7 @@ GIVEN = "ZT . 'A' = 1 ; AT . 'B' = 2 ; MT = TABL ; "
     [
         ("X = @PA ZT AT ;", {"ZT": ["first"], "AT": ["second"]}),
         ("X = @PA 3. AT 'MOT' ZT ;", {"AT": ["first"], "ZT": ["second"]}),
-        ("X = @PA MT ZT ;", {"ZT": ["first"], "MT": []}),
+        ("X = @PA MT ZT ;", {"ZT": ["second"], "MT": ["first"]}),
         ("X = @PB AT ZT ;", {"AT": ["only"]}),
         ("@PB ZT ; Y = 2 * (@PA AT ZT) ;", {"ZT": ["only", "second"], "AT": ["first"]}),
     ],
