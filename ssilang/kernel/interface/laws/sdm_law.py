@@ -11,9 +11,9 @@ t > 0 in tension, w_n > 0 open. `xi` is the largest irreversible opening. Normal
 
 With FU = FC = 0 this is `t = k min(w, 0)`. Shear: `k_t (w_t - s)` while t_n < 0, bounded by
 `FROT |t_n|` if FROT >= 0, lost (s := w_t) while t_n >= 0 (no slip without k_t); in cohesive
-tension k_t is scaled by Y(xi)/FU. Source: Strong Discontinuity Method, CLUB CAST3M 2014, and its
-closed form.
-`sdm_arrays` has the same law on arrays, with Lambert's function in place of the iteration.
+tension k_t is scaled by Y(xi)/FU, and what closes again has its stiffness back from the traction
+that is left, as if it had slipped by the rest: energy is lost there, not made. Source: Strong
+Discontinuity Method, CLUB CAST3M 2014, and its closed form.
 """
 
 from __future__ import annotations
@@ -114,8 +114,15 @@ def sdm_point(
             D[i, i] = p[Par.KS1 + i]
     elif (tn < 0.0 and state[Var.HELD] != OPEN_SHEAR) or state[Var.HELD] == CLOSED_SHEAR:
         # in compression: elastic up to Coulomb's bound
-        new[Var.DAMAGE] = 0.0
+        if state[Var.DAMAGE] > 0.0:
+            for i in range(n):
+                if p[Par.KS1 + i] > 0.0:
+                    new[Var.SLIP1 + i] += state[Var.DAMAGE] * (w[i] - state[Var.SLIP1 + i])
+            new[Var.DAMAGE] = 0.0
         _closed_shear(w, p, t, new, D, tn, dtn)
+        for i in range(n):
+            for j in range(n):
+                D[i, j] *= 1.0 - state[Var.DAMAGE]  # the slip of closing follows the jump
     elif p[Par.FU] > 0.0:
         # in cohesive tension: stiffness and strength fade together
         left = math.exp(-p[Par.FU] / p[Par.GF] * xi)
@@ -141,11 +148,16 @@ def _shear_energies(
 ) -> None:
     """Stored energy of the shear and the energy that it has lost, into `new`."""
     stored, lost = 0.0, 0.0
+    closes = state[Var.DAMAGE] > 0.0 and new[Var.DAMAGE] == 0.0
     for i in range(w.shape[0] - 1):
         elastic = w[i] - (0.0 if p[Par.SHEAR] == 1.0 else new[Var.SLIP1 + i])
         stored += 0.5 * t[i] * elastic
-        lost += t[i] * (new[Var.SLIP1 + i] - state[Var.SLIP1 + i])
-        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * (new[Var.DAMAGE] - state[Var.DAMAGE])
+        before, damaged = w[i] - state[Var.SLIP1 + i], state[Var.DAMAGE]
+        if closes and p[Par.KS1 + i] > 0.0:
+            lost += 0.5 * p[Par.KS1 + i] * before**2 * (1.0 - damaged) * damaged
+            before *= 1.0 - damaged
+        lost += t[i] * (before - w[i] + new[Var.SLIP1 + i])
+        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * max(new[Var.DAMAGE] - damaged, 0.0)
     opened = (tn >= 0.0 and state[Var.HELD] != CLOSED_SHEAR) or state[Var.HELD] == OPEN_SHEAR
     if opened and p[Par.FU] == 0.0 and p[Par.SHEAR] != 1.0:  # the stored shear is given up
         lost = state[Var.SHEAR_ENERGY]

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from references.sdm_arrays import normal_arrays, shear_arrays
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import (
@@ -16,7 +17,6 @@ from ssilang.kernel.interface.laws.columns import (
 )
 from ssilang.kernel.interface.laws.parameters import check_sdm_parameters
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
-from ssilang.kernel.interface.laws.sdm_arrays import normal_arrays, shear_arrays
 from ssilang.kernel.interface.laws.sdm_law import normal_law
 
 SDM = 1
@@ -78,9 +78,10 @@ def test_points_take_the_tractions_and_slips_of_the_arrays(d):
     seen = set()
     for _ in range(12):
         w = rng.normal(scale=3e-4, size=(n, d))
+        damage = state[:, Variable.DAMAGE]
         t, state, _ = answer(w, state, p)
         tn, xi, _ = normal_arrays(w[:, -1], xi, k, fu, gf, fc)
-        shear, slip = shear_arrays(w[:, :-1], slip, stiffness, tn, xi, fu, gf, friction)
+        shear, slip = shear_arrays(w[:, :-1], slip, damage, stiffness, tn, xi, fu, gf, friction)
         np.testing.assert_allclose(t[:, -1], tn, rtol=1e-9, atol=1e-4)
         np.testing.assert_allclose(t[:, :-1], shear, rtol=1e-9, atol=1e-4)
         np.testing.assert_allclose(
@@ -151,6 +152,9 @@ def test_tangent_is_the_derivative(extra, d):
     p = parameters(200, **extra)
     state = np.zeros((200, N_STATE))
     state[:, Variable.XI] = rng.uniform(0, 2e-4, 200)
+    if "FU" in extra:  # points that were bonded, some of them closing
+        a = p[:, Parameter.FU] / p[:, Parameter.GF]
+        state[::2, Variable.DAMAGE] = -np.expm1(-a * state[:, Variable.XI])[::2]
     if "FROT" in extra:  # points that slid before, some of them back
         state[:, Variable.SLIP1] = rng.uniform(-2e-4, 2e-4, 200)
         state[:, Variable.SLIP2] = rng.uniform(-2e-4, 2e-4, 200) * (d == 3)
@@ -242,3 +246,20 @@ def test_shear_that_a_step_holds_is_kept_or_given_up_with_its_energy(held, kept,
     assert t[0, 0] == pytest.approx(4e5 if kept else 0.0)
     assert new[0, Variable.SHEAR_ENERGY] == pytest.approx(200.0 if kept else 0.0)
     assert new[0, Variable.SHEAR_LOSS] == pytest.approx(0.0 if kept else 200.0)
+
+
+def test_what_closes_keeps_the_shear_that_is_left_and_loses_energy():
+    """Opened to a damage, sheared, then pressed without moving along: closed forms."""
+    fu, gf, e = 1e5, 20.0, 2e-4
+    p = parameters(FU=fu, GF=gf, FC=-2e4)
+    t, states = walk([[0.0, 4e-4], [e, 4e-4], [e, -1e-3], [1.5 * e, -1e-3]], p)
+    left = 1.0 - states[1, Variable.DAMAGE]
+    ks = p[0, Parameter.KS1]
+    assert 0.1 < left < 0.9
+    assert t[2, 0] == pytest.approx(t[1, 0])  # left * ks * e
+    assert t[3, 0] == pytest.approx(ks * e * (left + 0.5))  # from there as stiff as before
+    stored = states[:, Variable.SHEAR_ENERGY]
+    lost = states[:, Variable.SHEAR_LOSS]
+    assert stored[1:3] == pytest.approx(0.5 * ks * e**2 * np.array([left, left**2]))
+    assert lost[2] - lost[1] == pytest.approx(stored[1] - stored[2])
+    assert lost[3] == lost[2]

@@ -51,6 +51,7 @@ def normal_arrays(
 def shear_arrays(
     w: FloatArray,
     slip: FloatArray,
+    damage: FloatArray,
     stiffness: FloatArray,
     tn: FloatArray,
     xi: FloatArray,
@@ -64,6 +65,8 @@ def shear_arrays(
     ----------
     w, slip, stiffness : arrays (n, d - 1)
         Shear jumps, slips of the last step, and stiffness KS1[, KS2].
+    damage : array (n,)
+        Share of the shear stiffness that cohesive tension had taken in the last step.
     tn, xi : arrays (n,)
         Normal traction and largest opening at the end of the step, of `normal_arrays`.
     fu, gf, friction : arrays (n,)
@@ -73,8 +76,11 @@ def shear_arrays(
     -----
     A closed point (tn < 0) holds `k (w - slip)` up to Coulomb's bound, and slips by the rest. An
     open one loses its shear: its slip follows its jump. In cohesive tension the stiffness fades as
-    the strength. Directions without stiffness have nothing to relieve, and no slip.
+    the strength; closing takes over the shear that is left, as a slip. Directions without
+    stiffness have nothing to relieve, and no slip.
     """
+    taken = np.where((stiffness > 0.0) & (tn < 0.0)[:, None], damage[:, None], 0.0)
+    slip = slip + taken * (w - slip)
     trial = stiffness * (w - slip)
     size = np.linalg.norm(trial, axis=1)
     bound = np.where(friction >= 0.0, -friction * tn, np.inf)
