@@ -79,7 +79,7 @@ def lasting() -> Iterator[None]:
     collects = gc.isenabled()
     with without_collections():
         yield
-        # where some are frozen, someone holds objects there, who would lose them
+        # where some are frozen, someone holds objects there, who would lose them: Python 3.12 does
         if collects and not gc.get_freeze_count():
             gc.freeze()
             gc.unfreeze()

@@ -17,7 +17,7 @@ from typing import Any, Literal
 
 from ssilang.language.filled import Filled
 from ssilang.language.vocabulary.terms import ANY_NUMBER, Range
-from ssilang.messages.message import spoken
+from ssilang.messages.message import Translated, french, spoken
 
 ANY = "*"
 NAME = "NOM"
@@ -27,11 +27,11 @@ Function = Callable[..., Any]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Argument:
+class Argument(Translated):
     """An operand read by type.
 
     `types` are type words, or (`ANY`,). FLOTTANT accepts ENTIER. A missing optional argument is
-    passed as `default`; a `repeated` one is passed as a tuple. `en`, `fr`, `unit` say what it
+    passed as `default`; a `repeated` one is passed as a tuple. `en` and `unit` say what it
     means; `kind` is the kind of words of the vocabulary that a MOT is one of ('component',
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
@@ -47,7 +47,6 @@ class Argument:
     repeated: bool = False
     default: Any = None
     en: str = ""
-    fr: str = ""
     unit: str = ""
     kind: str = ""
     main: bool = False
@@ -61,7 +60,7 @@ class Argument:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Keyword:
+class Keyword(Translated):
     """Words of which one may stand among the operands, with the operands that follow it.
 
     Passed to the function as `name`: without `arguments` the word itself (or True when there is
@@ -76,11 +75,10 @@ class Keyword:
     default: Any = None
     length: int = 4  # characters compared
     en: str = ""
-    fr: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Select:
+class Select(Translated):
     """A keyword that decides what is read behind it: entries by word.
 
     Passed to the function as `name`: a `Chosen`, or `default` where no word of it stands. A word
@@ -95,7 +93,6 @@ class Select:
     default: Any = None
     length: int = 4
     en: str = ""
-    fr: str = ""
     unless: Callable[[Any], Collection[str]] | None = None
 
     @property
@@ -105,7 +102,7 @@ class Select:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Group:
+class Group(Translated):
     """Entries read one after the other, as often as they stand there if `repeated`.
 
     Passed as `name`: a tuple of the values (the value itself if the group has one entry), or a
@@ -119,19 +116,17 @@ class Group:
     repeated: bool = False
     at_least: int = 0
     en: str = ""
-    fr: str = ""
     times: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Either:
+class Either(Translated):
     """One of several groups: the first that can be read, passed as a `Chosen` by its name."""
 
     name: str
     groups: tuple[Group, ...]
     optional: bool = False
     en: str = ""
-    fr: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,36 +147,31 @@ def arg(
     name: str,
     *types: str,
     en: str = "",
-    fr: str = "",
     unit: str = "",
     kind: str = "",
     range: Range = ANY_NUMBER,
     usual: Range = ANY_NUMBER,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(
-        name, types or (ANY,), en=en, fr=fr, unit=unit, kind=kind, range=range, usual=usual
-    )
+    return Argument(name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual)
 
 
-def lead(
-    name: str, *types: str, whole: bool = False, en: str = "", fr: str = "", kind: str = ""
-) -> Argument:
+def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Argument:
     """A mandatory operand that is read before any keyword: the first one, or right behind `said`.
 
     Words such as names of files or items of lists may be spelt like a keyword.
     """
-    return Argument(name, types or (ANY,), en=en, fr=fr, kind=kind, leads=True, whole=whole)
+    return Argument(name, types or (ANY,), en=en, kind=kind, leads=True, whole=whole)
 
 
-def named(name: str, optional: bool = False, en: str = "", fr: str = "") -> Argument:
+def named(name: str, optional: bool = False, en: str = "") -> Argument:
     """The name that the next operand is written as, whatever object bears it: a str."""
-    return Argument(name, (NAME,), optional, en=en, fr=fr, leads=True)
+    return Argument(name, (NAME,), optional, en=en, leads=True)
 
 
-def main(name: str, *types: str, en: str = "", fr: str = "") -> Argument:
+def main(name: str, *types: str, en: str = "") -> Argument:
     """The operand whose type decides which form of an operator runs."""
-    return Argument(name, types, en=en, fr=fr, main=True)
+    return Argument(name, types, en=en, main=True)
 
 
 def opt(
@@ -189,7 +179,6 @@ def opt(
     *types: str,
     default: Any = None,
     en: str = "",
-    fr: str = "",
     unit: str = "",
     kind: str = "",
     range: Range = ANY_NUMBER,
@@ -197,7 +186,7 @@ def opt(
 ) -> Argument:
     """An optional operand."""
     return Argument(
-        name, types or (ANY,), optional=True, default=default, en=en, fr=fr, unit=unit, kind=kind,
+        name, types or (ANY,), optional=True, default=default, en=en, unit=unit, kind=kind,
         range=range,
         usual=usual,
     )  # fmt: skip
@@ -211,7 +200,6 @@ def many(
     left: Sequence[str] = (),
     behind: bool = False,
     en: str = "",
-    fr: str = "",
     unit: str = "",
     kind: str = "",
     whole: bool = False,
@@ -229,7 +217,6 @@ def many(
         repeated=True,
         default=(),
         en=en,
-        fr=fr,
         unit=unit,
         kind=kind,
         leaving=leaving,
@@ -248,16 +235,15 @@ def key(
     default: Any = None,
     length: int = 4,
     en: str = "",
-    fr: str = "",
 ) -> Keyword:
     """A keyword with what follows it; `repeated` collects a list."""
     words = (word,) if isinstance(word, str) else tuple(word)
-    return Keyword(name, words, arguments, optional, repeated, default, length, en, fr)
+    return Keyword(name, words, arguments, optional, repeated, default, length, en)
 
 
-def flag(name: str, word: str, length: int = 4, en: str = "", fr: str = "") -> Keyword:
+def flag(name: str, word: str, length: int = 4, en: str = "") -> Keyword:
     """A keyword alone: True when it stands there, else False."""
-    return Keyword(name, (word,), default=False, length=length, en=en, fr=fr)
+    return Keyword(name, (word,), default=False, length=length, en=en)
 
 
 def said(word: str, *others: str, length: int = 4) -> Keyword:
@@ -271,13 +257,10 @@ def choice(
     default: str | None = None,
     optional: bool = True,
     en: str = "",
-    fr: str = "",
     length: int = 4,
 ) -> Keyword:
     """One of several words; the function gets the full word as declared here."""
-    return Keyword(
-        name, tuple(words), optional=optional, default=default, length=length, en=en, fr=fr
-    )
+    return Keyword(name, tuple(words), optional=optional, default=default, length=length, en=en)
 
 
 def select(
@@ -287,29 +270,26 @@ def select(
     repeated: bool = False,
     length: int = 4,
     en: str = "",
-    fr: str = "",
     unless: Callable[[Any], Collection[str]] | None = None,
 ) -> Select:
     """A keyword that decides what is read behind it; `repeated` collects a list."""
     made = {word: tuple(entries) for word, entries in cases.items()}
-    return Select(name, made, optional, repeated, None, length, en, fr, unless)
+    return Select(name, made, optional, repeated, None, length, en, unless)
 
 
-def group(name: str, *entries: Entry, en: str = "", fr: str = "") -> Group:
+def group(name: str, *entries: Entry, en: str = "") -> Group:
     """Entries read one after the other."""
-    return Group(name, entries, en=en, fr=fr)
+    return Group(name, entries, en=en)
 
 
-def each(
-    name: str, *entries: Entry, at_least: int = 0, times: str = "", en: str = "", fr: str = ""
-) -> Group:
+def each(name: str, *entries: Entry, at_least: int = 0, times: str = "", en: str = "") -> Group:
     """A group read as often as it stands there: pairs of a word and its value ..."""
-    return Group(name, entries, at_least == 0, True, at_least, en, fr, times)
+    return Group(name, entries, at_least == 0, True, at_least, en, times)
 
 
-def either(name: str, *groups: Group, optional: bool = False, en: str = "", fr: str = "") -> Either:
+def either(name: str, *groups: Group, optional: bool = False, en: str = "") -> Either:
     """The first of several groups that can be read."""
-    return Either(name, groups, optional, en, fr)
+    return Either(name, groups, optional, en)
 
 
 @dataclass(frozen=True, slots=True)
@@ -353,12 +333,11 @@ can tell; () for a directive; None where the annotation of the function says it.
 
 
 @dataclass(frozen=True, slots=True)
-class When:
-    """A condition of the session under which a form is meant: `en`, `fr` name it in the help."""
+class When(Translated):
+    """A condition of the session under which a form is meant: `en` names it in the help."""
 
     test: Callable[[Any], bool]
     en: str
-    fr: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -372,24 +351,30 @@ class HelpTable:
 
 
 @dataclass(frozen=True, slots=True)
-class Help:
-    """Help of an operator in two languages, shown by INFO, `ssilang help` and the manual.
+class Help(Translated):
+    """Help of an operator, shown by INFO, `ssilang help` and the manual.
 
     `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page.
+    `in_french` is of procedures, which bring their own; of operators the catalogue has it.
     """
 
     en: str
-    fr: str
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
     tables: Callable[[str], Sequence[HelpTable]] | None = None
+    in_french: str = ""
+
+    @property
+    def fr(self) -> str:
+        """The same in French."""
+        return self.in_french or french(self.en)
 
     def told(self, language: str) -> str:
         """What it says in 'en' or 'fr'."""
         return spoken(self.en, self.fr, language)
 
 
-NO_HELP = Help("", "")
+NO_HELP = Help("")
 
 
 @dataclass(frozen=True, slots=True)
@@ -537,7 +522,6 @@ class Operator:
         helps = (self.about, *(f.help for f in forms))
         return Help(
             "\n".join(h.en for h in helps if h.en),
-            "\n".join(h.fr for h in helps if h.fr),
             "\n".join(h.syntax for h in helps if h.syntax),
             tuple(e for h in helps for e in h.examples),
             next((h.tables for h in helps if h.tables is not None), None),
@@ -549,7 +533,6 @@ class Operator:
         gives: str | Sequence[str] | Like | By | None = None,
         syntax: str = "",
         en: str = "",
-        fr: str = "",
         examples: Sequence[str] = (),
         by_hand: str = "",
         when: When | None = None,
@@ -569,7 +552,7 @@ class Operator:
             operand is read.
         gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
-        syntax, en, fr, examples
+        syntax, en, examples
             Help of this form.
         by_hand : str
             Why the function reads for itself: it takes the call, and behind it the main operand
@@ -583,7 +566,7 @@ class Operator:
         """
 
         def add(function: Function) -> Function:
-            help = Help(en, fr, syntax, tuple(examples))
+            help = Help(en, syntax, tuple(examples))
             made = Form(
                 tuple(entries) if entries or not by_hand else None,
                 function,
@@ -600,13 +583,12 @@ class Operator:
 
         return add
 
-    def extend_help(self, syntax: str, en: str, fr: str, examples: Sequence[str] = ()) -> None:
+    def extend_help(self, syntax: str, en: str, examples: Sequence[str] = ()) -> None:
         """Add a paragraph, syntax lines and examples to what is said of the operator as a whole."""
         OPERATORS.note(self.name)
         old = self.about
         self.about = Help(
             "\n".join(t for t in (old.en, en) if t),
-            "\n".join(t for t in (old.fr, fr) if t),
             "\n".join(t for t in (old.syntax, syntax) if t),
             (*old.examples, *examples),
             old.tables,

@@ -135,6 +135,36 @@ def spoken(en: str, fr: str, language: str) -> str:
     return en if language == "en" else fr
 
 
+class Translated:
+    """What says an English text, `en`, whose French stands in the catalogue of French texts."""
+
+    __slots__ = ()
+    en: str
+
+    @property
+    def fr(self) -> str:
+        """The same in French, line by line."""
+        return french(self.en)
+
+
+def french(en: str) -> str:
+    """The French of a text of the operators' declarations, line by line; '' for a line unknown.
+
+    A file a family of operators, `french/mesh.toml`, holds it by the English.
+    """
+    return "\n".join(_french().get(line, "") for line in en.split("\n"))
+
+
+@cache
+def _french() -> dict[str, str]:
+    import tomllib  # most runs tell nothing, many no French
+
+    texts: dict[str, str] = {}
+    for path in sorted((Path(__file__).parent / "french").glob("*.toml")):
+        texts |= tomllib.loads(path.read_text(encoding="utf-8"))
+    return texts
+
+
 def find(code: str) -> Message:
     """The message of a code.
 

@@ -32,14 +32,13 @@ def shared_operator(
     name: str,
     family: str,
     en: str,
-    fr: str,
     full_name: str = "",
     terminal: bool = False,
     examples: tuple[str, ...] = (),
     syntax: str = "",
 ) -> Operator:
     """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
-    help = Help(en, fr, syntax, examples)
+    help = Help(en, syntax, examples)
     return shared(name, family, help, full_name=full_name, terminal=terminal)
 
 
@@ -47,7 +46,6 @@ EXTR = shared_operator(
     "EXTR",
     "objects",
     "Takes a part out of an object.",
-    "Extrait une partie d'un objet.",
     "EXTRAIRE",
     terminal=True,
     examples=(
@@ -141,7 +139,6 @@ DIME = shared_operator(
     "DIME",
     "objects",
     "Number of items of a list, table, word, curve ...",
-    "Nombre d'éléments d'une liste, table, mot, évolution ...",
     "DIMENSION",
     examples=(
         (
@@ -160,7 +157,6 @@ ENLE = shared_operator(
     "ENLE",
     "objects",
     "Removes items; gives a new object.",
-    "Enlève des éléments ; rend un nouvel objet.",
     "ENLEVER",
     examples=(
         (
@@ -181,7 +177,6 @@ REDU = shared_operator(
     "REDU",
     "fields",
     "Restricts an object to a smaller support.",
-    "Réduit un objet à un support plus petit.",
     "REDUIRE",
     examples=(
         (
@@ -202,7 +197,6 @@ MANU = shared_operator(
     "MANU",
     "objects",
     "Makes an object from its parts, named by a keyword.",
-    "Fabrique un objet à partir de ses éléments, selon un mot-clé.",
     "MANUEL",
     examples=(
         (
@@ -222,7 +216,6 @@ CHAN = shared_operator(
     "CHAN",
     "objects",
     "Changes an object in a way named by a keyword.",
-    "Change un objet de la façon que dit le mot-clé.",
     "CHANGER",
     examples=(
         (
@@ -270,7 +263,6 @@ MAXI = shared_operator(
     "MAXI",
     "fields",
     "Largest value of a list, field or curve.",
-    "Plus grande valeur d'une liste, d'un champ ou d'une évolution.",
     "MAXIMUM",
     examples=(
         (
@@ -286,7 +278,6 @@ MINI = shared_operator(
     "MINI",
     "fields",
     "Smallest value of a list, field or curve.",
-    "Plus petite valeur d'une liste, d'un champ ou d'une évolution.",
     "MINIMUM",
     examples=(
         (
@@ -303,7 +294,6 @@ COPI = shared_operator(
     "COPI",
     "objects",
     "Copy of an object.",
-    "Copie d'un objet.",
     "COPIER",
     examples=(
         (
@@ -318,7 +308,6 @@ ORDO = shared_operator(
     "ORDO",
     "objects",
     "Sorts the items of an object.",
-    "Ordonne un objet.",
     "ORDONNER",
     examples=(
         (
@@ -334,27 +323,23 @@ ORDO = shared_operator(
     ),
 )
 
-COUL = shared_operator("COUL", "objects", "Gives a colour.", "Attribue une couleur.", "COULEUR")
-INVE = shared_operator("INVE", "objects", "Inverts an object.", "Inverse un objet.", "INVERSE")
+COUL = shared_operator("COUL", "objects", "Gives a colour.", "COULEUR")
+INVE = shared_operator("INVE", "objects", "Inverts an object.", "INVERSE")
 UNIQ = shared_operator(
     "UNIQ",
     "objects",
     "Removes doubles.",
-    "Supprime les doublons.",
     "UNIQUE",
     examples=(
         ("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\nLIST (NBEL (UNIQ (L ET L))) ;"),
     ),
 )
-INTG = shared_operator(
-    "INTG", "fields", "Integral of a field or a curve.", "Intégrale d'un champ ou d'une évolution."
-)
+INTG = shared_operator("INTG", "fields", "Integral of a field or a curve.")
 
 PSCA = shared_operator(
     "PSCA",
     "fields",
     "Scalar product.",
-    "Produit scalaire.",
     "PSCAL",
     examples=(
         (
@@ -369,7 +354,6 @@ PVEC = shared_operator(
     "PVEC",
     "fields",
     "Vector product.",
-    "Produit vectoriel.",
     examples=(
         (
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
@@ -394,7 +378,6 @@ COOR = shared_operator(
     "COOR",
     "mesh",
     "Coordinates of what an object stands on.",
-    "Coordonnées du support d'un objet.",
     "COORDONNEE",
     examples=(
         (
@@ -427,14 +410,12 @@ DIFF = shared_operator(
     "DIFF",
     "objects",
     "What belongs to one of two objects only (symmetric difference).",
-    "Ce qui n'appartient qu'à l'un de deux objets (différence symétrique).",
     "DIFFERENCE",
 )
 INTE = shared_operator(
     "INTE",
     "objects",
     "What is common to two objects.",
-    "Ce qui est commun à deux objets.",
     "INTERSECTION",
     examples=(
         (
@@ -576,20 +557,14 @@ def _unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
 
 operator(
     "ET",
-    flag(
-        "exact",
-        "TELQ",
-        en="words with their blanks, meshes in the order given",
-        fr="mots avec leurs blancs, maillages dans l'ordre donné",
-    ),
-    arg("first", en="object, or a table or list of them", fr="objet, table ou liste d'objets"),
-    opt("second", en="object joined to it", fr="objet qui s'y joint"),
-    flag("merged", "NOER", en="doubles are no error", fr="les doublons ne sont pas une erreur"),
+    flag("exact", "TELQ", en="words with their blanks, meshes in the order given"),
+    arg("first", en="object, or a table or list of them"),
+    opt("second", en="object joined to it"),
+    flag("merged", "NOER", en="doubles are no error"),
     gives=ANY,
     family="objects",
     help=Help(
         "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
-        "Réunit deux objets : union de maillages, somme de rigidités, suite de listes, et logique.",
         "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 | LOBJ1 ; "
         "LOG4 = ET LOG1 LOG2 LOG3 ... ;",
         (

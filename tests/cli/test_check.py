@@ -64,6 +64,8 @@ def errors(source: Source) -> list[str]:
         ("T . 'A' = 1 ;", "undefined-table"),
         ("T = 3 ; X = T . 1 ; MESS X ;", "not-a-table"),
         ("SI 3 ; FINSI ;", "condition"),
+        ("SI ; FINSI ;", "condition"),
+        ("SI () ; FINSI ;", "condition"),
         ("REPE B MANY ; FIN B ;", "undefined-name"),
         ("REPE B VRAI ; FIN B ;", "loop-count"),
         ("REPE B 2 ; QUIT C1 ; FIN B ;", "no-such-loop"),

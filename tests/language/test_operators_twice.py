@@ -8,5 +8,5 @@ from ssilang.language.registry import OPERATORS, Help, shared
 def test_a_second_operator_of_one_name_is_no_operator():
     known = OPERATORS["ZOND"]
     with pytest.raises(ValueError, match="ZOND is declared twice"):
-        shared("ZOND", "curves", Help(en="another", fr="un autre"))
+        shared("ZOND", "curves", Help(en="another"))
     assert OPERATORS["ZOND"] is known

@@ -45,6 +45,8 @@ def catalogue() -> dict[str, Message]:
     """All messages by their whole code."""
     found = {}
     for path in sorted(_MESSAGES.rglob("*.toml")):
+        if path.parent.name == "french":
+            continue
         room = ".".join(path.relative_to(_MESSAGES).with_suffix("").parts)
         for name in tomllib.loads(path.read_text(encoding="utf-8")):
             code = name if room == "language" else f"{room}.{name}"

@@ -17,8 +17,10 @@ _JOINED = frozenset({"RIGIDITE", "MAILLAGE", "MMODEL", "MCHAML", "CHARGEME", "EV
 
 def is_call(left: Sequence[Operand]) -> bool:
     """Whether leftovers begin with a bare unknown word before others: a misspelt call."""
+    if len(left) < 2:
+        return False
     first = left[0]
-    return len(left) > 1 and isinstance(first.value, Mot) and not first.result and not first.name
+    return isinstance(first.value, Mot) and not first.result and not first.name
 
 
 def is_named_object(operand: Operand) -> bool:

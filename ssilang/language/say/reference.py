@@ -75,9 +75,9 @@ def procedure_page(path: Path) -> Page:
     examples = _even("\n".join(parts["example"]))
     help_ = Help(
         " ".join(" ".join(parts["EN"]).split()),
-        " ".join(" ".join(parts["FR"]).split()),
         _even("\n".join(line for line in parts["syntax"] if line.strip())),
         (examples,) if examples else (),
+        in_french=" ".join(" ".join(parts["FR"]).split()),
     )
     name = path.stem.upper()
     return Page(name, name, "procedure", "procedures", title, help_)

@@ -28,7 +28,6 @@ _RULE = choice(
     ("SIMP", "LINE"),
     default="SIMP",
     en="by trapezoids (default), or exactly for an acceleration linear in the steps",
-    fr="par les trapèzes (par défaut), ou exact pour une accélération linéaire dans les pas",
 )
 
 
@@ -41,9 +40,6 @@ _RULE = choice(
         en="Displacements and velocities of accelerations at a constant step, from rest: by "
         "trapezoids twice ('SIMP', the default) or exactly for an acceleration linear in the "
         "steps ('LINE').",
-        fr="Déplacements et vitesses d'accélérations à pas constant, à partir du repos : par deux "
-        "fois les trapèzes ('SIMP', par défaut) ou exactement pour une accélération linéaire dans "
-        "les pas ('LINE').",
         syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
         examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (EXTR V 'ORDO') ; LIST (EXTR D 'ORDO') ;",),
     ),
@@ -67,9 +63,8 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     key(
         "degree",
         "POLY",
-        arg("degree", "ENTIER", en="from 1 to 6", fr="de 1 à 6"),
+        arg("degree", "ENTIER", en="from 1 to 6"),
         en="degree of the velocity's polynomial",
-        fr="degré du polynôme de la vitesse",
     ),
     family="signals",
     help=Help(
@@ -77,10 +72,6 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
         "the same 'SIMP' or 'LINE') ends with no velocity, no displacement and no mean "
         "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
         "start, that is nearest to the velocity is taken off.",
-        fr="Accélérations corrigées, le moins possible au sens des moindres carrés, pour que INSI "
-        "(avec le même 'SIMP' ou 'LINE') finisse avec une vitesse, un déplacement et un "
-        "déplacement moyen nuls. Avec 'POLY' la seule ligne de base : le polynôme de degré N1, nul "
-        "au départ, le plus proche de la vitesse est ôté.",
         syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
         examples=(
             "T = PROG 0. PAS 0.1 5. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (1. + (2. * T)) ; "
@@ -109,30 +100,26 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
 
 @operator(
     "CHSP",
-    arg("spectrum", "EVOLUTIO", en="spectra over frequencies", fr="spectres en fréquence"),
+    arg("spectrum", "EVOLUTIO", en="spectra over frequencies"),
     key(
         "given",
         "ENTR",
-        arg("kind", "MOT", en="DEPL, VITE or ACCE", fr="DEPL, VITE ou ACCE"),
+        arg("kind", "MOT", en="DEPL, VITE or ACCE"),
         optional=False,
         en="what they are",
-        fr="leur nature",
     ),
     key(
         "wanted",
         "SORT",
-        arg("kind", "MOT", en="DEPL, VITE or ACCE", fr="DEPL, VITE ou ACCE"),
+        arg("kind", "MOT", en="DEPL, VITE or ACCE"),
         optional=False,
         en="what they become",
-        fr="nature du résultat",
     ),
-    key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour", fr="couleur"),
+    key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour"),
     family="signals",
     help=Help(
         en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
         "pseudo-velocity 'VITE' (w times it), pseudo-acceleration 'ACCE' (w squared times it).",
-        fr="Spectres de réponse en fréquence (Hz) dans une autre grandeur : déplacement 'DEPL', "
-        "pseudo-vitesse 'VITE' (w fois), pseudo-accélération 'ACCE' (w au carré fois).",
         syntax="EVOL2 = CHSP EVOL1 'ENTR' MOT1 'SORT' MOT2 ('COUL' COUL1) ;",
         examples=(
             "S = EVOL 'MANU' 'FREQ' (PROG 1. 2.) 'DEPL' (PROG 0.1 0.1) ; "
@@ -159,7 +146,7 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
 
 @operator(
     "DSPR",
-    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points"),
+    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
     CURVE,
     *LIMITS,
     COLOUR,
@@ -168,9 +155,6 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
         en="One-sided power spectral density (per hertz) of a signal at constant step, on 2**N1 "
         "points (cut, or filled with zeros): summed over the frequencies times their step it is "
         "the mean square.",
-        fr="Densité spectrale de puissance unilatérale (par hertz) d'un signal à pas constant, sur "
-        "2**N1 points (tronqué, ou complété par des zéros) : sommée sur les fréquences fois leur "
-        "pas, elle donne la moyenne du carré.",
         syntax="EVOL1 = DSPR N1 EVOL2 ('FMIN' F1) ('FMAX' F2) (COUL1) ;",
         examples=(
             "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.125 NPAS 7) 'A' (SIN (PROG 0. PAS 90. NPAS 7)) "
@@ -193,50 +177,39 @@ def dspr(
 
 
 ABSCISSA = choice(
-    "abscissa",
-    ("PERI", "FREQ"),
-    default="PERI",
-    en="over periods (default) or frequencies",
-    fr="en périodes (par défaut) ou en fréquences",
+    "abscissa", ("PERI", "FREQ"), default="PERI", en="over periods (default) or frequencies"
 )
 KIND = choice(
     "kind",
     ("ACCE", "VITE", "DEPL"),
     default="ACCE",
     en="absolute acceleration (default), relative velocity or displacement",
-    fr="accélération absolue (par défaut), vitesse ou déplacement relatifs",
 )
 PERIODS = opt(
     "periods",
     "LISTREEL",
     range=POSITIVE,
     en="periods, 75 from 0.04 s to the duration without it",
-    fr="périodes, 75 de 0,04 s à la durée sans elle",
     unit="s",
 )
 
 
 @operator(
     "PSRS",
-    arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
-    arg("duration", "FLOTTANT", range=POSITIVE, en="duration", fr="durée", unit="s"),
+    arg("curve", "EVOLUTIO", en="power density per hertz"),
+    arg("duration", "FLOTTANT", range=POSITIVE, en="duration", unit="s"),
     arg(
         "dampings",
         "LISTREEL",
         range=NOT_NEGATIVE,
         usual=Range(0.0, 1.0, open_high=True),
         en="dampings",
-        fr="amortissements",
     ),
     PERIODS,
     ABSCISSA,
     KIND,
     choice(
-        "law",
-        ("CRAM", "NEWG"),
-        default="CRAM",
-        en="law of rare crossings (default), or of Gumbel",
-        fr="loi des franchissements rares (par défaut), ou de Gumbel",
+        "law", ("CRAM", "NEWG"), default="CRAM", en="law of rare crossings (default), or of Gumbel"
     ),
     COLOUR,
     family="signals",
@@ -246,12 +219,6 @@ PERIODS = opt(
         "0.04 s to the duration, or over the second list. 'ACCE' (absolute), 'VITE' or 'DEPL' "
         "(relative); the largest value is the median of the law of rare crossings ('CRAM') or the "
         "mean of a Gumbel law through two fractiles of Vanmarcke's ('NEWG').",
-        fr="Spectres de réponse d'une accélération stationnaire de durée X1 et de densité de "
-        "puissance unilatérale donnée (par hertz), un par amortissement de la liste : sur 75 "
-        "périodes de 0,04 s à la durée, ou sur la seconde liste. 'ACCE' (absolue), 'VITE' ou "
-        "'DEPL' (relatifs) ; le maximum est la médiane de la loi des franchissements rares "
-        "('CRAM') ou la moyenne d'une loi de Gumbel par deux fractiles de celle de Vanmarcke "
-        "('NEWG').",
         syntax="EVOL1 = PSRS EVOL2 X1 LREEL1 (LREEL2) ('ACCE' | 'VITE' | 'DEPL') "
         "('CRAM' | 'NEWG') ('PERI' | 'FREQ') (COUL1) ;",
         examples=(

@@ -17,7 +17,7 @@ from ssilang.operators.curves.words import one_part
 from ssilang.operators.numbers.noise import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
-_SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers", fr="germe")
+_SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers")
 
 
 def _drawn(call: Call, seed: int | None) -> np.random.Generator:
@@ -27,19 +27,13 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
 
 @operator(
     "SIAR",
-    arg("spectrum", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
-    opt(
-        "modulation",
-        "EVOLUTIO",
-        en="modulations in time by bands of frequencies",
-        fr="modulations en temps par bandes de fréquence",
-    ),
+    arg("spectrum", "EVOLUTIO", en="power density per hertz"),
+    opt("modulation", "EVOLUTIO", en="modulations in time by bands of frequencies"),
     opt(
         "limits",
         "LISTREEL",
         range=RISING,
         en="limits of the bands",
-        fr="bornes des bandes",
         unit="Hz",
     ),
     opt(
@@ -47,7 +41,6 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         "FLOTTANT",
         range=POSITIVE,
         en="end of the signals",
-        fr="fin des signaux",
         unit="s",
     ),
     key(
@@ -55,32 +48,28 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         "TINI",
         arg("start", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
         en="start of the signals",
-        fr="instant initial",
     ),
-    flag("acceleration", "ACCE", en="acceleration", fr="accélération"),
-    flag("velocity", "VITE", en="velocity", fr="vitesse"),
-    flag("displacement", "DEPL", en="displacement", fr="déplacement"),
+    flag("acceleration", "ACCE", en="acceleration"),
+    flag("velocity", "VITE", en="velocity"),
+    flag("displacement", "DEPL", en="displacement"),
     key(
         "n_signals",
         "NCOU",
         arg("n", "ENTIER", range=POSITIVE),
         default=1,
         en="number of signals, 1 without it",
-        fr="nombre de signaux, 1 sans lui",
     ),
     key(
         "n_instants",
         "NPOI",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of instants, steps of 0.02 s without it",
-        fr="nombre d'instants, pas de 0,02 s sans lui",
     ),
     key(
         "n_sines",
         "NSIN",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of sines, slices of 0.1 Hz without it",
-        fr="nombre de sinus, bandes de 0,1 Hz sans lui",
     ),
     _SEED,
     family="signals",
@@ -92,11 +81,6 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         "from 0 to X1. Acceleration, velocity and displacement, or those named. 'TINI' start, "
         "'NCOU' number of signals, 'NPOI' number of instants (steps of 0.02 s by default), 'NSIN' "
         "number of sines (slices of 0.1 Hz by default), 'INIT' start of the random numbers.",
-        fr="Signaux artificiels d'une densité de puissance unilatérale (par hertz) : sommes de "
-        "sinus de phase aléatoire, fois des modulations en temps données par bandes de fréquence "
-        "(bornes dans la liste), de 0 à X1. Accélération, vitesse et déplacement, ou ceux nommés. "
-        "'TINI' instant initial, 'NCOU' nombre de signaux, 'NPOI' nombre d'instants (pas de 0,02 s "
-        "par défaut), 'NSIN' nombre de sinus (bandes de 0,1 Hz par défaut), 'INIT' germe.",
         syntax="EVOL1 EVOL2 EVOL3 = SIAR EVOL4 (EVOL5 LREEL1) (X1) ('TINI' X2) ('ACCE') ('VITE') "
         "('DEPL') ('NCOU' N1) ('NPOI' N2) ('NSIN' N3) ('INIT' N4) ;",
         examples=(
@@ -191,14 +175,13 @@ def _bands(
 
 @operator(
     "PERT",
-    arg("values", "LISTREEL", en="values", fr="valeurs"),
-    flag("signs", "SIGN", en="signs drawn, the default", fr="signes tirés, par défaut"),
+    arg("values", "LISTREEL", en="values"),
+    flag("signs", "SIGN", en="signs drawn, the default"),
     key(
         "degrees",
         "AMPL",
         arg("degrees", "FLOTTANT", unit="degree"),
         en="largest angle whose sin^2 is the share given to the neighbours",
-        fr="plus grand angle dont le sin^2 est la part donnée aux voisins",
     ),
     _SEED,
     family="signals",
@@ -206,9 +189,6 @@ def _bands(
         en="A list perturbed at random: signs drawn ('SIGN', the default), or a part of each "
         "square given to the neighbours ('AMPL': the share sin^2 of an angle drawn between 0 and "
         "X1 degrees; the sum of squares stays), or both. 'INIT' starts the random numbers.",
-        fr="Liste perturbée au hasard : signes tirés ('SIGN', par défaut), ou une part de chaque "
-        "carré donnée aux voisins ('AMPL' : la part sin^2 d'un angle tiré entre 0 et X1 degrés ; "
-        "la somme des carrés reste), ou les deux. 'INIT' donne le germe.",
         syntax="LREEL1 = PERT LREEL2 ('SIGN') ('AMPL' X1) ('INIT' N1) ;",
         examples=("LIST (SOMM ((PERT (PROG 1. 2. 3.) 'AMPL' 30. 'INIT' 1) ** 2)) ;",),
     ),

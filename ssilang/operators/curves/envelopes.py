@@ -44,7 +44,7 @@ def largest(parts: list[CurvePart]) -> CurvePart:
     return CurvePart(x, y, first.abscissa_name, first.ordinate_name, first.legend, first.colour)
 
 
-@enve.form(arg("table", "TABLE", en="spectra", fr="spectres"))
+@enve.form(arg("table", "TABLE", en="spectra"))
 def envelope_of_spectra(call: Call, table: Table) -> Table:
     """Envelope of spectra."""
     spectra = _spectra(call, table)
@@ -69,9 +69,6 @@ enve.extend_help(
     syntax="TAB1 = ENVE TAB2 ;",
     en="Of a table of spectra (at 1, 2 ... tables with SPECTRE, curves, and AMORTISSEMENT, their "
     "dampings): a table with the envelope, the largest ordinate for each damping.",
-    fr="D'une table de spectres (en 1, 2 ... des tables avec SPECTRE, des courbes, et "
-    "AMORTISSEMENT, leurs amortissements) : une table avec l'enveloppe, la plus grande ordonnée "
-    "pour chaque amortissement.",
     examples=(
         "T = TABL ; T . 1 = TABL ; T . 1 . 'SPECTRE' = EVOL 'MANU' (PROG 1. 2.) (PROG 3. 4.) ; "
         "T . 1 . 'AMORTISSEMENT' = PROG 0.05 ; E = ENVE T ; LIST (E . 'AMORTISSEMENT') ;",

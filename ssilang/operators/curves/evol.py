@@ -54,112 +54,95 @@ from ssilang.operators.workspace import workspace
 _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 
 
-_ABSCISSA = opt("x_name", "MOT", en="name of the abscissas", fr="nom des abscisses")
-_ORDINATE = opt("y_name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
-_COMPONENT = opt("name", "MOT", en="component", fr="composante", kind="component")
+_ABSCISSA = opt("x_name", "MOT", en="name of the abscissas")
+_ORDINATE = opt("y_name", "MOT", en="name of the ordinates")
+_COMPONENT = opt("name", "MOT", en="component", kind="component")
 
-_BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes", fr="base de déformées")
+_BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes")
 
 # what EVOL reads, for its help
 _ENTRIES: dict[str, list[Entry]] = {
     "MANU": [
-        key(
-            "type", "TYPE", arg("type", "MOT"), en="type of the ordinates", fr="type des ordonnées"
-        ),
-        key("legend", "LEGE", arg("legend", "MOT"), en="legend", fr="légende"),
+        key("type", "TYPE", arg("type", "MOT"), en="type of the ordinates"),
+        key("legend", "LEGE", arg("legend", "MOT"), en="legend"),
         _ABSCISSA,
-        arg("x", *_LISTS, en="abscissas", fr="abscisses"),
+        arg("x", *_LISTS, en="abscissas"),
         _ORDINATE,
-        arg("y", *_LISTS, en="ordinates", fr="ordonnées"),
+        arg("y", *_LISTS, en="ordinates"),
     ],
     "COMP": [
         choice(
-            "form",
-            ("REIM", "MOPH"),
-            en="real and imaginary parts (default), or modulus and phase",
-            fr="parties réelle et imaginaire (par défaut), ou module et phase",
+            "form", ("REIM", "MOPH"), en="real and imaginary parts (default), or modulus and phase"
         ),
         key(
             "legends",
             "LEGE",
-            arg("first", "MOT", en="of the first", fr="de la première"),
-            arg("second", "MOT", en="of the second", fr="de la seconde"),
+            arg("first", "MOT", en="of the first"),
+            arg("second", "MOT", en="of the second"),
             en="legends",
-            fr="légendes",
         ),
         _ABSCISSA,
-        arg("x", "LISTREEL", en="abscissas", fr="abscisses"),
+        arg("x", "LISTREEL", en="abscissas"),
         _ORDINATE,
-        arg("first", "LISTREEL", en="first parts", fr="premières parties"),
-        opt("second_name", "MOT", en="name of the second", fr="nom des secondes"),
-        arg("second", "LISTREEL", en="second parts", fr="secondes parties"),
+        arg("first", "LISTREEL", en="first parts"),
+        opt("second_name", "MOT", en="name of the second"),
+        arg("second", "LISTREEL", en="second parts"),
     ],
     "CHPO": [
-        arg("field", "CHPOINT", en="field", fr="champ"),
+        arg("field", "CHPOINT", en="field"),
         _COMPONENT,
-        arg("line", "MAILLAGE", en="line", fr="ligne"),
+        arg("line", "MAILLAGE", en="line"),
     ],
     "TEMP": [
-        arg("history", "LISTCHPO", "TABLE", en="fields, or results", fr="champs, ou résultats"),
-        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
-        opt("index", "MOT", en="what of the results", fr="lequel des résultats"),
-        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
+        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("index", "MOT", en="what of the results"),
+        opt("steps", "LISTENTI", en="steps, all without it"),
         opt(
             "names",
             "MOT",
             "LISTMOTS",
             en="component, or several",
-            fr="composante, ou plusieurs",
             kind="component",
         ),
-        opt("support", "POINT", "MAILLAGE", en="points", fr="points"),
-        many("cell", "ENTIER", en="zone, cell, point", fr="zone, élément, point"),
+        opt("support", "POINT", "MAILLAGE", en="points"),
+        many("cell", "ENTIER", en="zone, cell, point"),
     ],
     "RECO": [
-        arg(
-            "history", "LISTCHPO", "TABLE", en="contributions in time", fr="contributions en temps"
-        ),
-        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+        arg("history", "LISTCHPO", "TABLE", en="contributions in time"),
+        opt("times", "LISTREEL", en="their times", unit="s"),
         _BASIS,
-        opt(
-            "count",
-            "ENTIER",
-            range=POSITIVE,
-            en="number of shapes, all without it",
-            fr="nombre de déformées",
-        ),
-        opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes"),
+        opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
+        opt("load", "CHARGEME", en="load of pseudo-modes"),
         choice(
             "quantity",
             ("DEPL", "VITE", "ACCE"),
             en="displacement (default), velocity or acceleration",
-            fr="déplacement (par défaut), vitesse ou accélération",
         ),
         _COMPONENT,
-        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="points", fr="points"),
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="points"),
     ],
     "SOLU": [
-        arg("results", "TABLE", en="results of DYNE", fr="résultats de DYNE"),
+        arg("results", "TABLE", en="results of DYNE"),
         choice(
             "quantity",
             ("DEPL", "VITE", "ACCE", "TRAVAIL_INTERIEUR", "TRAVAIL_EXTERIEUR"),
             en="what of them",
-            fr="lesquels",
             length=9,
         ),
-        opt("basis", "TABLE", en="basis", fr="base"),
-        flag("modes", "ALFA", en="of its modes", fr="de ses modes"),
-        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks", fr="points repères"),
+        opt("basis", "TABLE", en="basis"),
+        flag("modes", "ALFA", en="of its modes"),
+        opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks"),
         _COMPONENT,
-        opt("times", "LISTREEL", en="times", fr="instants", unit="s"),
+        opt("times", "LISTREEL", en="times", unit="s"),
     ],
     "PJBA": [
-        arg("history", "LISTCHPO", "TABLE", en="fields in time", fr="champs en temps"),
-        opt("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
-        opt("steps", "LISTENTI", en="steps, all without it", fr="pas, tous sans elle"),
+        arg("history", "LISTCHPO", "TABLE", en="fields in time"),
+        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("steps", "LISTENTI", en="steps, all without it"),
         _BASIS,
-        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", fr="déformées, toutes"),
-        opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
+        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it"),
+        opt("metric", "RIGIDITE", en="matrix of the product"),
     ],
 }
 
@@ -173,7 +156,7 @@ _MODE = (
 @operator(
     "EVOL",
     COLOUR,
-    select("kind", _ENTRIES, en="where it comes from", fr="son origine"),
+    select("kind", _ENTRIES, en="where it comes from"),
     family="curves",
     full_name="EVOLUTION",
     help=Help(
@@ -183,13 +166,6 @@ _MODE = (
         "RECO gives components at points from modal contributions in time (of DYNE with a load: "
         "with the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA "
         "the projections of fields in time on the shapes of a basis.",
-        fr="Évolution à une ou plusieurs courbes : de deux listes ('MANU'), de parties réelle et "
-        "imaginaire ou module et phase ('COMP'), d'une composante le long d'une ligne de noeuds "
-        "('CHPO'), en fonction du temps en des points ('TEMP' : d'une liste de champs et d'une "
-        "liste de temps, ou d'une table de résultats).\n"
-        "RECO donne des composantes en des points à partir de contributions modales en temps (de "
-        "DYNE avec un chargement : avec les pseudo-modes qu'il excite) ; SOLU les contributions de "
-        "DYNE ; PJBA les projections de champs en temps sur les déformées d'une base.",
         syntax="EVOL1 = EVOL (COUL) 'MANU' ('TYPE' MTYP1) ('LEGE' TIT1) (NOMABS) LIS1 "
         "(NOMORD) LIS2 ;\n"
         "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"

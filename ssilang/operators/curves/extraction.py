@@ -43,14 +43,12 @@ def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
     return ListReel(part.ordinates)
 
 
-_MAIN = main("curve", "EVOLUTIO", en="curves", fr="évolutions")
-_NUMBER = opt("place", "ENTIER", en="number of the curve", fr="numéro de la courbe")
-_BY_PLACE = flag(
-    "by_place", "INDI", en="limits are places of points", fr="les limites sont des rangs de points"
-)
-_LOW = arg("low", "FLOTTANT", en="first abscissa", fr="première abscisse")
-_HIGH = arg("high", "FLOTTANT", en="last abscissa", fr="dernière abscisse")
-_ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commencent à 0")
+_MAIN = main("curve", "EVOLUTIO", en="curves")
+_NUMBER = opt("place", "ENTIER", en="number of the curve")
+_BY_PLACE = flag("by_place", "INDI", en="limits are places of points")
+_LOW = arg("low", "FLOTTANT", en="first abscissa")
+_HIGH = arg("high", "FLOTTANT", en="last abscissa")
+_ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
 
 
 @EXTR.form(
@@ -61,24 +59,9 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commen
             "ABSC": [_NUMBER],
             "ORDO": [_NUMBER],
             "COUR": [
-                arg(
-                    "which",
-                    "ENTIER",
-                    "LISTENTI",
-                    "MOT",
-                    en="number, numbers, or name of an axis",
-                    fr="numéro, numéros, ou nom d'un axe",
-                )
+                arg("which", "ENTIER", "LISTENTI", "MOT", en="number, numbers, or name of an axis")
             ],
-            "PAS": [
-                arg(
-                    "step",
-                    "ENTIER",
-                    range=POSITIVE,
-                    en="one point of so many",
-                    fr="un point sur tant",
-                )
-            ],
+            "PAS": [arg("step", "ENTIER", range=POSITIVE, en="one point of so many")],
             "AVAN": [_BY_PLACE, _HIGH],
             "APRE": [_BY_PLACE, _LOW, _ZERO],
             "COMP": [_BY_PLACE, _LOW, _HIGH, _ZERO],
@@ -89,7 +72,6 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commen
         },
         optional=False,
         en="abscissas, ordinates, curves, points before, after or between, names, colours",
-        fr="abscisses, ordonnées, courbes, points avant, après ou compris, noms, couleurs",
     ),
     gives=by(
         "what",
@@ -109,8 +91,6 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0", fr="les abscisses commen
     "MOT1 = EXTR EVOL1 'LEGX' | 'LEGY' | 'LEGE' | 'COUL' (N1) ;",
     en="Of curves: abscissas or ordinates as a list (also by the name of an axis), some of the "
     "curves, some of their points, names of axes, colours.",
-    fr="D'évolutions : abscisses ou ordonnées en liste (aussi par le nom d'un axe), certaines des "
-    "courbes, certains de leurs points, noms des axes, couleurs.",
     examples=(
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'ORDO') ;",
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'APRE' 1. 'ZERO') ;",
@@ -132,7 +112,7 @@ def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
 
 @EXTR.form(
     _MAIN,
-    arg("name", "MOT", en="name of an axis", fr="nom d'un axe"),
+    arg("name", "MOT", en="name of an axis"),
     gives="LISTREEL|LISTENTI|LISTMOTS",
 )
 def extr_axis(call: Call, curve: Curve, name: str) -> ListReel | ListEnti | ListMots:
@@ -242,7 +222,7 @@ _PARTS: dict[str, Any] = {
 }  # fmt: skip
 
 
-@DIME.form(_MAIN, en="Of curves: how many there are.", fr="D'évolutions : le nombre de courbes.")
+@DIME.form(_MAIN, en="Of curves: how many there are.")
 def count_curves(curve: Curve) -> int:
     """Number of curves."""
     return len(curve.parts)
@@ -256,17 +236,10 @@ def copy_curves(curve: Curve) -> Curve:
 
 @ORDO.form(
     _MAIN,
-    choice(
-        "order",
-        ("CROI", "DECR"),
-        default="CROI",
-        en="increasing (default) or decreasing",
-        fr="croissant (par défaut) ou décroissant",
-    ),
-    flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
+    choice("order", ("CROI", "DECR"), default="CROI", en="increasing (default) or decreasing"),
+    flag("absolute", "ABSO", en="by absolute values"),
     syntax="EVOL2 = ORDO EVOL1 ('CROI' | 'DECR') ('ABSO') ;",
     en="Of curves: points in order of abscissas.",
-    fr="D'évolutions : points dans l'ordre des abscisses.",
     examples=("LIST (ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.))) ;",),
 )
 def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
@@ -285,14 +258,12 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
 @CHAN.form(
     said("TITR", *_FIELD_OF),
     CURVE,
-    opt("place", "ENTIER", en="number of the curve, all without it", fr="numéro, toutes sans lui"),
-    arg("name", "MOT", en="title, legend or name", fr="titre, légende ou nom"),
+    opt("place", "ENTIER", en="number of the curve, all without it"),
+    arg("name", "MOT", en="title, legend or name"),
     of=("EVOLUTIO",),
     syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",
     en="TITR, LEGE, NOMABS, NOMORD change the title, the legend, the names of the axes of curves "
     "(of curve N1 only).",
-    fr="TITR, LEGE, NOMABS, NOMORD changent le titre, la légende, les noms des axes d'évolutions "
-    "(de la seule courbe N1).",
     examples=("E = CHAN 'LEGE' (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.)) 'measured' ; LIST E ;",),
 )
 def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
@@ -310,7 +281,7 @@ def change_names(call: Call, word: str, curve: Curve, place: int | None, name: s
     return dataclasses.replace(curve, parts=parts)
 
 
-_ABSOLUTE = flag("absolute", "ABS", en="of absolute values", fr="des valeurs absolues")
+_ABSOLUTE = flag("absolute", "ABS", en="of absolute values")
 _EXTREME = ("ENTIER|LISTENTI", "FLOTTANT|LISTREEL", "FLOTTANT|LISTREEL")
 
 
@@ -334,7 +305,6 @@ def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     gives=_EXTREME,
     syntax="N1 X1 Y1 = MAXI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the largest ordinate; of several, lists.",
-    fr="D'une évolution : rang, abscisse et ordonnée de la plus grande ; de plusieurs, des listes.",
     examples=("I X Y = MAXI (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 3. 9. 1.)) ; LIST Y ;",),
 )
 def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
@@ -348,7 +318,6 @@ def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     gives=_EXTREME,
     syntax="N1 X1 Y1 = MINI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the smallest ordinate; of several, lists.",
-    fr="D'une évolution : rang, abscisse et ordonnée de la plus petite ; de plusieurs, des listes.",
 )
 def smallest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     """The smallest ordinate."""

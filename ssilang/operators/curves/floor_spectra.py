@@ -18,7 +18,6 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
         "LISTREEL",
         range=POSITIVE,
         en="frequencies of modes",
-        fr="fréquences des modes",
         unit="Hz",
     ),
     arg(
@@ -27,15 +26,13 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
         range=NOT_NEGATIVE,
         usual=Range(0.0, 1.0, open_high=True),
         en="their dampings",
-        fr="leurs amortissements",
     ),
-    arg("shares", "LISTREEL", en="their participations", fr="leurs participations"),
+    arg("shares", "LISTREEL", en="their participations"),
     arg(
         "frequencies",
         "LISTREEL",
         range=POSITIVE,
         en="frequencies of the spectrum",
-        fr="fréquences du spectre",
         unit="Hz",
     ),
     arg(
@@ -44,18 +41,14 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
         range=NOT_NEGATIVE,
         usual=Range(0.0, 1.0, open_high=True),
         en="its damping",
-        fr="son amortissement",
     ),
-    arg("power", "EVOLUTIO", en="power density", fr="densité de puissance"),
-    arg("envelope", "EVOLUTIO", en="envelope", fr="enveloppe"),
+    arg("power", "EVOLUTIO", en="power density"),
+    arg("envelope", "EVOLUTIO", en="envelope"),
     family="signals",
     help=Help(
         en="Standard deviations and peak factors of a floor spectrum, for SPPLANC, the procedure "
         "to call: frequencies, dampings and participations of modes, frequencies of the spectrum, "
         "its damping, power density, envelope.",
-        fr="Écarts-types et facteurs de pic d'un spectre de plancher, pour SPPLANC, procédure à "
-        "appeler : fréquences, amortissements et participations des modes, fréquences du spectre, "
-        "son amortissement, densité de puissance, enveloppe.",
         syntax="LREEL1 LREEL2 = ZSPP LREEL3 LREEL4 LREEL5 LREEL6 X1 EVOL1 EVOL2 ;",
     ),
 )

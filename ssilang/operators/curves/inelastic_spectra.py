@@ -58,20 +58,14 @@ def _spon(
 
 operator(
     "SPON",
-    flag(
-        "demand",
-        "DEMA",
-        en="limits at which the ductility is the given one",
-        fr="limites pour lesquelles la ductilité est celle donnée",
-    ),
-    key("signal", "SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal", fr="signal"),
+    flag("demand", "DEMA", en="limits at which the ductility is the given one"),
+    key("signal", "SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal"),
     key(
         "linear",
         "SPEL",
         arg("linear", "EVOLUTIO"),
         optional=False,
         en="linear spectra, one for each damping",
-        fr="spectres linéaires, un par amortissement",
     ),
     key(
         "dampings",
@@ -79,31 +73,18 @@ operator(
         arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=Range(0.0, 1.0, open_high=True)),
         optional=False,
         en="dampings",
-        fr="amortissements",
     ),
     key(
         "law",
         _LAWS,
-        arg("numbers", "LISTREEL", en="ductility and ratio", fr="ductilité et rapport"),
+        arg("numbers", "LISTREEL", en="ductility and ratio"),
         en="kinematic or isotropic hardening, or non-linear elastic",
-        fr="écrouissage cinématique ou isotrope, ou élastique non linéaire",
     ),
-    flag("takeda", "TAKE", en="not available", fr="non disponible"),
+    flag("takeda", "TAKE", en="not available"),
     key(
-        "kinds",
-        tuple(_POWER),
-        repeated=True,
-        en="what the linear spectrum is, then what is wanted",
-        fr="nature du spectre linéaire, puis du résultat",
+        "kinds", tuple(_POWER), repeated=True, en="what the linear spectrum is, then what is wanted"
     ),
-    key(
-        "colour",
-        "COUL",
-        arg("colour", "MOT", kind="colour"),
-        default="DEFA",
-        en="colour",
-        fr="couleur",
-    ),
+    key("colour", "COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
     family="modal",
     help=Help(
         "Spectra of oscillators that yield, one for each damping: bilinear with kinematic ('CINE') "
@@ -113,13 +94,6 @@ operator(
         "displacement divided by the ductility and the spectrum (kind MOT3) that of the largest "
         "displacements; with 'DEMA' the limit is sought at which the ductility is the given one "
         "and the spectrum is that of the limits.",
-        "Spectres d'oscillateurs non linéaires, un par amortissement : bilinéaires à écrouissage "
-        "cinématique ('CINE') ou isotrope ('ISOT'), ou élastiques non linéaires ('ELAS'), de "
-        "ductilité et de rapport de la pente au-delà de la limite à la pente élastique donnés. "
-        "EVOL2 est le spectre linéaire (de type MOT1) du signal EVOL1, à pas constant. La limite "
-        "élastique est le déplacement linéaire divisé par la ductilité et le spectre (de type "
-        "MOT3) celui des plus grands déplacements ; avec 'DEMA' on cherche la limite pour laquelle "
-        "la ductilité est celle donnée et le spectre est celui des limites.",
         "EVOL3 = SPON ('DEMA') 'SIGN' EVOL1 'SPEL' EVOL2 'DEPL'|'VITE'|'ACCE' 'AMOR' LREEL1 "
         "'CINE'|'ISOT'|'ELAS' LREEL2 ('COUL' COUL1) 'DEPL'|'VITE'|'ACCE' ;",
         (

@@ -48,37 +48,25 @@ from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
 
-_WHERE, _WHERE_FR = "where the function is wanted", "où la fonction est cherchée"
-_NUMBER = arg("value", "FLOTTANT", en=_WHERE, fr=_WHERE_FR)
-_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE, fr=_WHERE_FR)
-_LIST = arg("value", "LISTREEL", en=_WHERE, fr=_WHERE_FR)
+_WHERE = "where the function is wanted"
+_NUMBER = arg("value", "FLOTTANT", en=_WHERE)
+_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE)
+_LIST = arg("value", "LISTREEL", en=_WHERE)
 _FUNCTION = either(
     "function",
     group("curve", CURVE),
     group(
         "lists",
-        arg("x", "LISTREEL", en="abscissas", fr="abscisses"),
-        arg("y", "LISTREEL", en="ordinates", fr="ordonnées"),
+        arg("x", "LISTREEL", en="abscissas"),
+        arg("y", "LISTREEL", en="ordinates"),
     ),
 )
 
 
 _SPLINE = (
-    flag("smooth", "SPLI", en="by a cubic spline", fr="par spline cubique"),
-    key(
-        "left",
-        "DGAU",
-        arg("left", "FLOTTANT"),
-        en="slope of the spline at the left end",
-        fr="pente de la spline au bord gauche",
-    ),
-    key(
-        "right",
-        "DDRO",
-        arg("right", "FLOTTANT"),
-        en="slope of the spline at the right end",
-        fr="pente de la spline au bord droit",
-    ),
+    flag("smooth", "SPLI", en="by a cubic spline"),
+    key("left", "DGAU", arg("left", "FLOTTANT"), en="slope of the spline at the left end"),
+    key("right", "DDRO", arg("right", "FLOTTANT"), en="slope of the spline at the right end"),
 )
 
 
@@ -111,11 +99,6 @@ ipol = operator(
         "'DGAU' and 'DDRO'); constant outside. 'TOUS': all ordinates of a curve that goes back. "
         "Field between those of a table RESULTAT. Point at a distance along a line, given by its "
         "field of curvilinear abscissas.",
-        fr="Valeur d'une fonction donnée par une évolution ou deux listes, en un nombre, en chaque "
-        "élément d'une liste ou valeur d'un champ : linéaire, ou par spline cubique ('SPLI', "
-        "pentes aux bords 'DGAU' et 'DDRO') ; constante au-delà. 'TOUS' : toutes les ordonnées "
-        "d'une courbe multivaluée. Champ entre ceux d'une table RESULTAT. Point à une distance le "
-        "long d'une ligne, donnée par son champ d'abscisses curvilignes.",
         syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
         "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
         "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
@@ -154,20 +137,16 @@ def all_values(call: Call, value: float, function: Chosen) -> ListReel:
 
 
 @ipol.form(
-    arg("cloud", "NUAGE", en="function by its points", fr="fonction par ses points"),
-    arg("field", "CHPOINT", "MCHAML", en="where it is wanted", fr="où elle est cherchée"),
+    arg("cloud", "NUAGE", en="function by its points"),
+    arg("field", "CHPOINT", "MCHAML", en="where it is wanted"),
     choice(
-        "method",
-        ("GAUS", "RATI", "GRIL"),
-        en="weights of the points (default GAUS), or a grid",
-        fr="poids des points (par défaut GAUS), ou grille",
+        "method", ("GAUS", "RATI", "GRIL"), en="weights of the points (default GAUS), or a grid"
     ),
     key(
         "power",
         "PID",
         opt("power", "FLOTTANT", default=1.0),
         en="weights by powers of the distance",
-        fr="poids en puissance de la distance",
     ),
     key(
         "cut",
@@ -175,7 +154,6 @@ def all_values(call: Call, value: float, function: Chosen) -> ListReel:
         opt("cut", "FLOTTANT", default=0.0),
         default=0.0,
         en="distance within which a point gives its own values",
-        fr="distance en deçà de laquelle un point donne ses propres valeurs",
     ),
     gives=Like("field"),
 )
@@ -194,8 +172,8 @@ def of_cloud(
 
 
 @ipol.form(
-    arg("table", "TABLE", en="fields by times", fr="champs par instants"),
-    arg("time", "FLOTTANT", en="time", fr="instant", unit="s"),
+    arg("table", "TABLE", en="fields by times"),
+    arg("time", "FLOTTANT", en="time", unit="s"),
     gives="CHPOINT|MCHAML",
 )
 def in_table(call: Call, table: Table, time: float) -> Any:
@@ -219,8 +197,8 @@ def in_table(call: Call, table: Table, time: float) -> Any:
 
 
 @ipol.form(
-    arg("field", "CHPOINT", en="curvilinear abscissas", fr="abscisses curvilignes"),
-    arg("distance", "FLOTTANT", en="distance along the line", fr="abscisse du point", unit="m"),
+    arg("field", "CHPOINT", en="curvilinear abscissas"),
+    arg("distance", "FLOTTANT", en="distance along the line", unit="m"),
 )
 def on_line(call: Call, field: NodeField, distance: float) -> Point:
     """A point of a line."""
@@ -258,23 +236,21 @@ _PLACE = ("ENTIER", "LISTENTI")
 
 
 @INTG.form(
-    main("curve", "EVOLUTIO", en="curves", fr="évolutions"),
-    flag("absolute", "ABS", en="of the absolute value", fr="de la valeur absolue"),
+    main("curve", "EVOLUTIO", en="curves"),
+    flag("absolute", "ABS", en="of the absolute value"),
     key(
         "bounds",
         "BORN",
-        arg("low", *_BOUND, en="lower ones", fr="inférieures"),
-        arg("high", *_BOUND, en="upper ones", fr="supérieures"),
+        arg("low", *_BOUND, en="lower ones"),
+        arg("high", *_BOUND, en="upper ones"),
         en="between abscissas",
-        fr="entre abscisses",
     ),
     key(
         "places",
         "INDI",
-        arg("low", *_PLACE, en="first ones", fr="premiers"),
-        arg("high", *_PLACE, en="last ones", fr="derniers"),
+        arg("low", *_PLACE, en="first ones"),
+        arg("high", *_PLACE, en="last ones"),
         en="between places",
-        fr="entre rangs",
     ),
     gives="FLOTTANT|LISTREEL|NUAGE",
     syntax="X1 | LREE1 = INTG EVOL1 ('ABS') ('BORN' X1 X2 | LREE1 LREE2) "
@@ -282,10 +258,6 @@ _PLACE = ("ENTIER", "LISTENTI")
     en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
     "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
     "list. Without 'BORN' abscissas may go back: a loop gives the area inside it.",
-    fr="D'une évolution : intégrale par trapèzes, en entier ou entre bornes (abscisses 'BORN' ou "
-    "rangs 'INDI', un intervalle ou des listes) ; 'ABS' de la valeur absolue. Plusieurs courbes "
-    "donnent une liste. Sans 'BORN' les abscisses peuvent revenir en arrière : une boucle donne "
-    "l'aire qu'elle entoure.",
     examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
 )
 def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
@@ -329,7 +301,6 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     full_name="PRIMITIVE",
     help=Help(
         en="Primitive of curves by trapezes, zero at the first abscissa.",
-        fr="Primitive d'évolutions par trapèzes, nulle à la première abscisse.",
         syntax="EVOL2 = PRIM EVOL1 ;",
         examples=("LIST (PRIM (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 1.))) ;",),
     ),

@@ -20,14 +20,13 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
 
 @operator(
     "PRNS",
-    arg("curve", "EVOLUTIO", en="power density per hertz", fr="densité de puissance par hertz"),
-    arg("modulation", "EVOLUTIO", en="a curve for each band", fr="une courbe par bande"),
+    arg("curve", "EVOLUTIO", en="power density per hertz"),
+    arg("modulation", "EVOLUTIO", en="a curve for each band"),
     arg(
         "bands",
         "LISTREEL",
         range=RISING,
         en="limits of the bands",
-        fr="bornes des bandes",
         unit="Hz",
     ),
     PERIODS,
@@ -38,7 +37,6 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         usual=Range(0.0, 1.0, open_high=True),
         default=0.05,
         en="damping, 0.05 without it",
-        fr="amortissement, 0,05 sans lui",
     ),
     KIND,
     ABSCISSA,
@@ -48,7 +46,6 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         "NBPR",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of processes, of about 2 s without it",
-        fr="nombre de processus, d'environ 2 s sans lui",
     ),
     key(
         "n_instants",
@@ -56,7 +53,6 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         arg("n", "ENTIER", range=POSITIVE),
         default=10,
         en="instants of each, 10 without it",
-        fr="instants de chacun, 10 sans lui",
     ),
     key(
         "rest",
@@ -64,7 +60,6 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         arg("rest", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
         default=20.0,
         en="time behind the end, 20 without it",
-        fr="temps au-delà de la fin, 20 sans lui",
     ),
     key(
         "precision",
@@ -72,12 +67,11 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         arg("precision", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="precision of the levels, 1.E-3 without it",
-        fr="précision des niveaux, 1.E-3 sans elle",
     ),
-    flag("defaults", "NBDE", en="the defaults", fr="les valeurs par défaut"),
-    flag("root_1", "NEG1", en="accepted, changes nothing", fr="accepté, sans effet"),
-    flag("root_2", "NEG2", en="accepted, changes nothing", fr="accepté, sans effet"),
-    flag("wavelets", "ONDE", en="not available", fr="non disponible"),
+    flag("defaults", "NBDE", en="the defaults"),
+    flag("root_1", "NEG1", en="accepted, changes nothing"),
+    flag("root_2", "NEG2", en="accepted, changes nothing"),
+    flag("wavelets", "ONDE", en="not available"),
     family="signals",
     help=Help(
         en="Response spectrum of a random acceleration that changes in time: a stationary signal "
@@ -91,17 +85,6 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         "are linear, of 'NBIN' instants (10) each, and goes on for 'TPLU' seconds (20); 'PREC' is "
         "the precision of the levels (1.E-3), 'NBDE' says these defaults. PSRS does the same for "
         "a stationary signal.",
-        fr="Spectre de réponse d'une accélération aléatoire qui évolue : signal stationnaire de "
-        "densité de puissance unilatérale EVOL2 (par hertz), dont chaque bande de fréquences, "
-        "entre les nombres de la première liste, est multipliée par sa courbe de EVOL3 (une borne "
-        "de plus que de courbes, toutes entre les mêmes instants). Sur 75 périodes de 0,04 s à "
-        "la durée, ou celles de la seconde liste, pour l'amortissement donné (0,05) : 'ACCE' "
-        "(absolue, par défaut), 'VITE' ou 'DEPL' (relatifs). La valeur est la moyenne d'une loi "
-        "de Gumbel par deux fractiles de la loi de Vanmarcke du maximum d'un oscillateur parti du "
-        "repos. Le temps se coupe en 'NBPR' processus (d'environ 2 s), où les modulations sont "
-        "linéaires, de 'NBIN' instants (10) chacun, et se prolonge de 'TPLU' secondes (20) ; "
-        "'PREC' est la précision des niveaux (1.E-3), 'NBDE' dit ces valeurs par défaut. PSRS "
-        "fait de même pour un signal stationnaire.",
         syntax="EVOL1 = PRNS EVOL2 EVOL3 LREEL1 (LREEL2) (X1) ('ACCE' | 'VITE' | 'DEPL') "
         "('PERI' | 'FREQ') (COUL1) ('NBPR' N1) ('NBIN' N2) ('TPLU' X2) ('PREC' X3) ('NBDE') ;",
         examples=(

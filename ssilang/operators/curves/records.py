@@ -19,19 +19,13 @@ from ssilang.operators.mesh.copies.images import tour
 
 @filt.form(
     CURVE,
-    key("order", "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it",
-        fr="ordre, 4 sans elle"),
-    key("low", "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off",
-        fr="le plus lent est ôté"),
-    key("high", "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off",
-        fr="le plus rapide est ôté"),
-    flag("causal", "CAUS", en="one pass, as a device does", fr="un passage, comme un appareil"),
+    key("order", "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it"),
+    key("low", "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off"),
+    key("high", "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off"),
+    flag("causal", "CAUS", en="one pass, as a device does"),
     en="A record itself, filtered by Butterworth's of order N1 (4): without what is slower than F1 "
     "('PHAU') or faster than F2 ('PBAS'). Forth and back, without phase, both corners count "
     "twice (half the amplitude there); 'CAUS': one pass (0.707 there), with a phase.",
-    fr="Un signal lui-même, filtré par celui de Butterworth d'ordre N1 (4) : sans ce qui est plus "
-    "lent que F1 ('PHAU') ou plus rapide que F2 ('PBAS'). Aller et retour, sans phase, les "
-    "coupures comptent deux fois (amplitude par deux) ; 'CAUS' : un passage (0.707), avec phase.",
     syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;",
     examples=(
         "T = PROG 0. PAS 0.01 4. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (SIN (T * 3600.)) ;\n"
@@ -57,14 +51,12 @@ def filtered_records(
 
 
 @tour.form(
-    arg("first", "EVOLUTIO", en="component along x", fr="composante selon x"),
-    arg("second", "EVOLUTIO", en="component along y", fr="composante selon y"),
-    arg("angle", "FLOTTANT", "ENTIER", en="angle", fr="angle", unit="deg"),
+    arg("first", "EVOLUTIO", en="component along x"),
+    arg("second", "EVOLUTIO", en="component along y"),
+    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg"),
     gives=("EVOLUTIO", "EVOLUTIO"),
     en="Two horizontal components of a record along axes turned by an angle in degrees, from x to "
     "y.",
-    fr="Deux composantes horizontales d'un signal selon des axes tournés d'un angle en degrés, de "
-    "x vers y.",
     syntax="EVOL1 EVOL2 = TOUR EVOL3 EVOL4 FLOT1 ;",
     examples=(
         "T = PROG 0. 0.1 ; X = EVOL 'MANU' T (PROG 0. 2.) ; Y = EVOL 'MANU' T (PROG 0. 1.) ;\n"
@@ -84,20 +76,17 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
 
 @operator(
     "ZOND",
-    arg("record", "EVOLUTIO", en="acceleration", fr="accélération"),
-    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz", fr="pseudo-accélérations en Hz"),
-    key("damping", "AMOR", arg("xi", "FLOTTANT"), default=0.05, en="damping", fr="amortissement"),
+    arg("record", "EVOLUTIO", en="acceleration"),
+    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz"),
+    key("damping", "AMOR", arg("xi", "FLOTTANT"), default=0.05, en="damping"),
     key("tolerance", "TOLE", arg("x", "FLOTTANT"), default=0.05,
-        en="largest misfit, 0.05 without it", fr="plus grand écart, 0.05 sans elle"),
+        en="largest misfit, 0.05 without it"),
     family="signals",
     gives=("EVOLUTIO", "FLOTTANT"),
     help=Help(
         en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
         "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
         "part of the target.",
-        fr="Le signal proche d'un autre dont le spectre est celui visé à ses fréquences, par ajout "
-        "d'ondelettes dans le temps (Al Atik et Abrahamson 2010), pour @ACCORD ; et le plus grand "
-        "écart, en part du spectre visé.",
         syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
         examples=(
             "T = PROG 0. PAS 0.02 8. ; B = SIN (22.5 * T) ;\n"

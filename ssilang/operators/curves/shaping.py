@@ -26,19 +26,15 @@ _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
         ("BORN", "LINE"),
         default="BORN",
         en="by the value at the end (default), or along the last two points",
-        fr="par la valeur à la borne (par défaut), ou selon les deux derniers points",
     ),
     CURVE,
-    arg("first", "FLOTTANT", en="abscissa to reach", fr="abscisse à atteindre"),
-    opt("second", "FLOTTANT", en="another one", fr="une autre"),
+    arg("first", "FLOTTANT", en="abscissa to reach"),
+    opt("second", "FLOTTANT", en="another one"),
     family="curves",
     help=Help(
         en="Curves continued to one or two abscissas outside their range: with the value at the "
         "end ('BORN', the default) or along the line of the last two points ('LINE'). Abscissas "
         "inside change nothing.",
-        fr="Évolutions prolongées à une ou deux abscisses hors de leur intervalle : par la valeur "
-        "à la borne ('BORN', par défaut) ou selon la droite des deux derniers points ('LINE'). "
-        "Des abscisses à l'intérieur ne changent rien.",
         syntax="EVOL2 = PROL ('BORN' | 'LINE') EVOL1 X1 (X2) ;",
         examples=(_LINE + "LIST (PROL 'LINE' E 3. -1.) ;",),
     ),
@@ -79,14 +75,12 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
 
 @operator(
     "CONC",
-    arg("first", "EVOLUTIO", en="curves", fr="évolutions"),
-    arg("second", "EVOLUTIO", en="as many curves", fr="autant d'évolutions"),
+    arg("first", "EVOLUTIO", en="curves"),
+    arg("second", "EVOLUTIO", en="as many curves"),
     family="curves",
     full_name="CONCAT",
     help=Help(
         en="Curves joined end to end, two by two: the one that begins first stands first.",
-        fr="Évolutions mises bout à bout, deux à deux : celle qui commence la première est placée "
-        "en premier.",
         syntax="EVOL3 = CONC EVOL1 EVOL2 ;",
         examples=(_LINE + "F = EVOL 'MANU' (PROG 3. 4.) (PROG 0. 5.) ; LIST (CONC F E) ;",),
     ),
@@ -123,26 +117,17 @@ def _start(part: CurvePart) -> float:
 @operator(
     "LSQF",
     CURVE,
-    arg("count", "ENTIER", range=POSITIVE, en="number of intervals", fr="nombre d'intervalles"),
-    flag("uniform", "UNIF", en="of equal length, the default", fr="de longueur égale, par défaut"),
+    arg("count", "ENTIER", range=POSITIVE, en="number of intervals"),
+    flag("uniform", "UNIF", en="of equal length, the default"),
+    key("best", "OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available"),
     key(
-        "best", "OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available", fr="non disponible"
-    ),
-    key(
-        "size",
-        "REDU",
-        arg("n", "ENTIER", range=POSITIVE),
-        en="steps of the signal in an interval",
-        fr="pas du signal par intervalle",
+        "size", "REDU", arg("n", "ENTIER", range=POSITIVE), en="steps of the signal in an interval"
     ),
     family="curves",
     help=Help(
         en="Broken lines of about N1 intervals that stand for the size of signals at constant "
         "step: positive, with the signal's sum of squares on each interval (the modulation of a "
         "signal). 'REDU': intervals of N2 samples of the signal, N1 intervals at least.",
-        fr="Lignes brisées d'environ N1 intervalles qui représentent l'amplitude de signaux à pas "
-        "constant : positives, avec la somme des carrés du signal sur chaque intervalle (la "
-        "modulation d'un signal). 'REDU' : intervalles de N2 pas du signal, au moins N1.",
         syntax="EVOL1 = LSQF EVOL2 N1 ('UNIF') ('REDU' N2) ;",
         examples=(
             "S = EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 2. -2. 2. -2. 2. -2. 2. -2. 2.) ; "
@@ -170,15 +155,13 @@ def lsqf(
 @operator(
     "MAPP",
     COLOUR,
-    arg("force", "EVOLUTIO", en="contact force", fr="force de contact", unit="N"),
-    arg("moved", "EVOLUTIO", en="displacement", fr="déplacement", unit="m"),
-    arg("speed", "EVOLUTIO", en="velocity", fr="vitesse", unit="m/s"),
+    arg("force", "EVOLUTIO", en="contact force", unit="N"),
+    arg("moved", "EVOLUTIO", en="displacement", unit="m"),
+    arg("speed", "EVOLUTIO", en="velocity", unit="m/s"),
     family="curves",
     help=Help(
         en="Poincaré map: displacement and velocity of a node at the instants where a shock "
         "begins, that is where the contact force EVOL2 leaves zero.",
-        fr="Carte de Poincaré : déplacement et vitesse d'un noeud aux instants où un choc "
-        "commence, c'est-à-dire où la force de contact EVOL2 quitte zéro.",
         syntax="EVOL1 = MAPP (COUL1) EVOL2 EVOL3 EVOL4 ;",
         examples=(
             "T = PROG 0. PAS 1. 4. ; F = EVOL 'MANU' T (PROG 0. 0. 5. 0. 7.) ; "
@@ -207,14 +190,13 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
 
 @operator(
     "CMOY",
-    arg("records", "EVOLUTIO", en="records", fr="enregistrements"),
+    arg("records", "EVOLUTIO", en="records"),
     key(
         "duration",
         "ACQU",
         arg("t", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="time that a shock is recorded",
-        fr="durée d'enregistrement d'un choc",
     ),
     key(
         "percent",
@@ -222,23 +204,18 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
         arg("p", "FLOTTANT", unit="%"),
         default=1e-6,
         en="threshold of the largest absolute value, 1.E-6 without it",
-        fr="seuil par rapport au maximum absolu, 1.E-6 sans lui",
     ),
     key(
         "count",
         "NCHO",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of shocks kept, all without it",
-        fr="nombre de chocs gardés, tous sans lui",
     ),
     family="signals",
     help=Help(
         en="Mean shock of records: each shock is recorded for the time 'ACQU' from where the "
         "absolute value passes 'DECL' percent of its largest (1.E-6 by default); 'NCHO' keeps "
         "the first ones.",
-        fr="Choc moyen d'enregistrements : chaque choc est enregistré pendant 'ACQU' à partir du "
-        "passage de la valeur absolue au-dessus de 'DECL' pour cent du maximum (1.E-6 par "
-        "défaut) ; 'NCHO' garde les premiers.",
         syntax="EVOL1 = CMOY EVOL2 'ACQU' X1 ('DECL' X2) ('NCHO' N1) ;",
         examples=(
             "E = EVOL 'MANU' (PROG 0. PAS 1. 7.) (PROG 0. 3. 1. 0. 5. 3. 0. 0.) ; "
@@ -260,22 +237,18 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
 
 @operator(
     "LAPL",
-    flag("inverse", "INVERSE", en="the inverse transform", fr="la transformée inverse"),
-    arg("omega", "LISTREEL", en="circular frequencies", fr="pulsations", unit="rad/s"),
-    arg("real", "LISTREEL", en="real parts", fr="parties réelles"),
-    arg("imaginary", "LISTREEL", en="imaginary parts", fr="parties imaginaires"),
-    arg("shift", "FLOTTANT", en="real part a of the variable", fr="partie réelle a de la variable"),
-    arg("group", "ENTIER", en="group size", fr="regroupement"),
+    flag("inverse", "INVERSE", en="the inverse transform"),
+    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s"),
+    arg("real", "LISTREEL", en="real parts"),
+    arg("imaginary", "LISTREEL", en="imaginary parts"),
+    arg("shift", "FLOTTANT", en="real part a of the variable"),
+    arg("group", "ENTIER", en="group size"),
     family="signals",
     full_name="LAPLACE",
     help=Help(
         en="Inverse Laplace transform by Durbin's series: f(t) from the circular frequencies w "
         "(2**N of them, from 0, at a constant step), the real and imaginary parts of F(a + i w), "
         "the number a, and the group size L: the result has 2**N / L times over 2 pi / step.",
-        fr="Transformée de Laplace inverse par la série de Durbin : f(t) à partir des pulsations "
-        "w (au nombre de 2**N, depuis 0, à pas constant), des parties réelle et imaginaire de "
-        "F(a + i w), du réel a et du regroupement L : le résultat a 2**N / L instants sur "
-        "2 pi / pas.",
         syntax="EVOL1 = LAPL 'INVERSE' LREEL1 LREEL2 LREEL3 X1 N1 ;",
         examples=(
             "W = PROG 0. PAS 0.5 NPAS 1023 ; D = (W * W) + 1.44 ; "

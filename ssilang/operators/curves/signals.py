@@ -54,30 +54,25 @@ def spectrum(
     return Curve(parts, title, "COMPLEXE")
 
 
-_POWER = arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points")
+_POWER = arg("power", "ENTIER", range=POSITIVE, en="2**N1 points")
 _REIM = "real and imaginary parts, or modulus and phase"
-_REIM_FR = "parties réelle et imaginaire, ou module et phase"
-_FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM, fr=_REIM_FR)
+_FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
 
 
 @operator(
     "TFR",
     _POWER,
-    arg("signal", "EVOLUTIO", en="signal at constant step", fr="signal à pas constant"),
+    arg("signal", "EVOLUTIO", en="signal at constant step"),
     _FORM,
     *LIMITS,
     COLOUR,
-    choice("second_colour", NAMES, en="colour of the second curve", fr="couleur de la seconde"),
+    choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
     help=Help(
         en="Fast Fourier transform of a signal at constant step, on 2**N1 points (cut, or filled "
         "with zeros): the integral of s(t) exp(-2 i pi f t), as real and imaginary parts ('REIM') "
         "or modulus and phase in degrees ('MOPH'), over frequencies between FMIN and FMAX. Of a "
         "list of fields: lists of real and imaginary fields, and the frequencies.",
-        fr="Transformée de Fourier rapide d'un signal à pas constant, sur 2**N1 points (tronqué, "
-        "ou complété par des zéros) : l'intégrale de s(t) exp(-2 i pi f t), en parties réelle et "
-        "imaginaire ('REIM') ou module et phase en degrés ('MOPH'), entre FMIN et FMAX. D'une "
-        "liste de champs : listes des champs réels et imaginaires, et fréquences.",
         syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
         "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
         examples=(
@@ -116,8 +111,8 @@ def _check_power(call: Call, power: int) -> None:
 
 @tfr.form(
     _POWER,
-    arg("fields", "LISTCHPO", en="fields at constant step", fr="champs à pas constant"),
-    arg("times", "LISTREEL", en="their times", fr="leurs instants", unit="s"),
+    arg("fields", "LISTCHPO", en="fields at constant step"),
+    arg("times", "LISTREEL", en="their times", unit="s"),
     _FORM,
     *LIMITS,
 )
@@ -162,13 +157,11 @@ def tfr_of_fields(
 
 @operator(
     "TFRI",
-    arg("curve", "EVOLUTIO", en="complex curve", fr="évolution complexe"),
+    arg("curve", "EVOLUTIO", en="complex curve"),
     family="signals",
     help=Help(
         en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
         "constant step: a real signal; inverse of TFR.",
-        fr="Transformée de Fourier inverse d'une évolution complexe, de la fréquence 0 à la plus "
-        "haute, à pas constant : un signal réel ; inverse de TFR.",
         syntax="EVOL2 = TFRI EVOL1 ;",
         examples=(_SIGNAL + "R = TFRI (TFR 6 S 'REIM') ; LIST (MAXI (EXTR R 'ORDO')) ;",),
     ),
@@ -185,38 +178,30 @@ def tfri(call: Call, curve: Curve) -> Curve:
     return Curve((part,), curve.title)
 
 
-_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", fr="fréquence de coupure", unit="Hz")
+_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
 
 
 @operator(
     "FILT",
     _POWER,
-    flag("type", "TYPE", en="its type follows", fr="son type suit"),
+    flag("type", "TYPE", en="its type follows"),
     select(
         "kind",
         {
             "PHAU": [_CUT],
             "PBAS": [_CUT],
-            "OMEG": [arg("cut", "ENTIER", en="exponent", fr="exposant")],
+            "OMEG": [arg("cut", "ENTIER", en="exponent")],
         },
         en="high-pass, low-pass, or power of the circular frequency",
-        fr="passe-haut, passe-bas, ou puissance de la pulsation",
     ),
-    flag("shown", "SORT", en="the parts wanted follow", fr="les parties voulues suivent"),
-    choice(
-        "form",
-        ("REIM", "MOPH"),
-        default="MOPH",
-        en=_REIM + ", the default",
-        fr=_REIM_FR + ", par défaut",
-    ),
+    flag("shown", "SORT", en="the parts wanted follow"),
+    choice("form", ("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
     key(
         "spacing",
         "DFRQ",
         arg("spacing", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="step of frequency",
-        fr="pas de fréquence",
     ),
     family="signals",
     full_name="FILTRE",
@@ -224,9 +209,6 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", fr="fréquence de coupure"
         en="Filter as a complex curve on 2**(N1 - 1) + 1 frequencies: first-order high-pass "
         "('PHAU') or low-pass ('PBAS') of cut-off F1, or a power of the circular frequency "
         "(i 2 pi f)**N ('OMEG').",
-        fr="Filtre sous forme d'évolution complexe sur 2**(N1 - 1) + 1 fréquences : passe-haut "
-        "('PHAU') ou passe-bas ('PBAS') du premier ordre de coupure F1, ou puissance de la "
-        "pulsation (i 2 pi f)**N ('OMEG').",
         syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
         "'DFRQ' F2 ;",
         examples=(
@@ -266,13 +248,12 @@ def filt(
 @operator(
     "HANN",
     CURVE,
-    arg("passes", "ENTIER", range=POSITIVE, en="how many times", fr="nombre de fois"),
+    arg("passes", "ENTIER", range=POSITIVE, en="how many times"),
     COLOUR,
     family="signals",
     full_name="HANNING",
     help=Help(
         en="Hanning's mean (1/4, 1/2, 1/4) of a spectrum, N1 times.",
-        fr="Moyenne de Hanning (1/4, 1/2, 1/4) d'un spectre, N1 fois.",
         syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
         examples=("LIST (HANN (EVOL 'MANU' (PROG 1. 2. 3.) (PROG 0. 4. 0.)) 1) ;",),
     ),
@@ -294,7 +275,6 @@ _PERCENT = opt(
     range=between(0.0, 100.0),
     default=1e-6,
     en="threshold, 1.E-6 without it",
-    fr="seuil, 1.E-6 sans lui",
     unit="%",
 )
 
@@ -303,18 +283,15 @@ _PERCENT = opt(
     "COMT",
     CURVE,
     _PERCENT,
-    flag("peaks", "MAXI", en="peaks too", fr="aussi les maxima"),
-    flag("begins", "DEBU", en="places where they begin too", fr="aussi les rangs de début"),
-    flag("ends", "FIN", en="places where they end too", fr="aussi les rangs de fin"),
+    flag("peaks", "MAXI", en="peaks too"),
+    flag("begins", "DEBU", en="places where they begin too"),
+    flag("ends", "FIN", en="places where they end too"),
     family="signals",
     gives=ANY,
     help=Help(
         en="Number of shocks in records: stretches above a threshold in percent of the largest "
         "absolute value (1.E-6 by default). Of one record also the peaks ('MAXI') and the places "
         "where shocks begin ('DEBU') and end ('FIN').",
-        fr="Nombre de chocs d'enregistrements : passages au-dessus d'un seuil en pour cent du "
-        "maximum absolu (1.E-6 par défaut). D'un seul, aussi les maxima ('MAXI') et les rangs de "
-        "début ('DEBU') et de fin ('FIN').",
         syntax="LENT1 = COMT EVOL1 (X1) ; N1 (LREE1) (LENT2) (LENT3) = COMT EVOL1 (X1) ('MAXI') "
         "('DEBU') ('FIN') ;",
         examples=("LIST (COMT (EVOL 'MANU' (PROG 0. PAS 1. 4.) (PROG 0. 3. 0. 2. 0.))) ;",),
@@ -343,8 +320,6 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     help=Help(
         en="Length of the abscissas where the absolute value of each curve is above a level, in "
         "percent of its largest.",
-        fr="Longueur des abscisses où la valeur absolue de chaque courbe dépasse un seuil, en pour "
-        "cent de son maximum.",
         syntax="LREE1 = TOTE EVOL1 (X1) ;",
         examples=("LIST (TOTE (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.)) 50.) ;",),
     ),
@@ -356,7 +331,7 @@ def tote(curve: Curve, percent: float) -> ListReel:
     return ListReel([time_above(p.abscissas, p.ordinates, v) for p, v in pairs])
 
 
-_AXIS = arg("name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
+_AXIS = arg("name", "MOT", en="name of the ordinates")
 
 
 @operator(
@@ -368,17 +343,13 @@ _AXIS = arg("name", "MOT", en="name of the ordinates", fr="nom des ordonnées")
         arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="constant step",
-        fr="pas constant",
     ),
-    arg("values", "LISTREEL", en="ordinates", fr="ordonnées"),
+    arg("values", "LISTREEL", en="ordinates"),
     family="signals",
     help=Help(
         en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
         "('NOCO': pairs one after the other with 'COUP', else all times then all values, or two "
         "lists, the first of which holds the step or 0).",
-        fr="Évolution en temps à partir d'ordonnées à pas constant ('CONS'), ou de temps et de "
-        "valeurs ('NOCO' : couples successifs avec 'COUP', sinon tous les temps puis toutes les "
-        "valeurs, ou deux listes dont la première contient le pas ou 0).",
         syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
         examples=(
             "LIST (FDT 'ACCE' 'CONS' 0.5 (PROG 1. 2. 3.)) ;",
@@ -395,20 +366,10 @@ def fdt(name: str, step: float, values: ListReel) -> Curve:
 
 @fdt.form(
     _AXIS,
-    flag("given", "NOCO", en="times are given", fr="les instants sont donnés"),
-    flag("pairs", "COUP", en="by pairs", fr="par couples"),
-    arg(
-        "values",
-        "LISTREEL",
-        en="times and ordinates, or the step or 0",
-        fr="instants et ordonnées, ou le pas ou 0",
-    ),
-    opt(
-        "second",
-        "LISTREEL",
-        en="ordinates, or pairs of time and ordinate",
-        fr="ordonnées, ou couples d'instant et d'ordonnée",
-    ),
+    flag("given", "NOCO", en="times are given"),
+    flag("pairs", "COUP", en="by pairs"),
+    arg("values", "LISTREEL", en="times and ordinates, or the step or 0"),
+    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate"),
 )
 def fdt_of_times(
     call: Call, name: str, given: bool, pairs: bool, values: ListReel, second: ListReel | None

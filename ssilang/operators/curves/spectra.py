@@ -18,15 +18,9 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 
 _TIMES = key(
-    "times",
-    "TEMPS",
-    arg("t", "LISTREEL", unit="s"),
-    en="times; those of the signal without it",
-    fr="instants ; ceux du signal sans elle",
+    "times", "TEMPS", arg("t", "LISTREEL", unit="s"), en="times; those of the signal without it"
 )
-_COLOUR = key(
-    "colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour", fr="couleur"
-)
+_COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
 
 
 @operator(
@@ -37,7 +31,6 @@ _COLOUR = key(
         arg("xi", "FLOTTANT", range=NOT_NEGATIVE),
         optional=False,
         en="damping ratio",
-        fr="amortissement réduit",
     ),
     key(
         "frequency",
@@ -45,19 +38,16 @@ _COLOUR = key(
         arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"),
         optional=False,
         en="frequency",
-        fr="fréquence",
     ),
     _TIMES,
-    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start", fr="X initial"),
-    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start", fr="X' initial"),
+    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start"),
+    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start"),
     _COLOUR,
-    arg("signal", "EVOLUTIO", en="signal g(t)", fr="signal g(t)"),
+    arg("signal", "EVOLUTIO", en="signal g(t)"),
     family="modal",
     help=Help(
         "Displacement X(t) of an oscillator, X'' + 2 a w X' + w^2 X = g(t), from X and X' at the "
         "start (0); exact for a signal linear between its points.",
-        "Déplacement X(t) d'un oscillateur, X'' + 2 a w X' + w^2 X = g(t), à partir de X et X' au "
-        "départ (0) ; exact pour un signal linéaire entre ses points.",
         "EVOL2 = OSCI EVOL1 'AMOR' A1 'FREQ' F1 ('TEMPS' LREEL1) ('DEPL' X0) ('VITE' V0) "
         "('COUL' MOT1) ;",
         (
@@ -95,14 +85,12 @@ def osci(
         arg("xi", "LISTREEL", "FLOTTANT", range=NOT_NEGATIVE),
         optional=False,
         en="damping ratios",
-        fr="amortissements réduits",
     ),
     key(
         "frequencies",
         "FREQ",
         arg("f", "LISTREEL", range=POSITIVE, unit="Hz"),
         en="frequencies; usual ones without it",
-        fr="fréquences ; des valeurs usuelles sans elle",
     ),
     _TIMES,
     _COLOUR,
@@ -111,28 +99,21 @@ def osci(
         ("DEPL", "VITE", "ACCE", "ACCA"),
         optional=False,
         en="displacement, pseudo-velocity, pseudo-acceleration, absolute acceleration",
-        fr="déplacement, pseudo-vitesse, pseudo-accélération, accélération absolue",
     ),
     key(
         "percentiles",
         "ROTD",
-        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", fr="50 : médiane"),
+        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median"),
         en="percentiles over all directions of two components",
-        fr="centiles sur toutes les directions de deux composantes",
     ),
-    arg("signal", "EVOLUTIO", en="acceleration", fr="accélération"),
-    opt("second", "EVOLUTIO", en="its other component", fr="son autre composante"),
+    arg("signal", "EVOLUTIO", en="acceleration"),
+    opt("second", "EVOLUTIO", en="its other component"),
     family="modal",
     help=Help(
         "Response spectrum of an acceleration: for each damping, the largest relative displacement "
         "('DEPL'), pseudo-velocity ('VITE'), pseudo-acceleration ('ACCE') or absolute acceleration "
         "('ACCA') of oscillators against their frequency. Of two horizontal components with "
         "'ROTD': percentiles of these over all directions (RotD50, RotD100; Boore 2010).",
-        "Spectre d'oscillateurs d'une accélération : pour chaque amortissement, plus grand "
-        "déplacement relatif ('DEPL'), pseudo-vitesse ('VITE'), pseudo-accélération ('ACCE') ou "
-        "accélération absolue ('ACCA') des oscillateurs en fonction de leur fréquence. De deux "
-        "composantes horizontales avec 'ROTD' : leurs centiles sur toutes les directions (RotD50, "
-        "RotD100 ; Boore 2010).",
         "EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
         "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;\nEVOL2 = SPO EVOL1 EVOL3 'ROTD' LREEL4 'AMOR' LREEL1 "
         "('FREQ' LREEL2) ('COUL' MOT2) 'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
@@ -217,23 +198,20 @@ def _valp(
 
 operator(
     "VALP",
-    arg("diagonal", "LISTREEL", en="diagonal", fr="diagonale"),
-    arg("below", "LISTREEL", en="sub-diagonal", fr="sous-diagonale"),
+    arg("diagonal", "LISTREEL", en="diagonal"),
+    arg("below", "LISTREEL", en="sub-diagonal"),
     key(
         "accuracy",
         ("ITERATION", "ABSOLU", "RELATIF"),
         arg("number", "FLOTTANT"),
         repeated=True,
         en="accepted: exact to rounding",
-        fr="accepté : exact à l'arrondi près",
     ),
     family="modal",
     full_name="VALPROPRE",
     help=Help(
         "Eigenvalues, increasing, of the tridiagonal matrix of given diagonal and sub-diagonal and "
         "of ones above the diagonal.",
-        "Valeurs propres, croissantes, de la matrice tridiagonale de diagonale et sous-diagonale "
-        "données, avec des 1 au-dessus de la diagonale.",
         "LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
         ("LIST (VALP (PROG 2. 2.) (PROG 1.)) ;",),
     ),

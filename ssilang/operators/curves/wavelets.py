@@ -21,14 +21,13 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "ONDE",
-    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points", fr="2**N1 points"),
+    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
     CURVE,
     choice(
         "form",
         ("CRMO", "CRPH", "REIM", "MOPH"),
         default="CRMO",
         en="ridge by the modulus (default) or by the phase, or the transform as a field",
-        fr="arête par le module (par défaut) ou par la phase, ou la transformée en champ",
     ),
     key(
         "lowest",
@@ -36,7 +35,6 @@ from ssilang.operators.workspace import workspace
         arg("lowest", "FLOTTANT", range=NOT_NEGATIVE, unit="Hz"),
         default=0.0,
         en="lowest frequency",
-        fr="fréquence minimale",
     ),
     key(
         "highest",
@@ -44,7 +42,6 @@ from ssilang.operators.workspace import workspace
         arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="highest frequency",
-        fr="fréquence maximale",
     ),
     key(
         "count",
@@ -52,7 +49,6 @@ from ssilang.operators.workspace import workspace
         arg("count", "FLOTTANT"),
         default=("NFRQ", 50.0),
         en="number of frequencies, 50 without it",
-        fr="nombre de fréquences, 50 sans lui",
     ),
     key(
         "turn",
@@ -60,7 +56,6 @@ from ssilang.operators.workspace import workspace
         arg("turn", "FLOTTANT"),
         default=1e-4,
         en="tolerance of the phase, 1.E-4 without it",
-        fr="tolérance sur la phase, 1.E-4 sans elle",
     ),
     key(
         "pulsation",
@@ -68,7 +63,6 @@ from ssilang.operators.workspace import workspace
         arg("pulsation", "FLOTTANT"),
         default=5.0,
         en="pulsation of the wavelet, 5 without it",
-        fr="pulsation de l'ondelette, 5 sans elle",
     ),
     COLOUR,
     family="signals",
@@ -81,13 +75,6 @@ from ssilang.operators.workspace import workspace
         "time in abscissa and frequency in ordinate (evenly spaced in 1/f), zero near the ends. "
         "'CRMO' or 'CRPH': its ridge, by the largest modulus or where the phase turns at the "
         "wavelet's pulsation to 'EPSI' (1.E-4): frequency and amplitude in time.",
-        fr="Transformée en ondelettes continue (ondelette de Morlet de pulsation 'PULS', 5 par "
-        "défaut) d'un signal sur 2**N1 points, normée pour qu'un sinus donne son amplitude. "
-        "'REIM' ou 'MOPH' : champ par points (PREE PIMA, ou MODU et PHAS en degrés) et son "
-        "maillage, carré unité avec le temps en abscisse et la fréquence en ordonnée (régulière "
-        "en 1/f), nul près des bouts. 'CRMO' ou 'CRPH' : son arête, par le plus grand module ou "
-        "là où la phase tourne à la pulsation de l'ondelette à 'EPSI' près (1.E-4) : fréquence et "
-        "amplitude en fonction du temps.",
         syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
         "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
         "('EPSI' X5) ('PULS' X4) (COUL1) ;",

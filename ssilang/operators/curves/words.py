@@ -14,8 +14,8 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
-CURVE = arg("curve", "EVOLUTIO", en="curves", fr="évolutions")
-COLOUR = choice("colour", NAMES, en="colour", fr="couleur")
+CURVE = arg("curve", "EVOLUTIO", en="curves")
+COLOUR = choice("colour", NAMES, en="colour")
 LIMITS = (
     key(
         "lowest",
@@ -23,7 +23,6 @@ LIMITS = (
         arg("lowest", "FLOTTANT", unit="Hz", range=NOT_NEGATIVE),
         default=0.0,
         en="lowest frequency, 0 without it",
-        fr="fréquence minimale, 0 sans elle",
     ),
     key(
         "highest",
@@ -31,7 +30,6 @@ LIMITS = (
         arg("highest", "FLOTTANT", unit="Hz", range=POSITIVE),
         default=np.inf,
         en="highest frequency, all without it",
-        fr="fréquence maximale, toutes sans elle",
     ),
 )
 """Frequencies kept of a spectrum."""

@@ -14,7 +14,6 @@ ANNO = shared_operator(
     "ANNO",
     "drawing",
     "Makes texts that TRAC adds to a picture; ET puts several together.",
-    "Fabrique des textes que TRAC ajoute à un tracé ; ET en réunit plusieurs.",
     examples=(
         (
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
@@ -31,11 +30,10 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
 
 @ANNO.form(
     said("CATE"),
-    arg("colour", "MOT", en="colour", fr="couleur", kind="colour"),
-    arg("text", "MOT", en="its meaning", fr="son sens"),
+    arg("colour", "MOT", en="colour", kind="colour"),
+    arg("text", "MOT", en="its meaning"),
     syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
     en="CATE: a line of the legend, a colour and its meaning.",
-    fr="CATE : une ligne de légende, une couleur et son sens.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) COUL ROUG ; "
         "TRAC L (ANNO 'CATE' 'ROUG' 'beam') ;",
@@ -47,22 +45,14 @@ def _category(colour: str, text: str) -> Annotation:
 
 @ANNO.form(
     said("ETIQ"),
-    arg("point", "POINT", en="where", fr="où"),
-    many(
-        "words",
-        "MOT",
-        at_least=1,
-        en="colour and side, if any, then the text",
-        fr="couleur et côté éventuels, puis le texte",
-    ),
-    opt("distance", "FLOTTANT", en="distance of the text", fr="distance du texte", unit="m"),
-    opt("link", "LOGIQUE", default=True, en="whether a line is drawn", fr="si un trait est tracé"),
+    arg("point", "POINT", en="where"),
+    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    opt("distance", "FLOTTANT", en="distance of the text", unit="m"),
+    opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
     "(FLOT1) (LOGI1) MOT1 ;",
     en="ETIQ: a text at a point, in a colour, on one of its sides, at a distance, with a line to "
     "the point unless LOGI1 is FAUX.",
-    fr="ETIQ : un texte en un point, dans une couleur, d'un de ses côtés, à une distance, relié au "
-    "point par un trait sauf si LOGI1 est FAUX.",
 )
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool

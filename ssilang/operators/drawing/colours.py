@@ -15,23 +15,19 @@ from ssilang.operators.workspace import workspace
 
 
 @COUL.form(
-    main("value", "EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured", fr="objet à colorer"),
+    main("value", "EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured"),
     opt(
         "given",
         "LISTMOTS",
         "ENTIER",
         "MOT",
         en="colour, its number, or one for each part",
-        fr="couleur, son numéro, ou une par partie",
         kind="colour",
     ),
     gives=Like("value"),
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
     en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
     "(the first ones of a LISTMOTS, which may be longer); without a colour, in that of OPTI COUL.",
-    fr="Une évolution, une déformée ou des vecteurs dans une couleur pour toutes leurs parties, ou "
-    "dans une couleur pour chacune (les premières d'un LISTMOTS, qui peut être plus long) ; sans "
-    "couleur, dans celle d'OPTI COUL.",
     examples=(
         "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG 1. 2.) ; F = (E ET E) COUL (MOTS ROUG VERT) ; "
         "DESS F ;",

@@ -40,88 +40,79 @@ if TYPE_CHECKING:
 
 
 def _corner() -> Keyword:
-    return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner", fr="coin")
+    return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner")
 
 
-def _bounds(name: str, word: str, en: str, fr: str) -> Keyword:
-    return key(name, word, arg("low", "FLOTTANT"), arg("high", "FLOTTANT"), en=en, fr=fr)
+def _bounds(name: str, word: str, en: str) -> Keyword:
+    return key(name, word, arg("low", "FLOTTANT"), arg("high", "FLOTTANT"), en=en)
 
 
-def _title_place(name: str, word: str, en: str, fr: str) -> Select:
-    at_end = choice("at", ("EXCE", "CENT"), en="at the end or in the middle", fr="bout ou milieu")
-    return select(name, {word: [at_end]}, en=en, fr=fr)
+def _title_place(name: str, word: str, en: str) -> Select:
+    at_end = choice("at", ("EXCE", "CENT"), en="at the end or in the middle")
+    return select(name, {word: [at_end]}, en=en)
 
 
 _OPTIONS: tuple[Entry, ...] = (
-    flag("log_x", "LOGX", en="logarithmic abscissas", fr="abscisses logarithmiques"),
-    flag("log_y", "LOGY", en="logarithmic ordinates", fr="ordonnées logarithmiques"),
+    flag("log_x", "LOGX", en="logarithmic abscissas"),
+    flag("log_y", "LOGY", en="logarithmic ordinates"),
     select(
         "grid",
         {
             "GRIL": [
-                choice("dash", tuple(DASHES), default="LIGN", en="dash", fr="tirets"),
-                flag("grey", "GRIS", en="in grey", fr="en gris"),
+                choice("dash", tuple(DASHES), default="LIGN", en="dash"),
+                flag("grey", "GRIS", en="in grey"),
             ]
         },
         en="grid",
-        fr="quadrillage",
     ),
-    flag("square", "CARR", en="square frame", fr="cadre carré"),
-    _bounds("x_limits", "XBOR", "bounds of the abscissas", "bornes des abscisses"),
-    _bounds("y_limits", "YBOR", "bounds of the ordinates", "bornes des ordonnées"),
-    key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas", fr="pas en abscisse"),
-    key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates", fr="pas en ordonnée"),
-    flag("extremes", "MIMA", en="extreme values are written", fr="extrêmes écrits"),
+    flag("square", "CARR", en="square frame"),
+    _bounds("x_limits", "XBOR", "bounds of the abscissas"),
+    _bounds("y_limits", "YBOR", "bounds of the ordinates"),
+    key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas"),
+    key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates"),
+    flag("extremes", "MIMA", en="extreme values are written"),
     key(
         "difference",
         "ECAR",
         opt("on", "LOGIQUE", default=True),
         en="a second frame with the curves less the first; FAUX: never",
-        fr="un second cadre avec les courbes moins la première ; FAUX : jamais",
     ),
-    flag("date", "DATE", en="the date is written", fr="date écrite"),
-    flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
-    flag("separate", "SEPA", en="a frame for each curve", fr="un cadre par courbe"),
+    flag("date", "DATE", en="the date is written"),
+    flag("logo", "LOGO", en="changes nothing"),
+    flag("separate", "SEPA", en="a frame for each curve"),
     key(
         "chosen",
         "CHOI",
         many("numbers", "ENTIER", "LISTENTI"),
         default=(),
         en="numbers of the curves drawn",
-        fr="numéros des courbes tracées",
     ),
-    key("title", "TITR", arg("t", "MOT"), en="title", fr="titre"),
-    key("x_title", "TITX", arg("t", "MOT"), en="title of the abscissas", fr="titre des abscisses"),
-    key("y_title", "TITY", arg("t", "MOT"), en="title of the ordinates", fr="titre des ordonnées"),
-    _title_place("x_place", "POSX", "where that stands", "où il se met"),
-    _title_place("y_place", "POSY", "where that stands", "où il se met"),
-    key("x_format", "XFMT", arg("f", "MOT"), en="format of abscissas", fr="format en abscisse"),
-    key("y_format", "YFMT", arg("f", "MOT"), en="format of ordinates", fr="format en ordonnée"),
-    flag("axes", "AXES", en="axes through the origin", fr="axes par l'origine"),
-    flag("no_click", "NCLK", en="changes nothing", fr="sans effet"),
+    key("title", "TITR", arg("t", "MOT"), en="title"),
+    key("x_title", "TITX", arg("t", "MOT"), en="title of the abscissas"),
+    key("y_title", "TITY", arg("t", "MOT"), en="title of the ordinates"),
+    _title_place("x_place", "POSX", "where that stands"),
+    _title_place("y_place", "POSY", "where that stands"),
+    key("x_format", "XFMT", arg("f", "MOT"), en="format of abscissas"),
+    key("y_format", "YFMT", arg("f", "MOT"), en="format of ordinates"),
+    flag("axes", "AXES", en="axes through the origin"),
+    flag("no_click", "NCLK", en="changes nothing"),
     select(
         "legend",
         {
             "LEGE": [
                 _corner(),
-                key("at", "XY", arg("x", "FLOTTANT"), arg("y", "FLOTTANT"), en="place", fr="place"),
+                key("at", "XY", arg("x", "FLOTTANT"), arg("y", "FLOTTANT"), en="place"),
             ]
         },
         en="legend",
-        fr="légende",
     ),
 )
 
 
 @operator(
     "DESS",
-    many("curves", "EVOLUTIO", at_least=1, whole=True, en="curves", fr="évolutions"),
-    opt(
-        "table",
-        "TABLE",
-        en="styles by number of curve, names, ends and dashes",
-        fr="styles par numéro de courbe, noms, bouts et tirets",
-    ),
+    many("curves", "EVOLUTIO", at_least=1, whole=True, en="curves"),
+    opt("table", "TABLE", en="styles by number of curve, names, ends and dashes"),
     *_OPTIONS,
     family="drawing",
     full_name="DESSIN",
@@ -137,17 +128,6 @@ _OPTIONS: tuple[Entry, ...] = (
         "TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (size) (PLEIN) kind; tables TITRE, INITIAL, "
         "FINAL and LIGNE_VARIABLE by number give legends, first and last point and a dash for "
         "each segment.",
-        fr="Dessine des évolutions dans une image numérotée du dossier de sortie, en PNG et SVG. "
-        "Échelles : LOGX LOGY, XBOR YBOR et deux bornes, XGRA YGRA et un pas, CARR pour un cadre "
-        "carré, AXES par l'origine, GRIL (tirets) (GRIS). Textes : TITR TITX TITY, POSX POSY EXCE "
-        "ou CENT, XFMT YFMT et un format Fortran, LEGE et un coin NO NE SO SE, EXT ou XY x y, "
-        "MIMA pour écrire et marquer les extrêmes, DATE. Des courbes confondues à l'oeil ont un "
-        "second cadre avec leurs écarts à la première : ECAR le demande, ECAR FAUX l'interdit. "
-        "Les fréquences d'un spectre ont leurs périodes le long du bord supérieur. SEPA sépare "
-        "les courbes, CHOI en choisit. La table contient, par numéro de courbe, les mots NOLI "
-        "TIRR TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (taille) (PLEIN) forme ; ses tables "
-        "TITRE, INITIAL, FINAL et LIGNE_VARIABLE donnent par numéro la légende, le premier et le "
-        "dernier point, et les tirets de chaque segment.",
         syntax="DESS EVOL1 ('LOGX') ('LOGY') ('GRIL' (TYPE) ('GRIS')) ('CARR') ('XBOR' X1 X2) "
         "('YBOR' Y1 Y2) ('XGRA' DX) ('YGRA' DY) ('MIMA') ('ECAR' (LOGI1)) ('DATE') ('SEPA') "
         "('CHOI' N1 ...) "

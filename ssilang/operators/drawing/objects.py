@@ -47,23 +47,20 @@ def is_colour(word: str) -> bool:
 
 @operator(
     "DEFO",
-    choice("colour", COLOURS, en="colour", fr="couleur"),
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    arg("displacement", "CHPOINT", en="displacements", fr="déplacements", unit="m"),
-    opt("scale", "FLOTTANT", en="amplification", fr="amplification"),
-    opt("arrows", "VECTEUR", en="arrows drawn on it", fr="vecteurs tracés dessus"),
-    opt("field", "CHPOINT", en="field shown on it", fr="champ montré dessus"),
-    opt("cells", "MCHAML", en="field in cells shown on it", fr="champ par éléments montré"),
-    opt("model", "MMODEL", en="its model", fr="son modèle"),
+    choice("colour", COLOURS, en="colour"),
+    arg("mesh", "MAILLAGE", en="mesh"),
+    arg("displacement", "CHPOINT", en="displacements", unit="m"),
+    opt("scale", "FLOTTANT", en="amplification"),
+    opt("arrows", "VECTEUR", en="arrows drawn on it"),
+    opt("field", "CHPOINT", en="field shown on it"),
+    opt("cells", "MCHAML", en="field in cells shown on it"),
+    opt("model", "MMODEL", en="its model"),
     family="drawing",
     full_name="DEFORME",
     help=Help(
         en="A deformed shape for TRAC: a mesh moved by an amplified displacement (the "
         "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
         "field to show on it. ET puts several shapes into one picture.",
-        fr="Une déformée pour TRAC : un maillage déplacé, avec un coefficient d'amplification "
-        "(choisi par le tracé s'il manque), une couleur, des vecteurs et un champ à montrer "
-        "dessus. ET réunit plusieurs déformées dans un tracé.",
         syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
@@ -102,12 +99,6 @@ VECT = shared(
         "negative: the arrow points at its node), in a colour. Of a field in cells: with a "
         "LISTMOTS, the vector of these components in each cell; without, the strokes of its "
         "principal stresses, or of the one named, with a LISTMOTS of colours.",
-        fr="Des flèches pour TRAC. D'un champ par points : ses déplacements (DEPL), ses forces "
-        "(FORC) ou les composantes nommées, avec une amplification (choisie par le tracé si elle "
-        "manque ; négative : la flèche pointe vers son noeud) et une couleur. D'un champ par "
-        "éléments : avec un LISTMOTS, le vecteur de ces composantes dans chaque élément ; sans, "
-        "les traits de ses contraintes principales, ou de celle qui est nommée, et un LISTMOTS "
-        "de couleurs.",
         syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
         "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
         examples=(
@@ -123,22 +114,16 @@ VECT = shared(
     ),
     full_name="VECTEUR",
 )
-_SCALE = opt(
-    "scale",
-    "FLOTTANT",
-    en="amplification, chosen by the picture by default",
-    fr="amplification, choisie par le tracé sinon",
-)
+_SCALE = opt("scale", "FLOTTANT", en="amplification, chosen by the picture by default")
 
 
 @VECT.form(
-    main("chpoint", "CHPOINT", en="nodal field", fr="champ par points"),
+    main("chpoint", "CHPOINT", en="nodal field"),
     many(
         "names",
         "LISTMOTS",
         "MOT",
         en="DEPL, FORC or components, and a colour",
-        fr="DEPL, FORC ou composantes, et une couleur",
         kind="component",
     ),
     _SCALE,
@@ -184,20 +169,18 @@ def _columns(call: Call, chpoint: NodeField, words: list[str]) -> tuple[str, str
 
 
 @VECT.form(
-    main("mchaml", "MCHAML", en="field in cells", fr="champ par éléments"),
+    main("mchaml", "MCHAML", en="field in cells"),
     many(
         "ignored",
         "MCHAML",
         "MMODEL",
         en="characteristics and model: arrows stand in the middle of the cells",
-        fr="caractéristiques et modèle : les flèches sont au milieu des éléments",
     ),
     many(
         "words",
         "LISTMOTS",
         "MOT",
         en="components, principal stresses or colours",
-        fr="composantes, contraintes principales ou couleurs",
         kind="component",
     ),
     _SCALE,
@@ -222,11 +205,10 @@ def _in_cells(
 
 
 @EXTR.form(
-    main("shape", "DEFORME", en="deformed shapes", fr="déformées"),
-    choice("what", ("AMPL",), optional=False, en="amplification", fr="amplification"),
+    main("shape", "DEFORME", en="deformed shapes"),
+    choice("what", ("AMPL",), optional=False, en="amplification"),
     syntax="X1 = EXTR DEFO1 'AMPL' ;",
     en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
-    fr="De déformées : l'amplification de la première, aussi celle que choisit un dessin.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
         "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",

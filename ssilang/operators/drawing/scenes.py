@@ -71,52 +71,30 @@ _ISO = {"LIGN": "LIGNE", "SULI": "SULI"}
 _POINTS = tuple(arg(name, "POINT") for name in ("a", "b", "c"))
 _TEXT = arg("text", "MOT")
 _OPTIONS: tuple[Entry, ...] = (
-    flag("names", "QUAL", en="names of points and meshes", fr="noms des points et maillages"),
-    flag("node_numbers", "NOEU", en="numbers of the nodes", fr="numéros des noeuds"),
-    select(
-        "one_colour",
-        {"COUL": [choice("colour", COLOURS, en="colour", fr="couleur")]},
-        en="in one colour",
-        fr="d'une seule couleur",
-    ),
-    flag("cell_numbers", "ELEM", en="numbers of the cells", fr="numéros des éléments"),
-    flag("hidden", "CACH", en="the back is hidden", fr="l'arrière est caché"),
-    choice("filled", ("FACE", "FACB", "FSDB"), en="faces are filled", fr="faces remplies"),
-    key(
-        "shrink",
-        "ECLA",
-        opt("size", "FLOTTANT", default=0.5),
-        en="cells are shrunk by a factor",
-        fr="éléments réduits d'un facteur",
-    ),
-    key("beyond", "COUP", *_POINTS, en="only what is beyond a plane", fr="au-delà d'un plan"),
-    key("section", "SECT", *_POINTS, en="what a plane cuts", fr="ce que coupe un plan"),
-    key("title", "TITR", _TEXT, en="title", fr="titre"),
-    key("legend_name", "LEGE", _TEXT, en="title of the legend", fr="titre de la légende"),
-    flag("no_legend", "NOLE", en="no legend", fr="sans légende"),
-    flag("date", "DATE", en="the date is written", fr="date écrite"),
-    flag("point_values", "CHAM", en="values at the nodes", fr="valeurs aux noeuds"),
-    key("frame", "BOIT", arg("mesh", "MAILLAGE"), en="what is framed", fr="ce qui est cadré"),
-    choice(
-        "animation",
-        ("ANIM", "OSCI"),
-        en="an animated picture, also back",
-        fr="image animée, aller et retour",
-    ),
-    flag("no_click", "NCLK", en="changes nothing", fr="sans effet"),
-    flag(
-        "edges",
-        "ARET",
-        en="the first mesh hides, without its cells' edges",
-        fr="le premier maillage cache, sans les arêtes de ses éléments",
-    ),
+    flag("names", "QUAL", en="names of points and meshes"),
+    flag("node_numbers", "NOEU", en="numbers of the nodes"),
+    select("one_colour", {"COUL": [choice("colour", COLOURS, en="colour")]}, en="in one colour"),
+    flag("cell_numbers", "ELEM", en="numbers of the cells"),
+    flag("hidden", "CACH", en="the back is hidden"),
+    choice("filled", ("FACE", "FACB", "FSDB"), en="faces are filled"),
+    key("shrink", "ECLA", opt("size", "FLOTTANT", default=0.5), en="cells are shrunk by a factor"),
+    key("beyond", "COUP", *_POINTS, en="only what is beyond a plane"),
+    key("section", "SECT", *_POINTS, en="what a plane cuts"),
+    key("title", "TITR", _TEXT, en="title"),
+    key("legend_name", "LEGE", _TEXT, en="title of the legend"),
+    flag("no_legend", "NOLE", en="no legend"),
+    flag("date", "DATE", en="the date is written"),
+    flag("point_values", "CHAM", en="values at the nodes"),
+    key("frame", "BOIT", arg("mesh", "MAILLAGE"), en="what is framed"),
+    choice("animation", ("ANIM", "OSCI"), en="an animated picture, also back"),
+    flag("no_click", "NCLK", en="changes nothing"),
+    flag("edges", "ARET", en="the first mesh hides, without its cells' edges"),
     flag(
         "direct",
         "DIRE",
         en="one looks from the eye at the first point of COUP, the second one upwards",
-        fr="on regarde depuis l'oeil le premier point de COUP, le deuxième vers le haut",
     ),
-    flag("logo", "LOGO", en="changes nothing", fr="sans effet"),
+    flag("logo", "LOGO", en="changes nothing"),
 )
 
 
@@ -171,7 +149,6 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         *_OBJECTS,
         whole=True,
         en="meshes, deformed shapes, arrows, fields, levels, eye, texts",
-        fr="maillages, déformées, vecteurs, champs, niveaux, oeil, textes",
     ),
     *_OPTIONS,
     family="drawing",
@@ -188,19 +165,6 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "ANIME writes an animated GIF of the successive deformed shapes beside the picture, OSCIL "
         "one that also runs back. A field of several components is drawn in several panels, a "
         "stress in cells as von Mises; triangles mark its least and largest value.",
-        fr="Trace dans une image PNG numérotée du dossier de sortie : un maillage (ou celui sur "
-        "lequel s'appuie une rigidité), des déformées, des vecteurs, un champ par points ou par "
-        "éléments en isovaleurs (selon OPTI ISOV), avec un nombre ou une liste de niveaux ; un "
-        "autre maillage est tracé en lignes. Un POINT est l'oeil d'une vue dans l'espace. Mots : "
-        "CACH cache l'arrière, FACE remplit et ombre, FACB avec des arêtes blanches, FSDB sans "
-        "ombre, ARET fait cacher par le premier maillage les arêtes données ensuite, ECLA réduit "
-        "les éléments, COUL ne trace qu'une couleur, NOEU ELEM QUAL CHAM écrivent les numéros, "
-        "noms et valeurs visibles, COUP montre ce qui est "
-        "au-delà d'un plan, SECT ce qu'il coupe, BOIT cadre sur un maillage, TITR LEGE NOLE DATE "
-        "pour les textes ; ANIME écrit à côté de l'image un GIF animé des déformées successives, "
-        "OSCIL un GIF aller et retour. Un champ à plusieurs composantes a plusieurs vignettes, "
-        "une contrainte par éléments est tracée en von Mises ; des triangles marquent la plus "
-        "petite et la plus grande valeur.",
         syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') "
         "('FACE') ('ECLA' (FLOT1)) (('DIRE') 'COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) "
         "('BOIT' MAIL2) ;\n"

@@ -58,15 +58,12 @@ MOST_STEPS = 1e9
 
 @operator(
     "ZDYN",
-    arg("table", "TABLE", en="table of DYNAMIC", fr="table de DYNAMIC"),
+    arg("table", "TABLE", en="table of DYNAMIC"),
     family="dynamics",
     help=Help(
         en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
         "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
         "returned.",
-        fr="Intégration en temps de la table de DYNAMIC, procédure à appeler.\n"
-        "Les résultats vont dans TAB1 . 'RESULTATS_CSV' et 'ENERGIES' ; la table des instants "
-        "sauvés est rendue.",
         syntax="TAB2 = ZDYN TAB1 ;",
     ),
 )

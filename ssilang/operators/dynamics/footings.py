@@ -31,13 +31,11 @@ from ssilang.language.values import ListChpo, ListReel, Table
 
 @operator(
     "ZSEM",
-    arg("model", "MMODEL", en="joints under one footing", fr="joints sous une semelle"),
-    arg("characteristics", "MCHAML", en="their parameters", fr="leurs paramètres"),
-    arg("motion", "LISTCHPO", en="displacements", fr="déplacements"),
-    arg("tractions", "TABLE", en="tractions of the same instants, from 1",
-        fr="contraintes des mêmes instants, à partir de 1"),
-    opt("variables", "TABLE", en="internal variables of the same instants, from 1",
-        fr="variables internes des mêmes instants, à partir de 1"),
+    arg("model", "MMODEL", en="joints under one footing"),
+    arg("characteristics", "MCHAML", en="their parameters"),
+    arg("motion", "LISTCHPO", en="displacements"),
+    arg("tractions", "TABLE", en="tractions of the same instants, from 1"),
+    opt("variables", "TABLE", en="internal variables of the same instants, from 1"),
     family="dynamics",
     help=Help(
         en="What a footing carries at some instants, for @BILANSSI: a table of lists PART (share "
@@ -45,12 +43,6 @@ from ssilang.language.values import ListChpo, ListReel, Table
         "(across it), PRESSION (largest), OUVERTURE (largest), ENFONCEMENT (mean motion of the "
         "upper side into the soil); MOMENT, ROTATION and BRAS (from the centre to the edges) by "
         "axis; AIRE. A macro-element whose ground yields needs its internal variables.",
-        fr="Ce que porte une semelle à des instants, pour @BILANSSI : une table de listes PART "
-        "(part de l'aire en contact), FORCE (selon la normale moyenne, positive en compression), "
-        "CISA (en travers), PRESSION (la plus grande), OUVERTURE (la plus grande), ENFONCEMENT "
-        "(mouvement moyen de la face supérieure vers le sol) ; MOMENT, ROTATION et BRAS (du centre "
-        "aux bords) par axe ; AIRE. Un macro-élément dont le sol plastifie a besoin de ses "
-        "variables internes.",
         syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 (TAB3) ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 4 (0. 0.) (4. 0.) ; "

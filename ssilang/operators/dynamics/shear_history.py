@@ -27,22 +27,13 @@ MOST_VALUES = 1 << 20
 
 @operator(
     "ZGAM",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    arg(
-        "motion",
-        "LISTCHPO",
-        "TABLE",
-        en="displacements, or results of DYNAMIC",
-        fr="déplacements, ou résultats de DYNAMIC",
-    ),
+    arg("model", "MMODEL", en="model"),
+    arg("motion", "LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
     family="dynamics",
     help=Help(
         en="Largest shear strain over displacements (a list, or results of DYNAMIC), at the "
         "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
         "the strain.",
-        fr="Plus grande distorsion sur des déplacements (une liste, ou les résultats de DYNAMIC), "
-        "aux centres d'éléments massifs, pour ISSLEQ : racine de deux fois e:e, e étant le "
-        "déviateur de la déformation.",
         syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0. 0.) (1. 0.)) (0. 1.) ; "

@@ -34,14 +34,12 @@ _TOP = 1000.0
 
 @operator(
     "ZBIL",
-    arg("given", "TABLE", en="what @BILANSSI was given", fr="ce que @BILANSSI a reçu"),
-    arg("found", "TABLE", en="what it found", fr="ce qu'il a trouvé"),
+    arg("given", "TABLE", en="what @BILANSSI was given"),
+    arg("found", "TABLE", en="what it found"),
     family="dynamics",
     help=Help(
         en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
         "its curves into the run's report.",
-        fr="Met les valeurs trouvées par @BILANSSI dans le bilan du calcul (statistics, verdicts) "
-        "et ses courbes dans le rapport du calcul.",
         syntax="ZBIL TAB1 TAB2 ;",
     ),
 )

@@ -32,34 +32,22 @@ from ssilang.operators.fields.signs import names_of, nature_of
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
-_TITLE = key("title", "TITRE", arg("text", "MOT"), en="title of the field", fr="titre du champ")
+_TITLE = key("title", "TITRE", arg("text", "MOT"), en="title of the field")
 
 
-_ON_NODES = arg(
-    "support",
-    "MAILLAGE",
-    "POINT",
-    en="mesh or point that carries the field",
-    fr="maillage ou point qui porte le champ",
-)
+_ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries the field")
 
 
 @MANU.form(
     said("CHPO"),
     _TITLE,
     NATURE,
-    opt("count", "ENTIER", en="number of pairs", fr="nombre de couples"),
+    opt("count", "ENTIER", en="number of pairs"),
     _ON_NODES,
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component", fr="nom d'une composante"),
-        arg(
-            "value",
-            "FLOTTANT",
-            "LISTREEL",
-            en="its value, or one value a point",
-            fr="sa valeur, ou une valeur par point",
-        ),
+        arg("component", "MOT", en="name of a component"),
+        arg("value", "FLOTTANT", "LISTREEL", en="its value, or one value a point"),
         at_least=1,
         times="count",
     ),
@@ -67,9 +55,6 @@ _ON_NODES = arg(
     en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
     "points, a list with one value a point. Words after the last pair need N1, the number of "
     "pairs.",
-    fr="CHPO : champ par points aux noeuds d'un maillage ou en un point ; une valeur est un nombre "
-    "ou, sur un maillage de points, une liste d'une valeur par point. Des mots après le dernier "
-    "couple demandent N1, le nombre de couples.",
     examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (MANU 'CHPO' P 'UX' 3. 'UY' 4.) ;",),
 )
 def node_field(
@@ -90,13 +75,8 @@ def node_field(
     _TITLE,
     NATURE,
     _ON_NODES,
-    arg("names", "LISTMOTS", en="names of the components", fr="noms des composantes"),
-    arg(
-        "values",
-        "LISTREEL",
-        en="their values, 0 for those behind the last",
-        fr="leurs valeurs, 0 pour celles qui manquent",
-    ),
+    arg("names", "LISTMOTS", en="names of the components"),
+    arg("values", "LISTREEL", en="their values, 0 for those behind the last"),
     syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
 )
 def node_field_of_lists(
@@ -149,8 +129,8 @@ def _merged(
 
 _CURVES = (
     said("CHML", "CHAM"),
-    choice("curves", ("EVOL",), optional=False, en="curves", fr="évolutions"),
-    arg("name", "MOT", en="name of their abscissas", fr="nom de leurs abscisses"),
+    choice("curves", ("EVOL",), optional=False, en="curves"),
+    arg("name", "MOT", en="name of their abscissas"),
 )
 
 
@@ -158,15 +138,13 @@ _CURVES = (
     *_CURVES,
     each(
         "pairs",
-        arg("abscissa", "FLOTTANT", en="abscissa", fr="abscisse"),
-        arg("field", "MCHAML", en="values there", fr="valeurs en cette abscisse"),
+        arg("abscissa", "FLOTTANT", en="abscissa"),
+        arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
     syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
     en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
     "against numbers that increase (the indices of a table of them).",
-    fr="Avec 'EVOL' : dans chaque élément une évolution passant par les valeurs qu'y ont des "
-    "champs par éléments, en fonction de nombres croissants (les indices d'une table de ceux-ci).",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; A = MANU 'CHML' L 'YOUN' 3. ; "
         "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; LIST (EXTR C 'YOUN' 1 1 1) ; "
@@ -181,7 +159,7 @@ def curves_in_cells(
     return through(name.rstrip(), [x for x, _ in pairs], [f for _, f in pairs])
 
 
-@MANU.form(*_CURVES, arg("table", "TABLE", en="fields by abscissa", fr="champs par abscisse"))
+@MANU.form(*_CURVES, arg("table", "TABLE", en="fields by abscissa"))
 def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellField:
     """Curves from a table of fields in cells."""
     rows = [
@@ -196,39 +174,17 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
 
 @MANU.form(
     said("CHML", "CHAM"),
-    arg(
-        "support",
-        "MAILLAGE",
-        "MMODEL",
-        en="mesh or model that carries the field",
-        fr="maillage ou modèle qui porte le champ",
-    ),
-    key("title", "TYPE", arg("word", "MOT"), en="sub-type of the field", fr="sous-type du champ"),
-    key("constituent", "CONS", arg("word", "MOT"), en="constituent", fr="constituant"),
-    key("position", "POSI", arg("word", "MOT"), en="points: NOEUD ...", fr="points : NOEUD ..."),
-    flag(
-        "deal",
-        "REPA",
-        en="the values of a list are dealt out, one a cell",
-        fr="les valeurs d'une liste sont distribuées, une par élément",
-    ),
-    choice(
-        "points",
-        ("NOEUD", "GRAVITE", "STRESSES"),
-        en="points that carry the values",
-        fr="points qui portent les valeurs",
-    ),
-    choice(
-        "integration",
-        ("RIGIDITE", "MASSE"),
-        length=8,
-        en="points that carry the values",
-        fr="points qui portent les valeurs",
-    ),
+    arg("support", "MAILLAGE", "MMODEL", en="mesh or model that carries the field"),
+    key("title", "TYPE", arg("word", "MOT"), en="sub-type of the field"),
+    key("constituent", "CONS", arg("word", "MOT"), en="constituent"),
+    key("position", "POSI", arg("word", "MOT"), en="points: NOEUD ..."),
+    flag("deal", "REPA", en="the values of a list are dealt out, one a cell"),
+    choice("points", ("NOEUD", "GRAVITE", "STRESSES"), en="points that carry the values"),
+    choice("integration", ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"),
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component", fr="nom d'une composante"),
-        arg("value", en="its value or object", fr="sa valeur ou son objet"),
+        arg("component", "MOT", en="name of a component"),
+        arg("value", en="its value or object"),
         at_least=1,
     ),
     many(
@@ -236,8 +192,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         "FLOTTANT",
         en="of a field that is zero but at one point, whose cell was the value: number of the "
         "point, of the zone if not 1, then the value",
-        fr="d'un champ nul sauf en un point, dont l'élément était la valeur : numéro du point, de "
-        "la zone si ce n'est 1, puis la valeur",
     ),
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
     "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
@@ -245,9 +199,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
     "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
     "everywhere but at one point of one cell.",
-    fr="CHML : champ par éléments sur un maillage ou un modèle ; les valeurs sont des nombres ou "
-    "des objets, constants par élément ; 'REPA' distribue les valeurs d'une liste, une par "
-    "élément. Sur un modèle aussi : nul partout sauf en un point d'un élément.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
         "LIST (MAXI (MANU 'CHML' L 'SCAL' 3.)) ;",

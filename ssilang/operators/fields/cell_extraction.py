@@ -70,7 +70,7 @@ def _own_names(field: CellField) -> Collection[str]:
     return [n for b in getattr(field, "blocks", ()) for n in b.components]
 
 
-_OF_MODEL = [opt("model", "MMODEL", en="its zones only", fr="ses zones seulement")]
+_OF_MODEL = [opt("model", "MMODEL", en="its zones only")]
 
 
 _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
@@ -88,14 +88,13 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
 
 
 @EXTR.form(
-    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    main("field", "MCHAML", en="field in cells"),
     select(
         "what",
         {word: _OF_MODEL if word in ("COMP", "CONS") else [] for word in _OF_FIELD},
         optional=False,
         unless=_own_names,
         en="sub-type, mesh, names of components or constituents, number of zones",
-        fr="sous-type, maillage, noms de composantes ou constituants, nombre de zones",
     ),
     gives=by("what", {"TYPE": "MOT", "MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
     syntax="OBJ1 = EXTR CHAM1 'TITR' | 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'COVA' | 'DEVA' "
@@ -108,20 +107,16 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
 
 
 @EXTR.form(
-    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
-    arg("component", "MOT", kind="component", en="component", fr="composante"),
-    opt("zone", "ENTIER", en="number of the zone", fr="numéro de la zone"),
-    opt("cell", "ENTIER", en="number of the cell in it", fr="numéro de l'élément"),
-    opt("point", "ENTIER", en="number of the point in it", fr="numéro du point"),
+    main("field", "MCHAML", en="field in cells"),
+    arg("component", "MOT", kind="component", en="component"),
+    opt("zone", "ENTIER", en="number of the zone"),
+    opt("cell", "ENTIER", en="number of the cell in it"),
+    opt("point", "ENTIER", en="number of the point in it"),
     gives=ANY,
     syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;",
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
     "mesh, names of components or constituents, of the components that vary (COVA: curves, "
     "clouds), of what they depend on (DEVA), number of zones.",
-    fr="D'un champ par éléments : la valeur d'une composante en zone N1, élément N2, point N3 ; "
-    "son type, son maillage, les noms de ses composantes ou constituants, des composantes "
-    "variables (COVA : évolutions, nuages), de ce dont elles dépendent (DEVA), son nombre de "
-    "zones.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
         "A = MATE M 'YOUN' 2. 'NU' 0.3 'SECT' 1. ; LIST (EXTR A 'YOUN' 1 3 1) ;",

@@ -34,9 +34,9 @@ _EXAMPLE = (
 )
 
 
-_TITLE = opt("title", "MOT", en="sub-type of the result", fr="sous-type du résultat")
-_MODEL = arg("model", "MMODEL", en="model", fr="modèle")
-_SOURCE = arg("field", "CHPOINT", "MCHAML", en="field", fr="champ")
+_TITLE = opt("title", "MOT", en="sub-type of the result")
+_MODEL = arg("model", "MMODEL", en="model")
+_SOURCE = arg("field", "CHPOINT", "MCHAML", en="field")
 
 
 def _trimmed(title: str | None) -> str | None:
@@ -51,8 +51,6 @@ def _trimmed(title: str | None) -> str | None:
     syntax="CHAM2 = CHAN 'NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES' MODL1 CHAM1 ;",
     en="With a support's name: the field in cells at the nodes, centres or integration points of "
     "the elements, by least squares on their shape functions.",
-    fr="Avec un nom de support : le champ par éléments aux noeuds, aux centres ou aux points "
-    "d'intégration des éléments, par moindres carrés sur leurs fonctions de forme.",
     examples=(_EXAMPLE + "B = CHAN 'STRESSES' M A ; LIST (TYPE B) ;",),
 )
 def chan_support(
@@ -67,16 +65,12 @@ def chan_support(
 @CHAN.form(
     said("CHAM"),
     _SOURCE,
-    arg("place", "MMODEL", "MAILLAGE", en="model or mesh", fr="modèle ou maillage"),
-    choice(
-        "support", SUPPORTS, default="NOEUD", en="points of the result", fr="points du résultat"
-    ),
+    arg("place", "MMODEL", "MAILLAGE", en="model or mesh"),
+    choice("support", SUPPORTS, default="NOEUD", en="points of the result"),
     _TITLE,
     syntax="CHAM1 = CHAN 'CHAM' CHPO1 GEO1 | MODL1 ('NOEUD' | 'GRAVITE' | ...) (TYP1) ;",
     en="CHAM: the field in cells that a nodal field gives by interpolation, at the nodes (default) "
     "or at the points of a support.",
-    fr="CHAM : le champ par éléments qu'un champ par points donne par interpolation, aux noeuds "
-    "(par défaut) ou aux points d'un support.",
     examples=(_EXAMPLE + "T = MANU 'CHPO' S 1 'T' 3. ; C = CHAN 'CHAM' T S ; LIST (TYPE C) ;",),
 )
 def chan_cells(
@@ -92,20 +86,17 @@ def chan_cells(
 
 @CHAN.form(
     said("CHPO"),
-    opt("model", "MMODEL", en="model", fr="modèle"),
+    opt("model", "MMODEL", en="model"),
     _SOURCE,
     choice(
         "rule",
         ("MOYE", "SOMM", "SUPP"),
         default="MOYE",
         en="mean (default) or sum of the cells around, or a new node at each point",
-        fr="moyenne (par défaut) ou somme des éléments voisins, ou un noeud par point",
     ),
     syntax="CHPO1 = CHAN 'CHPO' MODL1 CHAM1 ('MOYE' | 'SOMM' | 'SUPP') ;",
     en="CHPO: the nodal field with, at each node, the mean (or sum) of the values that the cells "
     "around it have there; 'SUPP' makes a new node at each point that carries the field.",
-    fr="CHPO : le champ par points ayant, en chaque noeud, la moyenne (ou la somme) des valeurs "
-    "qu'y ont les éléments voisins ; 'SUPP' crée un noeud à chaque point support du champ.",
     examples=(_EXAMPLE + "C = CHAN 'CHPO' M A ; LIST (MAXI (EXCO 'NU' C)) ;",),
 )
 def chan_nodal(
@@ -122,11 +113,10 @@ def chan_nodal(
 
 
 @REDU.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
-    arg("mesh", "MAILLAGE", en="cells that stay", fr="éléments gardés"),
+    main("model", "MMODEL", en="model"),
+    arg("mesh", "MAILLAGE", en="cells that stay"),
     syntax="MODL2 = REDU MODL1 GEO1 ;",
     en="A model restricted to the cells of a mesh.",
-    fr="Un modèle réduit aux éléments d'un maillage.",
 )
 def redu_model(model: Model, mesh: Mesh) -> Model:
     """Model on a mesh."""
@@ -134,14 +124,12 @@ def redu_model(model: Model, mesh: Mesh) -> Model:
 
 
 _STRICT = flag(
-    "strict", "STRI", en="of models of mixtures: changes nothing here",
-    fr="des modèles de mélanges : sans effet ici",
-)  # fmt: skip
+    "strict", "STRI", en="of models of mixtures: changes nothing here")  # fmt: skip
 
 
 @REDU.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
-    arg("field", "MCHAML", en="field", fr="champ"),
+    main("model", "MMODEL", en="model"),
+    arg("field", "MCHAML", en="field"),
     _STRICT,
 )
 def redu_behind_model(model: Model, field: CellField, strict: bool) -> CellField:
@@ -150,12 +138,11 @@ def redu_behind_model(model: Model, field: CellField, strict: bool) -> CellField
 
 
 @REDU.form(
-    main("field", "MCHAML", en="field", fr="champ"),
-    arg("support", "MAILLAGE", "MMODEL", en="cells that stay", fr="éléments gardés"),
+    main("field", "MCHAML", en="field"),
+    arg("support", "MAILLAGE", "MMODEL", en="cells that stay"),
     _STRICT,
     syntax="CHAM2 = REDU ('STRI') CHAM1 GEO1 | MODL1 ;",
     en="A field in cells restricted to the cells of a mesh or model.",
-    fr="Un champ par éléments réduit aux éléments d'un maillage ou d'un modèle.",
 )
 def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) -> CellField:
     """Field in cells on a mesh or model."""
@@ -165,14 +152,12 @@ def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) ->
 
 
 @REDU.form(
-    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
-    arg("table", "TABLE", en="models or meshes", fr="modèles ou maillages"),
+    main("field", "MCHAML", en="field in cells"),
+    arg("table", "TABLE", en="models or meshes"),
     gives="TABLE",
     syntax="TAB2 = REDU CHAM1 TAB1 ;",
     en="A field in cells restricted to each model (or mesh) of a table ESCLAVE, as PART makes it: "
     "a table ESCLAVE of fields.",
-    fr="Un champ par éléments réduit à chaque modèle (ou maillage) d'une table ESCLAVE, comme en "
-    "fait PART : une table ESCLAVE de champs.",
     examples=(_EXAMPLE + "LIST (DIME (REDU A (PART 'ARLE' M 2))) ;",),
 )
 def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
@@ -188,11 +173,10 @@ def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
 
 
 @REDU.form(
-    main("table", "TABLE", en="table ESCLAVE of fields", fr="table ESCLAVE de champs"),
+    main("table", "TABLE", en="table ESCLAVE of fields"),
     _MODEL,
     syntax="CHAM2 = REDU TAB1 MODL1 ;",
     en="A table ESCLAVE of fields in cells, joined and restricted to a model.",
-    fr="Une table ESCLAVE de champs par éléments, réunis et réduits à un modèle.",
     examples=(
         _EXAMPLE + "T = TABL 'ESCLAVE' ; T . 1 = REDU A (S ELEM 1) ; T . 2 = REDU A (S ELEM 2) ; "
         "LIST (INTG M (REDU T M) 'NU') ;",
@@ -206,15 +190,14 @@ def redu_table(call: Call, table: Table, model: Model) -> CellField:
     return field_on_model(reduce(united, fields), model)
 
 
-_POINTS = main("field", "MCHAML", en="field in cells", fr="champ par éléments")
+_POINTS = main("field", "MCHAML", en="field in cells")
 
 
 @COOR.form(
     _POINTS,
-    arg("axis", "ENTIER", en="axis, from 1", fr="axe, à partir de 1"),
+    arg("axis", "ENTIER", en="axis, from 1"),
     syntax="CHAM2 = COOR N1 CHAM1 ; CHAM2 CHAM3 (CHAM4) = COOR CHAM1 ;",
     en="Of a field in cells: the coordinates of the points that it stands on, as fields in cells.",
-    fr="D'un champ par éléments : les coordonnées de ses points, en champs par éléments.",
     examples=(_EXAMPLE + "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ; LIST (MAXI X) ;",),
 )
 def coor_cells(call: Call, field: CellField, axis: int) -> CellField:
@@ -235,11 +218,7 @@ def _coordinates(field: CellField, axes: Iterable[int]) -> tuple[CellField, ...]
 
 
 def _in(dimension: int) -> When:
-    return When(
-        lambda s: workspace(s).dimension == dimension,
-        f"in {dimension}D",
-        f"en dimension {dimension}",
-    )
+    return When(lambda s: workspace(s).dimension == dimension, f"in {dimension}D")
 
 
 for _dimension in (1, 2, 3):

@@ -38,15 +38,12 @@ _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
 
 @operator(
     "NUAG",
-    arg("field", "CHPOINT", "MCHAML", en="field", fr="champ"),
+    arg("field", "CHPOINT", "MCHAML", en="field"),
     family="clouds",
     full_name="NUAGE",
     help=Help(
         en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
         "(names with their types first), or the values of a field, one row a node or point.",
-        fr="Nuage de n-uplets de valeurs nommées : colonne par colonne ('COMP' nom valeurs ...), "
-        "ligne par ligne (d'abord les noms et leurs types), ou les valeurs d'un champ, un n-uplet "
-        "par noeud ou point.",
         syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
         examples=(
             _EXAMPLE + "LIST N ;",
@@ -77,8 +74,8 @@ def nuag(field: NodeField | CellField) -> Cloud:
     each(
         "columns",
         choice("word", ("COMP",), optional=False),
-        arg("component", "MOT", en="name of a column", fr="nom d'une colonne"),
-        many("values", en="its values, one a row", fr="ses valeurs, une par n-uplet"),
+        arg("component", "MOT", en="name of a column"),
+        many("values", en="its values, one a row"),
     ),
     by_hand="the values of a column are objects of any type, up to the next word; the types of a "
     "row are said by words",
@@ -123,8 +120,8 @@ def _by_rows(call: Call) -> Cloud:
     return Cloud({n: tuple(r[i] for r in rows) for i, n in enumerate(kinds)})
 
 
-_COMPONENT = arg("component", "MOT", en="column", fr="colonne")
-_LIMIT = arg("limit", "FLOTTANT", en="limit", fr="borne")
+_COMPONENT = arg("component", "MOT", en="column")
+_LIMIT = arg("limit", "FLOTTANT", en="limit")
 
 
 def _columns(cloud: Cloud) -> Collection[str]:
@@ -132,7 +129,7 @@ def _columns(cloud: Cloud) -> Collection[str]:
 
 
 @EXTR.form(
-    main("cloud", "NUAGE", en="cloud", fr="nuage"),
+    main("cloud", "NUAGE", en="cloud"),
     select(
         "what",
         {
@@ -144,22 +141,18 @@ def _columns(cloud: Cloud) -> Collection[str]:
             "ENTR": [
                 _COMPONENT,
                 _LIMIT,
-                arg("upper", "FLOTTANT", en="upper limit", fr="borne supérieure"),
+                arg("upper", "FLOTTANT", en="upper limit"),
             ],
         },
         optional=False,
         unless=_columns,
         en="names of columns, or the rows to take",
-        fr="noms des colonnes, ou n-uplets à prendre",
     ),
     gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"),
     syntax="LMOT1 = EXTR NUAG1 'COMP' ; NUAG2 = EXTR NUAG1 'MAXI' | 'MINI' MOT1 ; "
     "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ;",
     en="Of a cloud: names of components; the row of the largest or smallest value, of the value "
     "just below or above a number; the rows between two numbers; the object of a single row.",
-    fr="D'un nuage : noms des composantes ; le n-uplet de la plus grande ou petite valeur, de la "
-    "valeur juste inférieure ou supérieure à un nombre ; ceux compris entre deux nombres ; "
-    "l'objet d'un nuage à un seul n-uplet.",
     examples=(_EXAMPLE + "LIST (EXTR (EXTR N 'MAXI' 'Y') 'X') ;",),
 )
 def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
@@ -185,7 +178,7 @@ def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
 
 
 @EXTR.form(
-    main("cloud", "NUAGE", en="cloud of one row", fr="nuage d'un n-uplet"),
+    main("cloud", "NUAGE", en="cloud of one row"),
     _COMPONENT,
     gives=ANY,
     syntax="OBJ1 = EXTR NUAG1 MOT1 ;",
@@ -201,11 +194,10 @@ def extract_object(call: Call, cloud: Cloud, component: str) -> object:
 
 
 @DIME.form(
-    main("cloud", "NUAGE", en="cloud", fr="nuage"),
-    choice("what", ("COMP", "UPLE"), en="columns or rows", fr="colonnes ou n-uplets"),
+    main("cloud", "NUAGE", en="cloud"),
+    choice("what", ("COMP", "UPLE"), en="columns or rows"),
     syntax="N1 = DIME NUAG1 'COMP' | 'UPLE' ;",
     en="Of a cloud: its number of components, or of rows ('UPLE').",
-    fr="D'un nuage : son nombre de composantes, ou de n-uplets ('UPLE').",
 )
 def size(cloud: Cloud, what: str | None) -> int:
     """Number of columns or rows."""
@@ -213,11 +205,10 @@ def size(cloud: Cloud, what: str | None) -> int:
 
 
 @REDU.form(
-    main("cloud", "NUAGE", en="cloud", fr="nuage"),
-    many("names", "MOT", en="columns to keep", fr="colonnes à garder"),
+    main("cloud", "NUAGE", en="cloud"),
+    many("names", "MOT", en="columns to keep"),
     syntax="NUAG2 = REDU NUAG1 MOT1 MOT2 ... ;",
     en="Of a cloud: some of its components.",
-    fr="D'un nuage : certaines de ses composantes.",
 )
 def reduce(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
     """Some columns of a cloud."""

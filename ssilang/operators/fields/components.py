@@ -36,30 +36,24 @@ _LAGRANGE = frozenset({"LX", "FLX"})
 _POINT_FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
 
 
-_FIELD = arg("field", *_FIELDS, en="field", fr="champ")
-_NODAL = arg("field", "CHPOINT", en="field at nodes", fr="champ par points")
-_IN_CELLS = arg("field", "MCHAML", en="field in cells", fr="champ par éléments")
+_FIELD = arg("field", *_FIELDS, en="field")
+_NODAL = arg("field", "CHPOINT", en="field at nodes")
+_IN_CELLS = arg("field", "MCHAML", en="field in cells")
 NATURE = key(
     "nature",
     "NATURE",
     arg("word", "MOT"),
     en="DIFFUS (as displacements), DISCRET (as forces) or INDETERMINE",
-    fr="DIFFUS (comme des déplacements), DISCRET (comme des forces) ou INDETERMINE",
 )
-_LENIENT = flag(
-    "lenient",
-    "NOID",
-    en="a missing component is no error",
-    fr="une composante absente n'est pas une erreur",
-)
+_LENIENT = flag("lenient", "NOID", en="a missing component is no error")
 
 
 @operator(
     "EXCO",
-    arg("wanted", "LISTMOTS", en="components wanted", fr="composantes voulues"),
+    arg("wanted", "LISTMOTS", en="components wanted"),
     _LENIENT,
     _FIELD,
-    opt("new", "LISTMOTS", en="their new names", fr="leurs nouveaux noms"),
+    opt("new", "LISTMOTS", en="their new names"),
     NATURE,
     gives=Like("field"),
     family="fields",
@@ -67,9 +61,6 @@ _LENIENT = flag(
     help=Help(
         en="Field of some components, under new names if they are given (one component of a field "
         "at nodes is called SCAL without). 'NOID': a missing component is no error.",
-        fr="Champ de certaines composantes, sous de nouveaux noms s'ils sont donnés (sinon, "
-        "l'unique composante d'un champ par points s'appelle SCAL). 'NOID' : une composante "
-        "absente n'est pas une erreur.",
         syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
         examples=(
             _POINT_FIELD + "LIST (EXCO 'UX' C) ;",
@@ -97,11 +88,11 @@ def exco(
 
 
 @exco.form(
-    arg("wanted", "MOT", kind="component", en="component wanted", fr="composante voulue"),
+    arg("wanted", "MOT", kind="component", en="component wanted"),
     _LENIENT,
     _FIELD,
     NATURE,
-    opt("new", "MOT", en="its new name", fr="son nouveau nom"),
+    opt("new", "MOT", en="its new name"),
     gives=Like("field"),
 )
 def exco_one(
@@ -137,13 +128,13 @@ def _extracted(
 
 
 _NEW_NAMES = (
-    arg("old", "LISTMOTS", en="names to change", fr="noms à changer"),
-    arg("new", "LISTMOTS", en="new names", fr="nouveaux noms"),
+    arg("old", "LISTMOTS", en="names to change"),
+    arg("new", "LISTMOTS", en="new names"),
     _FIELD,
     NATURE,
 )
 _ONE_NAME = (
-    arg("name", "MOT", en="name of the only component", fr="nom de l'unique composante"),
+    arg("name", "MOT", en="name of the only component"),
     _FIELD,
     NATURE,
 )
@@ -157,8 +148,6 @@ _ONE_NAME = (
     help=Help(
         en="Field with other names of components: one name for a single component, or a list of "
         "old names and a list of new ones.",
-        fr="Champ aux composantes renommées : un nom pour une composante unique, ou une liste "
-        "d'anciens noms et une liste de nouveaux.",
         syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
         examples=(
             _POINT_FIELD + "LIST (NOMC (MOTS 'UX') (MOTS 'FX') C) ;",
@@ -213,7 +202,6 @@ CHAN.form(
     gives=Like("field"),
     syntax="CHP2 = CHAN 'COMP' MOT1 | (LMOT1 LMOT2) CHP1 ('NATU' MOT3) ;",
     en="COMP changes names of components, as NOMC does.",
-    fr="COMP change des noms de composantes, comme NOMC.",
 )(nomc.forms[0].function)
 CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
 
@@ -224,7 +212,6 @@ CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
     NATURE,
     syntax="CHPO2 = CHAN 'ATTRIBUT' CHPO1 'NATURE' 'INDETER' | 'DIFFUS' | 'DISCRET' ;",
     en="ATTRIBUT changes the nature of a field at nodes.",
-    fr="ATTRIBUT change la nature d'un champ par points.",
     examples=(_POINT_FIELD + "D = CHAN 'ATTRIBUT' C 'NATURE' 'DISCRET' ; MESS (EXTR D 'NATU') ;",),
 )
 def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField:
@@ -235,11 +222,10 @@ def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField
 @CHAN.form(
     said("TITR"),
     _NODAL,
-    arg("title", "MOT", en="its new title", fr="son nouveau titre"),
+    arg("title", "MOT", en="its new title"),
     of=("CHPOINT",),
     syntax="CHPO2 = CHAN 'TITRE' CHPO1 MOT1 ;",
     en="TITRE changes the title of a field at nodes.",
-    fr="TITRE change le titre d'un champ par points.",
 )
 def change_title(field: NodeField, title: str) -> NodeField:
     """Another title."""
@@ -249,11 +235,10 @@ def change_title(field: NodeField, title: str) -> NodeField:
 @CHAN.form(
     said("TYPE"),
     _IN_CELLS,
-    arg("title", "MOT", en="its new sub-type", fr="son nouveau sous-type"),
+    arg("title", "MOT", en="its new sub-type"),
     of=("MCHAML",),
     syntax="CHAM2 = CHAN 'TYPE' CHAM1 MOT1 ;",
     en="TYPE changes the sub-type of a field in cells.",
-    fr="TYPE change le sous-type d'un champ par éléments.",
 )
 def change_type(field: CellField, title: str) -> CellField:
     """Another sub-type."""
@@ -263,11 +248,10 @@ def change_type(field: CellField, title: str) -> CellField:
 @CHAN.form(
     said("CONS"),
     _IN_CELLS,
-    arg("constituent", "MOT", en="its new constituent", fr="son nouveau constituant"),
+    arg("constituent", "MOT", en="its new constituent"),
     of=("MCHAML",),
     syntax="CHAM2 = CHAN 'CONS' CHAM1 MOT1 ;",
     en="CONS changes the constituent of a field in cells.",
-    fr="CONS change le constituant d'un champ par éléments.",
 )
 def change_constituent(field: CellField, constituent: str) -> CellField:
     """Another constituent."""
@@ -295,29 +279,16 @@ def _component_names(field: NodeField) -> Collection[str]:
 
 
 @EXTR.form(
-    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    main("field", "CHPOINT", en="field at nodes"),
     select(
         "what",
         {
             "VALE": [
                 _LENIENT,
-                opt("names", "LISTMOTS", "MOT", en="components, else all", fr="composantes"),
-                opt(
-                    "support",
-                    "POINT",
-                    "MAILLAGE",
-                    en="points, in their order",
-                    fr="points, dans leur ordre",
-                ),
+                opt("names", "LISTMOTS", "MOT", en="components, else all"),
+                opt("support", "POINT", "MAILLAGE", en="points, in their order"),
             ],
-            "MAIL": [
-                flag(
-                    "without",
-                    "NOMU",
-                    en="without the points of multipliers",
-                    fr="sans les points des multiplicateurs",
-                )
-            ],
+            "MAIL": [flag("without", "NOMU", en="without the points of multipliers")],
             "COMP": [],
             "TITR": [],
             "TYPE": [],
@@ -326,7 +297,6 @@ def _component_names(field: NodeField) -> Collection[str]:
         optional=False,
         unless=_component_names,
         en="values as a list, mesh of points, names of components, title, type or nature",
-        fr="valeurs en liste, maillage de points, noms des composantes, titre, type ou nature",
     ),
     gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"),
     syntax="LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) ('NOID') ;\n"
@@ -336,10 +306,6 @@ def _component_names(field: NodeField) -> Collection[str]:
     "a mesh, 0. where it has none), its mesh of points, names of components, title, type, nature. "
     "A point that the field does not stand on is refused, but for fields of nature DISCRET "
     "(forces), which are zero there, and with 'NOID'.",
-    fr="D'un champ par points : une valeur en un point, des valeurs en liste (dans l'ordre des "
-    "points d'un maillage, 0. là où il n'en a pas), son maillage de points, noms des composantes, "
-    "titre, type, nature. Un point qui ne porte pas le champ est refusé, sauf pour les champs de "
-    "nature DISCRET (des forces), qui y sont nuls, et avec 'NOID'.",
     examples=(_POINT_FIELD + "LIST (EXTR C 'UY' P) ; LIST (EXTR C 'VALE' 'UX') ;",),
 )
 def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
@@ -355,9 +321,9 @@ def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | Lis
 
 
 @EXTR.form(
-    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
-    arg("component", "MOT", kind="component", en="component", fr="composante"),
-    arg("point", "POINT", en="where", fr="où"),
+    main("field", "CHPOINT", en="field at nodes"),
+    arg("component", "MOT", kind="component", en="component"),
+    arg("point", "POINT", en="where"),
     syntax="X1 = EXTR CHPO1 MOT1 POIN1 ;",
 )
 def value_at(call: Call, field: NodeField, component: str, point: Point) -> float:
@@ -403,20 +369,17 @@ def _values(
 
 
 @REDU.form(
-    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
+    main("field", "CHPOINT", en="field at nodes"),
     arg(
         "support",
         "MAILLAGE",
         "POINT",
         "CHPOINT",
         en="points that stay, or field that is not zero there",
-        fr="points gardés, ou champ non nul en ces points",
     ),
     syntax="CHPO2 = REDU CHPO1 MAIL1 | POIN1 | CHPO3 ;",
     en="Of a field at nodes: the part on the points of a mesh, on a point, or where another field "
     "has a value other than zero.",
-    fr="D'un champ par points : la partie portée par les points d'un maillage, par un point, ou "
-    "là où un autre champ n'est pas nul.",
     examples=(_POINT_FIELD + "LIST (REDU C P) ;",),
 )
 def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
@@ -429,11 +392,10 @@ def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
 
 
 @ENLE.form(
-    main("field", "CHPOINT", en="field at nodes", fr="champ par points"),
-    arg("names", "MOT", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    main("field", "CHPOINT", en="field at nodes"),
+    arg("names", "MOT", "LISTMOTS", kind="component", en="components"),
     syntax="CHPO2 = ENLE CHPO1 MOT1 | LMOT1 ;",
     en="Of a field at nodes: without some components.",
-    fr="D'un champ par points : sans certaines composantes.",
     examples=(_POINT_FIELD + "LIST (ENLE C 'UX') ;",),
 )
 def without(field: NodeField, names: str | ListMots) -> NodeField:
@@ -443,11 +405,10 @@ def without(field: NodeField, names: str | ListMots) -> NodeField:
 
 
 @COPI.form(
-    main("field", *_FIELDS, en="field", fr="champ"),
-    flag("shape", "GEOM", en="accepted, changes nothing", fr="accepté, sans effet"),
+    main("field", *_FIELDS, en="field"),
+    flag("shape", "GEOM", en="accepted, changes nothing"),
     gives=Like("field"),
     en="Of a field: a field with the same values.",
-    fr="D'un champ : un champ de mêmes valeurs.",
 )
 def copy(field: NodeField | CellField, shape: bool) -> NodeField | CellField:
     """A field of its own with the same values."""

@@ -129,57 +129,42 @@ def _of_cell_field(
     return _of_arrays(call, cell_algebra.values_of(value, names), absolute, largest)
 
 
-_ABSOLUTE = flag("absolute", "ABS", en="of the absolute values", fr="des valeurs absolues")
+_ABSOLUTE = flag("absolute", "ABS", en="of the absolute values")
 _COMPONENTS = (
-    choice(
-        "which",
-        ("AVEC", "SANS"),
-        en="the components of the list, or all but them",
-        fr="les composantes de la liste, ou toutes sauf elles",
-    ),
-    opt("listed", "LISTMOTS", kind="component", en="components", fr="composantes"),
+    choice("which", ("AVEC", "SANS"), en="the components of the list, or all but them"),
+    opt("listed", "LISTMOTS", kind="component", en="components"),
 )
 
 
-def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
+def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     name = operator.name
     operator.form(
-        main("value", "ENTIER", "FLOTTANT", en="first number", fr="premier nombre"),
+        main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
-        many("others", "ENTIER", "FLOTTANT", en="more numbers", fr="autres nombres"),
+        many("others", "ENTIER", "FLOTTANT", en="more numbers"),
         gives="FLOTTANT|ENTIER",
         syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
         en=f"Of numbers: the {en}.",
-        fr=f"De nombres : la {fr}.",
         examples=(f"LIST ({name} 3. -7. 5.) ;",),
     )(partial(_of_numbers, largest=largest))
     operator.form(
-        main("value", "LISTREEL", "LISTENTI", en="list", fr="liste"),
+        main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
-        many(
-            "others",
-            "LISTREEL",
-            "LISTENTI",
-            en="lists of the same length",
-            fr="listes de même longueur",
-        ),
+        many("others", "LISTREEL", "LISTENTI", en="lists of the same length"),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
         syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
         en=f"Of a list: the {en} value; of several, item by item.",
-        fr=f"D'une liste : la {fr} valeur ; de plusieurs, terme à terme.",
         examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
     )(partial(_of_lists, largest=largest))
     operator.form(
-        main("value", "CHPOINT", en="field at nodes", fr="champ par points"),
+        main("value", "CHPOINT", en="field at nodes"),
         _ABSOLUTE,
         *_COMPONENTS,
-        many("others", "CHPOINT", en="fields at the same nodes", fr="champs aux mêmes noeuds"),
+        many("others", "CHPOINT", en="fields at the same nodes"),
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
         syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
         en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
         "fields at nodes, value by value.",
-        fr=f"D'un champ : la {fr} valeur, de toutes les composantes ou 'AVEC' / 'SANS' certaines "
-        "; de plusieurs champs par points, valeur par valeur.",
         examples=(
             f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ; "
             "U = MANU 'CHPO' L 2 'UX' 3. 'UY' -5. ; "
@@ -187,27 +172,25 @@ def _add_forms(operator: Operator, largest: bool, en: str, fr: str) -> None:
         ),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
-        main("value", "MCHAML", en="field in cells", fr="champ par éléments"),
+        main("value", "MCHAML", en="field in cells"),
         _ABSOLUTE,
         *_COMPONENTS,
         gives="FLOTTANT",
     )(partial(_of_cell_field, largest=largest))
 
 
-_add_forms(MAXI, True, "largest", "plus grande")
-_add_forms(MINI, False, "smallest", "plus petite")
+_add_forms(MAXI, True, "largest")
+_add_forms(MINI, False, "smallest")
 
 
 @operator(
     "MAX1",
-    arg("field", "CHPOINT", en="field", fr="champ"),
+    arg("field", "CHPOINT", en="field"),
     *_COMPONENTS,
     family="fields",
     help=Help(
         en="Nodal field divided by its value of largest size, which becomes 1; among the "
         "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
-        fr="Champ par points divisé par sa valeur de plus grande taille, qui devient 1 ; parmi "
-        "les composantes nommées ('AVEC', facultatif) ou non nommées ('SANS') par une liste.",
         syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "

@@ -26,8 +26,8 @@ _ODD = {
 
 @operator(
     "DFOU",
-    arg("field", "CHPOINT", "MCHAML", en="field of a harmonic", fr="champ d'une harmonique"),
-    arg("angle", "FLOTTANT", en="angle", fr="angle", unit="deg"),
+    arg("field", "CHPOINT", "MCHAML", en="field of a harmonic"),
+    arg("angle", "FLOTTANT", en="angle", unit="deg"),
     gives=Like("field"),
     family="fields",
     full_name="DFOURIER",
@@ -36,10 +36,6 @@ _ODD = {
         "cos(n a) for UR UZ, their forces, the stresses and strains of the meridian plane and the "
         "hoop ones, sin(n a) for UT and the shears RT ZT; for a negative n sin(|n| a) and "
         "cos(|n| a).",
-        fr="Valeurs à un angle (degrés) d'un champ de l'harmonique de Fourier n que dit OPTI : "
-        "cos(n a) pour UR UZ, leurs forces, les contraintes et déformations du plan méridien et "
-        "orthoradiales, sin(n a) pour UT et les cisaillements RT ZT ; pour n négatif sin(|n| a) "
-        "et cos(|n| a).",
         syntax="CH2 = DFOU CH1 X1 ;",
         examples=(
             "OPTI DIME 2 MODE FOUR 2 ; P = 1. 0. ; "

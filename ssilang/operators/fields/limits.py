@@ -12,16 +12,14 @@ from ssilang.language.run.call import Call
 
 @operator(
     "PILE",
-    arg("first", "MCHAML", en="where one starts", fr="point de départ"),
-    arg("second", "MCHAML", en="direction", fr="direction"),
-    arg("limit", "FLOTTANT", en="limit, positive", fr="limite, positive"),
+    arg("first", "MCHAML", en="where one starts"),
+    arg("second", "MCHAML", en="direction"),
+    arg("limit", "FLOTTANT", en="limit, positive"),
     family="fields",
     full_name="PILEPS",
     help=Help(
         "The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
         "of the fields in cells E1 and E2 (strains), component by component.",
-        "Le plus grand X tel que -CRIT < E1 + X E2 < CRIT du côté vers lequel va E2, pour toutes "
-        "les valeurs des champs par éléments E1 et E2 (déformations), composante par composante.",
         "X1 = PILE MCHAML1 MCHAML2 CRIT ;",
         (
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "

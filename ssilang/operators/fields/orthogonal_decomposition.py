@@ -29,28 +29,18 @@ from ssilang.operators.workspace import workspace
 _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
 
 
-_METHOD = choice(
-    "method",
-    ("SNAPSHOTS", "CLASSIQUE"),
-    en="for few fields, or for few unknowns",
-    fr="pour peu de champs, ou pour peu d'inconnues",
-)
+_METHOD = choice("method", ("SNAPSHOTS", "CLASSIQUE"), en="for few fields, or for few unknowns")
 
 
-_TABLE = flag(
-    "table",
-    "TBAS",
-    en="the result is a table BASE_MODALE",
-    fr="le résultat est une table BASE_MODALE",
-)
+_TABLE = flag("table", "TBAS", en="the result is a table BASE_MODALE")
 
 
 _OPTIONS = (
-    opt("numbers", "LISTENTI", en="fields to take, by number", fr="champs à prendre, par numéro"),
-    opt("names", "LISTMOTS", kind="component", en="components", fr="composantes"),
-    opt("matrix", "RIGIDITE", en="scalar product, a mass", fr="produit scalaire, une masse"),
-    arg("count", "ENTIER", range=POSITIVE, en="number of modes", fr="nombre de modes"),
-    opt("support", "MAILLAGE", en="mesh told by the table", fr="maillage mis dans la table"),
+    opt("numbers", "LISTENTI", en="fields to take, by number"),
+    opt("names", "LISTMOTS", kind="component", en="components"),
+    opt("matrix", "RIGIDITE", en="scalar product, a mass"),
+    arg("count", "ENTIER", range=POSITIVE, en="number of modes"),
+    opt("support", "MAILLAGE", en="mesh told by the table"),
 )
 
 
@@ -58,7 +48,7 @@ _OPTIONS = (
     "POD",
     _METHOD,
     _TABLE,
-    arg("fields", "LISTCHPO", en="fields", fr="champs"),
+    arg("fields", "LISTCHPO", en="fields"),
     *_OPTIONS,
     gives=by("table", {True: "TABLE"}, ("LISTCHPO", "LISTREEL")),
     family="modal",
@@ -69,12 +59,6 @@ _OPTIONS = (
         "and their eigenvalues, decreasing. A list of integers chooses fields (from 1; of a table "
         "its indices), a list of words components, a matrix (a mass) the scalar product. "
         "'SNAPSHOTS' for few fields, 'CLASSIQUE' for few unknowns. 'TBAS': a table BASE_MODALE.",
-        fr="Décomposition orthogonale aux valeurs propres d'une liste de champs, ou d'un résultat "
-        "de PASAPAS ou DYNAMIC (indice DEPLACEMENTS, DEPL, ou celui nommé) : les premiers modes "
-        "(plus grande valeur 1) et leurs valeurs propres, décroissantes. Une liste d'entiers "
-        "choisit les champs (à partir de 1 ; d'une table ses indices), une liste de mots les "
-        "composantes, une matrice (masse) le produit scalaire. 'SNAPSHOTS' pour peu de champs, "
-        "'CLASSIQUE' pour peu d'inconnues. 'TBAS' : une table BASE_MODALE.",
         syntax="LPOD1 LVAL1 = POD LCHPO1 | TAB1 (MOT1) (LENTI1) (LMOTS1) 'SNAPSHOTS' | 'CLASSIQUE' "
         "(MASS1) N1 ;\nTPOD1 = POD ... N1 'TBAS' (MAIL1) ;",
         examples=(
@@ -104,8 +88,8 @@ def pod(call: Call, fields: ListChpo, **said: Any) -> Table | tuple[ListChpo, Li
 @pod.form(
     _METHOD,
     _TABLE,
-    arg("result", "TABLE", en="result of a calculation", fr="résultat d'un calcul"),
-    opt("entry", "MOT", en="entry that holds the fields", fr="entrée qui contient les champs"),
+    arg("result", "TABLE", en="result of a calculation"),
+    opt("entry", "MOT", en="entry that holds the fields"),
     *_OPTIONS,
     gives=by("table", {True: "TABLE"}, ("LISTCHPO", "LISTREEL")),
 )

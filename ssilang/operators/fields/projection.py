@@ -13,24 +13,17 @@ from ssilang.language.registry import Help, arg, choice, many, operator, opt, sa
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 
-_FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes", fr="champ aux noeuds")
+_FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes")
 
 
 _SUPPORT = choice(
     "support",
     ("NOEUDS", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES"),
     en="points of the result on a model, its nodes by default",
-    fr="points du résultat sur un modèle, ses noeuds par défaut",
 )
-_MODEL = arg("place", "MMODEL", en="where to", fr="où")
-_MESH = arg("place", "MAILLAGE", en="where to", fr="où")
-_COUNT = opt(
-    "count",
-    "ENTIER",
-    default=3,
-    en="integration points in each direction",
-    fr="points d'intégration par direction",
-)
+_MODEL = arg("place", "MMODEL", en="where to")
+_MESH = arg("place", "MAILLAGE", en="where to")
+_COUNT = opt("count", "ENTIER", default=3, en="integration points in each direction")
 
 
 _TOLERANCE = opt(
@@ -39,7 +32,6 @@ _TOLERANCE = opt(
     range=NOT_NEGATIVE,
     default=1e-5,
     en="how far outside of a cell a point counts, relative to the cell",
-    fr="distance à un élément à laquelle un point compte encore, relative à l'élément",
 )
 
 
@@ -57,12 +49,6 @@ _TOLERANCE = opt(
         "least integral of squared differences, by N1 points in each direction (3). The tolerance "
         "is relative to the cells (1.E-5); points beyond it get no value on a mesh and 0 on a "
         "model, which is told, and raises SOUC.",
-        fr="Projection d'un champ par éléments, donné aux noeuds, par ses fonctions de forme : sur "
-        "un maillage (un champ par points, là où les noeuds sont à l'intérieur), ou sur un modèle "
-        "(un champ par éléments aux noeuds ou aux points d'un support). 'MINI' : valeurs nodales, "
-        "dans chaque élément du modèle, qui rendent minimale l'intégrale du carré de l'écart, par "
-        "N1 points par direction (3). La tolérance est relative aux éléments (1.E-5) ; au-delà, un "
-        "point n'a pas de valeur sur un maillage et 0 sur un modèle, ce qui est dit et lève SOUC.",
         syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
         "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
         examples=(

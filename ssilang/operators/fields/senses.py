@@ -15,7 +15,7 @@ from ssilang.language.values import Table
 
 @operator(
     "SENS",
-    arg("contours", "TABLE", en="closed contours by number", fr="contours fermés par numéro"),
+    arg("contours", "TABLE", en="closed contours by number"),
     family="fields",
     help=Help(
         "Of a table of closed contours in the plane, such as CCON gives: the table of their "
@@ -23,10 +23,6 @@ from ssilang.language.values import Table
         "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
         "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
         "their difference (one component).",
-        "D'une table de contours fermés du plan, comme celle de CCON : la table de leurs sens, 1 "
-        "direct, -1 sinon. En MODE AXIS un contour peut être ouvert le long de l'axe. De deux "
-        "champs par éléments : la table, par numéro d'élément, de la moyenne sur les points de "
-        "l'élément de leur différence (une composante).",
         "TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
         (
             "OPTI DIME 2 ELEM SEG2 ; C = CERC 8 'ROTA' 360. (1. 0.) (0. 0.) 'ELIM' ; "
@@ -56,8 +52,8 @@ def sens(call: Call, contours: Table) -> Table:
 
 
 @sens.form(
-    arg("first", "MCHAML", en="field of one component", fr="champ à une composante"),
-    arg("second", "MCHAML", en="field to take from it", fr="champ à lui retrancher"),
+    arg("first", "MCHAML", en="field of one component"),
+    arg("second", "MCHAML", en="field to take from it"),
 )
 def sens_of_fields(call: Call, first: CellField, second: CellField) -> Table:
     """Means of differences, cell by cell."""

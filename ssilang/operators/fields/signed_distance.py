@@ -26,32 +26,24 @@ from ssilang.operators.workspace import workspace
 _LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
 
 
-_ENDS = many(
-    "ends",
-    "POINT",
-    "MAILLAGE",
-    en="ends of the line (2D) or front of the surface (3D)",
-    fr="bouts de la ligne (2D) ou front de la surface (3D)",
-)
+_ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of the surface (3D)")
 
 
 @operator(
     "PSIP",
-    arg("place", "MAILLAGE", "POINT", en="where", fr="où"),
-    arg("mesh", "MAILLAGE", en="line or surface", fr="ligne ou surface"),
+    arg("place", "MAILLAGE", "POINT", en="where"),
+    arg("mesh", "MAILLAGE", en="line or surface"),
     opt(
         "reach",
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="nodes farther away (largest coordinate) are left out",
-        fr="les noeuds plus loin (plus grande coordonnée) sont exclus",
         unit="m",
     ),
     select(
         "ahead",
         {"DEUX": [_ENDS], "TROI": [_ENDS]},
         en="distances ahead of the ends too, and the abscissa along a front",
-        fr="aussi les distances en avant des bouts, et l'abscisse le long d'un front",
     ),
     gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
     family="fields",
@@ -61,11 +53,6 @@ _ENDS = many(
         "than a number (largest coordinate) are left out. 'DEUX' adds the signed distance PSI "
         "ahead of the line's ends given as points, or of the surface's front given as a mesh of "
         "SEG2; 'TROI' (3D) the abscissa TAU along the front besides.",
-        fr="Distance signée PHI des noeuds d'un maillage à une ligne (SEG2, en 2D) ou une surface "
-        "(TRI3, QUA4, en 3D), positive du côté de ses normales (à gauche d'une ligne) ; les "
-        "noeuds plus loin qu'un nombre (plus grande coordonnée) sont exclus. 'DEUX' ajoute la "
-        "distance signée PSI en avant des bouts de la ligne donnés en points, ou du front de la "
-        "surface donné en maillage de SEG2 ; 'TROI' (3D) de plus l'abscisse TAU le long du front.",
         syntax="CHP1 = PSIP MAIL1 MAIL2 (X1) ;\nCHP1 CHP2 = PSIP MAIL1 MAIL2 (X1) 'DEUX' P1 (P2) "
         "| MAIL3 ; CHP1 CHP2 CHP3 = PSIP MAIL1 MAIL2 (X1) 'TROI' MAIL3 ;",
         examples=(

@@ -131,10 +131,9 @@ for _kind in ("ENTIER", "FLOTTANT"):
 
 
 @INVE.form(
-    main("field", "CHPOINT", en="nodal field", fr="champ par points"),
+    main("field", "CHPOINT", en="nodal field"),
     syntax="CHPO2 = INVE CHPO1 ;",
     en="Of a nodal field: one over its values.",
-    fr="D'un champ par points : l'inverse de ses valeurs.",
     examples=("OPTI DIME 2 ; P = 0. 0. ; C = INVE (MANU 'CHPO' P 'T' 4.) ; LIST (EXTR C 'T' P) ;",),
 )
 def _inverse(call: Call, field: NodeField) -> NodeField:
@@ -248,23 +247,17 @@ for _kind in ("ENTIER", "FLOTTANT"):
 
 
 _NAMES = (
-    arg("left", "LISTMOTS", en="components of the first", fr="composantes du premier"),
-    arg(
-        "right",
-        "LISTMOTS",
-        en="components of the second, paired with them",
-        fr="composantes du second, appariées",
-    ),
+    arg("left", "LISTMOTS", en="components of the first"),
+    arg("right", "LISTMOTS", en="components of the second, paired with them"),
 )
 
 
 @PSCA.form(
-    main("first", "CHPOINT", en="first field", fr="premier champ"),
-    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    main("first", "CHPOINT", en="first field"),
+    arg("second", "CHPOINT", en="second field"),
     *_NAMES,
     syntax="CHP3 = PSCA CHP1 CHP2 LMOT1 LMOT2 ;",
     en="Of two fields: at each place the sum of products of paired components.",
-    fr="De deux champs : en chaque lieu la somme des produits de composantes appariées.",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
         "LIST (MAXI (PSCA C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY'))) ;",
@@ -279,8 +272,8 @@ def scalar_product(
 
 
 @PSCA.form(
-    main("first", "MCHAML", en="first field", fr="premier champ"),
-    arg("second", "MCHAML", en="second field", fr="second champ"),
+    main("first", "MCHAML", en="first field"),
+    arg("second", "MCHAML", en="second field"),
     *_NAMES,
 )
 def scalar_product_in_cells(
@@ -291,19 +284,15 @@ def scalar_product_in_cells(
     return cell_algebra.multiplied_by_names(first, second, (*names, ["SCAL"] * len(names[0])))
 
 
-IN_PLANE = When(lambda s: s.dimension() == 2, "in the plane", "en dimension 2")
-NOT_IN_PLANE = When(lambda s: s.dimension() != 2, "in space", "en dimension 3")
+IN_PLANE = When(lambda s: s.dimension() == 2, "in the plane")
+NOT_IN_PLANE = When(lambda s: s.dimension() != 2, "in space")
 _THREE = tuple(
-    arg(name, "LISTMOTS", en=f"components of the {en}", fr=f"composantes du {fr}")
-    for name, en, fr in (
-        ("left", "first", "premier"),
-        ("right", "second", "second"),
-        ("made", "result", "résultat"),
-    )
+    arg(name, "LISTMOTS", en=f"components of the {en}")
+    for name, en in (("left", "first"), ("right", "second"), ("made", "result"))
 )
 _TWO = (
-    arg("old", "LISTMOTS", en="components to turn", fr="composantes à tourner"),
-    arg("new", "LISTMOTS", en="components of the result", fr="composantes du résultat"),
+    arg("old", "LISTMOTS", en="components to turn"),
+    arg("new", "LISTMOTS", en="components of the result"),
 )
 
 
@@ -316,14 +305,12 @@ def _lists_of(call: Call, *lists: ListMots) -> list[list[str]]:
 
 
 @PVEC.form(
-    main("first", "CHPOINT", en="field", fr="champ"),
+    main("first", "CHPOINT", en="field"),
     *_TWO,
     when=IN_PLANE,
     syntax="CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
     en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
     "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
-    fr="De champs : en chaque lieu le produit vectoriel des composantes LMOT1 du premier et LMOT2 "
-    "du second, nommé LMOT3 ; en 2D les composantes LMOT1 tournées d'un quart de tour.",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; L = MOTS 'UX' 'UY' ; "
         "LIST (PVEC C L L) ;",
@@ -336,7 +323,7 @@ def quarter_turn(call: Call, first: NodeField, old: ListMots, new: ListMots) -> 
     return node_algebra.added(turned, _picked_nodes(first, [x], [v]))
 
 
-@PVEC.form(main("first", "MCHAML", en="field", fr="champ"), *_TWO, when=IN_PLANE)
+@PVEC.form(main("first", "MCHAML", en="field"), *_TWO, when=IN_PLANE)
 def quarter_turn_in_cells(call: Call, first: CellField, old: ListMots, new: ListMots) -> CellField:
     """Components in cells turned by a quarter turn."""
     (x, y), (u, v) = _lists_of(call, old, new)
@@ -345,8 +332,8 @@ def quarter_turn_in_cells(call: Call, first: CellField, old: ListMots, new: List
 
 
 @PVEC.form(
-    main("first", "CHPOINT", en="first field", fr="premier champ"),
-    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    main("first", "CHPOINT", en="first field"),
+    arg("second", "CHPOINT", en="second field"),
     *_THREE,
     when=NOT_IN_PLANE,
     syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)",
@@ -365,8 +352,8 @@ def vector_product(
 
 
 @PVEC.form(
-    main("first", "MCHAML", en="first field", fr="premier champ"),
-    arg("second", "MCHAML", en="second field", fr="second champ"),
+    main("first", "MCHAML", en="first field"),
+    arg("second", "MCHAML", en="second field"),
     *_THREE,
     when=NOT_IN_PLANE,
 )

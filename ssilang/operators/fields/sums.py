@@ -27,14 +27,12 @@ from ssilang.operators.fields.signs import paired_names
 
 @operator(
     "RESU",
-    arg("field", "CHPOINT", en="forces, say", fr="des forces, par exemple"),
+    arg("field", "CHPOINT", en="forces, say"),
     family="fields",
     full_name="RESULT",
     help=Help(
         en="Resultant of a field at nodes: its first point with the sum of each component. "
         "The sum of a list is SOMM's.",
-        fr="Résultante d'un champ par points : son premier point avec les sommes des "
-        "composantes. La somme d'une liste est l'affaire de SOMM.",
         syntax="CHPO2 = RESU CHPO1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
@@ -53,7 +51,7 @@ def resu(call: Call, field: NodeField) -> NodeField:
 
 
 @resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", fr="nombres à sommer"),
+    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum"),
     gives="FLOTTANT|ENTIER",
 )
 def resu_of_list(values: ListReel | ListEnti) -> float | int:
@@ -63,27 +61,20 @@ def resu_of_list(values: ListReel | ListEnti) -> float | int:
 
 
 _PAIRED = (
-    arg("left", "LISTMOTS", en="components of the first", fr="composantes du premier"),
-    arg(
-        "right",
-        "LISTMOTS",
-        en="components of the second, paired with them",
-        fr="composantes du second, appariées",
-    ),
+    arg("left", "LISTMOTS", en="components of the first"),
+    arg("right", "LISTMOTS", en="components of the second, paired with them"),
 )
 
 
 @operator(
     "XTY",
-    arg("first", "CHPOINT", en="first field", fr="premier champ"),
-    arg("second", "CHPOINT", en="second field", fr="second champ"),
+    arg("first", "CHPOINT", en="first field"),
+    arg("second", "CHPOINT", en="second field"),
     *_PAIRED,
     family="fields",
     help=Help(
         en="Sum over all nodes of the products of paired components of two fields; of two lists "
         "of fields, a list.",
-        fr="Somme sur tous les noeuds des produits de composantes appariées de deux champs ; de "
-        "deux listes de champs, une liste.",
         syntax="X1 = XTY CHPO1 CHPO2 LMOT1 LMOT2 ; LREE1 = XTY LCHP1 LCHP2 LMOT1 LMOT2 ;",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
@@ -102,8 +93,8 @@ def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: 
 
 
 @xty.form(
-    arg("first", "LISTCHPO", en="first fields", fr="premiers champs"),
-    arg("second", "LISTCHPO", en="as many second fields", fr="autant de seconds champs"),
+    arg("first", "LISTCHPO", en="first fields"),
+    arg("second", "LISTCHPO", en="as many second fields"),
     *_PAIRED,
 )
 def xty_of_lists(
@@ -124,20 +115,19 @@ def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> f
 
 
 _FACTORS = (
-    opt("a", "FLOTTANT", en="factor of the first field", fr="facteur du premier champ"),
-    opt("b", "FLOTTANT", en="factor of the second field", fr="facteur du second champ"),
+    opt("a", "FLOTTANT", en="factor of the first field"),
+    opt("b", "FLOTTANT", en="factor of the second field"),
 )
 
 
 @operator(
     "XTX",
-    main("first", "CHPOINT", en="field", fr="champ"),
-    opt("second", "CHPOINT", en="field to add", fr="champ à ajouter"),
+    main("first", "CHPOINT", en="field"),
+    opt("second", "CHPOINT", en="field to add"),
     *_FACTORS,
     family="fields",
     help=Help(
         en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
-        fr="Somme des carrés de toutes les valeurs d'un champ, ou de X1 CHP1 + X2 CHP2.",
         syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",
@@ -159,8 +149,8 @@ def xtx(
 
 
 @xtx.form(
-    main("first", "MCHAML", en="field", fr="champ"),
-    opt("second", "MCHAML", en="field to add", fr="champ à ajouter"),
+    main("first", "MCHAML", en="field"),
+    opt("second", "MCHAML", en="field to add"),
     *_FACTORS,
 )
 def xtx_in_cells(
@@ -182,21 +172,14 @@ def _weighted_sum(
 
 @operator(
     "COMB",
-    flag(
-        "alike",
-        "SEMBLABLE",
-        en="the fields have the same nodes and components",
-        fr="les champs ont les mêmes noeuds et composantes",
-    ),
-    arg("weights", "CHPOINT", en="coefficients, one component", fr="coefficients, une composante"),
-    arg("table", "TABLE", en="fields by point", fr="champs par point"),
+    flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
+    arg("weights", "CHPOINT", en="coefficients, one component"),
+    arg("table", "TABLE", en="fields by point"),
     family="fields",
     full_name="COMBTABLE",
     help=Help(
         en="Linear combination of the fields of a table indexed by points, with the values of a "
         "field with one component as coefficients.",
-        fr="Combinaison linéaire des champs d'une table indicée par des points, les coefficients "
-        "étant les valeurs d'un champ à une composante.",
         syntax="CHPO1 = COMB ('SEMBLABLE') CHPO2 TAB1 ;",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = MANU 'CHPO' P 'UX' 3. ; "

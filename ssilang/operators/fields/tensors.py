@@ -62,19 +62,12 @@ def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
     return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
 
-STATE = many(
-    "fields",
-    "MCHAML",
-    at_least=1,
-    en="stresses or strains, and parameters",
-    fr="contraintes ou déformations, et caractéristiques",
-)
+STATE = many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters")
 _SIDE = choice(
     "side",
     _SKINS,
     default="MOYE",
     en="side of a shell: that of the normal, the middle (default) or the other",
-    fr="côté d'une coque : celui de la normale, le milieu (par défaut) ou l'autre",
 )
 
 
@@ -128,10 +121,6 @@ def _tensor(
         "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
         "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
         "in COQ6 and COQ8 that of the stresses at each point.",
-        fr="Contrainte de von Mises d'un champ de contraintes ; dans les poutres et barres la "
-        "contrainte équivalente des efforts avec SECT INRY INRZ TORS et les distances DX DY DZ ; "
-        "dans les coques celle des efforts membranaires et, pondérée par CALF (2/3), des moments ; "
-        "dans COQ6 et COQ8 celle des contraintes en chaque point.",
         syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
     ),
@@ -150,8 +139,6 @@ def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     full_name="TRESCA",
     help=Help(
         en="Tresca's equivalent stress: the largest difference of principal stresses.",
-        fr="Contrainte équivalente de Tresca : la plus grande différence de contraintes "
-        "principales.",
         syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (TRES M (SIGM M A U))) ;",),
     ),
@@ -165,12 +152,7 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     "PRIN",
     MODEL,
     STATE,
-    flag(
-        "ordered",
-        "TRID",
-        en="the values decrease in the plane too",
-        fr="les valeurs décroissent aussi en 2D",
-    ),
+    flag("ordered", "TRID", en="the values decrease in the plane too"),
     _SIDE,
     family="stress",
     full_name="PRINCIPALE",
@@ -178,9 +160,6 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
         en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
         "..., global cosines; they decrease in space. In the plane the third is the one out of the "
         "plane, unless 'TRID' is given.",
-        fr="Contraintes ou déformations principales SI11 SI22 SI33 et leurs directions COX1 COY1 "
-        "COZ1 COX2 ..., cosinus globaux ; elles décroissent en 3D. En 2D la troisième est celle "
-        "hors du plan, sauf avec 'TRID'.",
         syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
         "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
@@ -214,8 +193,6 @@ def prin(
     help=Help(
         en="The three invariants of a stress or strain field: trace, sum of the principal minors "
         "of order two, determinant.",
-        fr="Les trois invariants d'un champ de contraintes ou de déformations : trace, somme des "
-        "mineurs principaux d'ordre deux, déterminant.",
         syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
         examples=(_SQUARE + "I J K = INVA M (SIGM M A U) ; LIST (MAXI I) ;",),
     ),
@@ -237,16 +214,14 @@ def inva(
 @operator(
     "ENER",
     MODEL,
-    arg("first", "MCHAML", en="stresses", fr="contraintes"),
-    arg("second", "MCHAML", en="strains", fr="déformations"),
-    many("others", "MCHAML", en="accepted, not used", fr="accepté, sans emploi"),
+    arg("first", "MCHAML", en="stresses"),
+    arg("second", "MCHAML", en="strains"),
+    many("others", "MCHAML", en="accepted, not used"),
     family="stress",
     full_name="ENERGIE",
     help=Help(
         en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
         "material twice the energy); INTG integrates it.",
-        fr="Densité sigma : epsilon d'un champ de contraintes et d'un champ de déformations (pour "
-        "un matériau linéaire, deux fois l'énergie) ; INTG l'intègre.",
         syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
         examples=(_SQUARE + "E = ENER M (SIGM M A U) (EPSI M U) ; LIST (INTG M E) ;",),
     ),
@@ -283,18 +258,14 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
 @operator(
     "GRAD",
     MODEL,
-    arg("field", "CHPOINT", en="displacements or a scalar", fr="déplacements ou un scalaire"),
-    many("given", "MCHAML", en="parameters", fr="caractéristiques"),
+    arg("field", "CHPOINT", en="displacements or a scalar"),
+    many("given", "MCHAML", en="parameters"),
     family="stress",
     full_name="GRADIENT",
     help=Help(
         en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
         "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
         "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
-        fr="Gradient d'un champ de déplacements, composantes UX,X UX,Y ..., ou d'un champ "
-        "scalaire comme une température T, composantes T,X T,Y (T,Z). Les barres et poutres ont "
-        "UX,X UY,X (UZ,X), les coques planes UX,X UX,Y ... UZ,Y, dans leur repère propre comme "
-        "leurs contraintes (VECT dans CAR1).",
         syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (GRAD M U))) ;",),
     ),
@@ -322,26 +293,17 @@ def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...
 
 
 @INTG.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
-    flag("by_cell", "ELEM", en="one value a cell", fr="une valeur par élément"),
-    opt(
-        "component",
-        "MOT",
-        kind="component",
-        en="component, if there are several",
-        fr="composante, s'il y en a plusieurs",
-    ),
-    arg("field", "MCHAML", en="field to integrate", fr="champ à intégrer"),
-    many("others", "MCHAML", en="parameters", fr="caractéristiques"),
+    main("model", "MMODEL", en="model"),
+    flag("by_cell", "ELEM", en="one value a cell"),
+    opt("component", "MOT", kind="component", en="component, if there are several"),
+    arg("field", "MCHAML", en="field to integrate"),
+    many("others", "MCHAML", en="parameters"),
     gives=by("by_cell", {True: "MCHAML"}, "FLOTTANT"),
     syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
     "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
     en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
     "with the parameters CAR1 beams and bars count with their section, plane stress with its "
     "thickness.",
-    fr="D'un champ par éléments : intégrale d'une composante sur le modèle, ou élément par élément "
-    "('ELEM') ; avec les caractéristiques CAR1 les poutres et barres comptent avec leur section, "
-    "les contraintes planes avec leur épaisseur.",
     examples=(_SQUARE + "LIST (INTG M A 'YOUN') ;",),
 )
 def intg(
@@ -382,7 +344,6 @@ def _only(call: Call, field: CellField) -> str:
     full_name="JACOBIEN",
     help=Help(
         en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
-        fr="Jacobien de la transformation depuis l'élément de référence, aux points de 'RIGIDITE'.",
         syntax="CHAM1 = JACO MODL1 ;",
         examples=(_SQUARE + "LIST (MINI (JACO M)) ;",),
     ),

@@ -37,20 +37,14 @@ def argument_name(names: list[str], part: CurvePart) -> str:
     raise FieldError("operators.fields.no-component-is-abscissa", names=names, wanted=wanted)
 
 
-_SUPPORT = choice(
-    "support",
-    _SUPPORTS,
-    default="RIGIDITE",
-    en="points of the result",
-    fr="points du résultat",
-)
-_LAW = arg("curve", "EVOLUTIO", en="law of variation", fr="loi de variation")
+_SUPPORT = choice("support", _SUPPORTS, default="RIGIDITE", en="points of the result")
+_LAW = arg("curve", "EVOLUTIO", en="law of variation")
 
 
 @operator(
     "VARI",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    arg("field", "CHPOINT", "MCHAML", en="what the law depends on", fr="argument de la loi"),
+    arg("model", "MMODEL", en="model"),
+    arg("field", "CHPOINT", "MCHAML", en="what the law depends on"),
     _LAW,
     _SUPPORT,
     family="fields",
@@ -60,10 +54,6 @@ _LAW = arg("curve", "EVOLUTIO", en="law of variation", fr="loi de variation")
         "the abscissa); with a model, in cells at the points of a support ('RIGIDITE' by "
         "default). 'NUAG': parameters given by curves become numbers, from the fields that they "
         "depend on.",
-        fr="Champ des valeurs d'une évolution pour celles d'un champ (de sa composante nommée "
-        "comme l'abscisse) ; avec un modèle, par éléments aux points d'un support ('RIGIDITE' par "
-        "défaut). 'NUAG' : des paramètres donnés par évolutions deviennent des nombres, selon les "
-        "champs dont ils dépendent.",
         syntax="CHPO2 = VARI CHPO1 EVOL1 (MOT1) ; CHAM2 = VARI MODL1 CHAM1 | CHPO1 EVOL1 (MOT1) ;\n"
         "CHAM2 = VARI 'NUAG' MODL1 CHAM1 CHAM3 | CHPO3 (MOT1) (MOT2) ;",
         examples=(
@@ -94,14 +84,9 @@ def vari(
 
 
 @vari.form(
-    arg("field", "CHPOINT", en="what the law depends on", fr="argument de la loi"),
+    arg("field", "CHPOINT", en="what the law depends on"),
     _LAW,
-    opt(
-        "target",
-        "MOT",
-        en="component of the result, else the name of the ordinate",
-        fr="composante du résultat, sinon le nom de l'ordonnée",
-    ),
+    opt("target", "MOT", en="component of the result, else the name of the ordinate"),
 )
 def vari_at_nodes(call: Call, field: NodeField, curve: Curve, target: str | None) -> NodeField:
     """Evaluate a law at nodes."""
@@ -126,17 +111,11 @@ def _placed(model: Model, field: NodeField | CellField, support: Support) -> Cel
 
 @vari.form(
     said("NUAG"),
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    arg("laws", "MCHAML", en="parameters, curves among them", fr="paramètres, dont des évolutions"),
-    arg(
-        "given",
-        "MCHAML",
-        "CHPOINT",
-        en="fields that the curves depend on",
-        fr="champs dont dépendent les évolutions",
-    ),
+    arg("model", "MMODEL", en="model"),
+    arg("laws", "MCHAML", en="parameters, curves among them"),
+    arg("given", "MCHAML", "CHPOINT", en="fields that the curves depend on"),
     _SUPPORT,
-    opt("title", "MOT", en="sub-type of the result", fr="sous-type du résultat"),
+    opt("title", "MOT", en="sub-type of the result"),
 )
 def vari_of_parameters(
     model: Model, laws: CellField, given: CellField | NodeField, support: str, title: str | None

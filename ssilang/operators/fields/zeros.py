@@ -66,22 +66,12 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
 
 @operator(
     "ZERO",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    choice(
-        "word",
-        tuple(_TITLES),
-        length=8,
-        en="points of a scalar, or kind of field",
-        fr="points d'un scalaire, ou type de champ",
-    ),
+    arg("model", "MMODEL", en="model"),
+    choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
     family="fields",
     help=Help(
         en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
         "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
-        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-        "HOTANGEN).",
-        fr="Champ nul sur un modèle : un scalaire aux points d'un support (NOEUD GRAVITE RIGIDITE "
-        "MASSE STRESSES), ou les composantes d'un type de champ (CONTRAIN, DEFORMAT, DEPLACEM, "
         "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
         "HOTANGEN).",
         syntax="CHAM1 = ZERO MODL1 MOT1 ;",

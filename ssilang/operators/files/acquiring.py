@@ -97,13 +97,8 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
 
 @operator(
     "ACQU",
-    flag("line", "BRUT", en="the next line, as a word", fr="la ligne suivante, en un mot"),
-    many(
-        "names",
-        "*",
-        en="names, each with * and a type, behind a list the number of its values",
-        fr="noms, chacun avec * et un type, derrière une liste son nombre de valeurs",
-    ),
+    flag("line", "BRUT", en="the next line, as a word"),
+    many("names", "*", en="names, each with * and a type, behind a list the number of its values"),
     family="files",
     full_name="ACQUERIR",
     help=Help(
@@ -111,10 +106,6 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
         "its type (ENTIER FLOTTANT MOT LISTENTI LISTREEL; without a type, that of the value), "
         "behind a list the number of its values. Each statement begins on a new line of the file. "
         "BRUT gives the next line as a word.",
-        fr="Lit en format libre, dans le fichier que nomme OPTI ACQU, des valeurs qu'il donne à "
-        "des noms, chacun avec son type (ENTIER FLOTTANT MOT LISTENTI LISTREEL ; sans type, celui "
-        "de la valeur), et pour une liste son nombre de valeurs. Chaque instruction commence à une "
-        "nouvelle ligne du fichier. BRUT rend la ligne suivante comme mot.",
         syntax="ACQU NOM1*TYPE1 (N1) (NOM2*TYPE2 (N2) ...) ;\nMOT1 = ACQU 'BRUT' ;",
         examples=(
             "OPTI SORT 'in.txt' ; SORT 'CHAI' '3 4.5 7 8' ; OPTI ACQU 'in.txt' ; "

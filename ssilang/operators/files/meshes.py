@@ -29,7 +29,7 @@ from ssilang.operators.workspace import workspace
 PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
 """What Abaqus calls plane solids, by the mode; CPE in all others."""
 
-_FILE = lead("file", "MOT", en="file", fr="fichier")
+_FILE = lead("file", "MOT", en="file")
 
 
 @LIRE.form(
@@ -44,14 +44,6 @@ _FILE = lead("file", "MOT", en="file", fr="fichier")
     "is positive; those with nodes that coincide become simpler ones, those that have no "
     "counterpart are left out, both with a warning that counts them. Fields are not read. MED "
     "needs h5py.",
-    fr="MESH : un maillage d'un autre programme, au format que dit la fin du nom du fichier (.msh "
-    ".med .vtu .vtk .inp .bdf .nas .fem .mesh .unv .stl ; Gmsh maille un .geo), en table de "
-    "maillages : NOEUDS tous les noeuds, MAILLAGE tous les éléments, '@QUA4' ... ceux d'un type, "
-    "et chaque partie nommée sous son nom : groupes physiques, ensembles, groupes et étiquettes ; "
-    "NOM_GN pour les noeuds d'une partie qui a aussi des éléments, CLE_3 pour une étiquette 3 sans "
-    "nom. Les éléments sont tournés pour que leur jacobien soit positif ; ceux dont des noeuds "
-    "coïncident en deviennent de plus simples, ceux qui n'ont pas d'équivalent sont omis, avec un "
-    "avertissement qui les compte. Les champs ne sont pas lus. MED demande h5py.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (2. 0.) ; S = L TRAN 2 (0. 1.) ;\n"
         "OPTI SORT 'plate.msh' ; SORT 'MESH' S ;\n"
@@ -74,8 +66,6 @@ _BY_WORD = {
     syntax="TAB1 = LIRE 'GMSH'|'MED'|'VTU'|'VTK'|'ABAQ'|'NAS'|'FEM'|'MEDI'|'UNV' FIC1 ;",
     en="The word of a format: as MESH, whatever the ending. NAS and FEM are Nastran's bulk data, "
     "UNV is I-DEAS' universal file.",
-    fr="Le mot d'un format : comme MESH, quelle que soit la fin du nom. NAS et FEM sont les "
-    "données de Nastran, UNV le fichier universel d'I-DEAS.",
     examples=(
         "OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ;\n"
         "OPTI SORT 'one.bdf' ; SORT 'NAS' T ; R = LIRE 'NAS' 'one.bdf' ;\n"
@@ -171,25 +161,13 @@ def _sound(mesh: Mesh) -> Mesh:
 
 @SORT.form(
     said("MESH", "MED"),
-    arg(
-        "mesh",
-        "MAILLAGE",
-        "TABLE",
-        en="mesh, or a table of its parts",
-        fr="maillage, ou table de ses parties",
-    ),
+    arg("mesh", "MAILLAGE", "TABLE", en="mesh, or a table of its parts"),
     syntax="SORT 'MESH'|'MED' MAIL1|TAB1 ;",
     en="MESH: a mesh with its named parts for another program, in the format that the ending of "
     "the file tells: .msh (Gmsh 2.2: physical groups), .med (groups; needs h5py; the word MED puts "
     "the ending), .inp (Abaqus: sets). Parts are the meshes and points that the script calls by a "
     "name and that lie on nodes of the mesh, or those of a table such as MAILLER's or LIRE's, "
     "whose MAILLAGE or TOTAL is the whole. Joints are left out, with a warning.",
-    fr="MESH : un maillage avec ses parties nommées pour un autre programme, au format que dit la "
-    "fin du nom du fichier : .msh (Gmsh 2.2 : groupes physiques), .med (groupes ; demande h5py ; "
-    "le mot MED met cette fin), .inp (Abaqus : ensembles). Les parties sont les maillages et "
-    "points nommés dans le jeu de données et situés sur des noeuds du maillage, ou ceux d'une "
-    "table comme celle de MAILLER ou de LIRE, dont MAILLAGE ou TOTAL est le tout. Les joints sont "
-    "omis, avec un avertissement.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; T = MAILLER 'SEMELLE' 4. 1. 'SOL' 12. 4. ;\n"
         "OPTI SORT 'footing.inp' ; SORT 'MESH' T ; R = LIRE 'MESH' 'footing.inp' ;\n"

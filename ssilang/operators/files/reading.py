@@ -25,7 +25,6 @@ LIRE = shared_operator(
     "LIRE",
     "files",
     "Reads a file below the script's folder or the output folder.",
-    "Lit un fichier sous le dossier du jeu de données ou le dossier de sortie.",
     examples=(
         (
             "OPTI SORT 'two.procedur' ; SORT 'CHAI' 'DEBP TWICE X*''FLOTTANT'' ;\n"
@@ -64,20 +63,18 @@ LIRE = shared_operator(
 )
 
 
-_FILE = lead("file", "MOT", en="file", fr="fichier")
+_FILE = lead("file", "MOT", en="file")
 
 
 @LIRE.form(
     said("CSV"),
     _FILE,
-    key("first", "DEBU", arg("n", "ENTIER"), default=1, en="first line", fr="première ligne"),
-    key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator", fr="séparateur"),
-    choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines", fr="colonnes ou lignes"),
+    key("first", "DEBU", arg("n", "ENTIER"), default=1, en="first line"),
+    key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator"),
+    choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines"),
     syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",
     en="CSV: a table of LISTREEL, 1 to the number of columns (COLO) or lines (LIGN) of a CSV file, "
     "from line DEBU, separated by SEPA (one character, ; if it is not given).",
-    fr="CSV : une table de LISTREEL, de 1 au nombre de colonnes (COLO) ou de lignes (LIGN) d'un "
-    "fichier CSV, à partir de la ligne DEBU, séparées par SEPA (un caractère, ; par défaut).",
     examples=(
         "OPTI SORT 'two.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
         "T = LIRE 'CSV' 'two.csv' ; LIST (T . 2) ;",
@@ -97,12 +94,10 @@ def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
 @LIRE.form(
     said("PROC"),
     _FILE,
-    opt("name", "MOT", default="", en="the only one wanted", fr="la seule voulue"),
+    opt("name", "MOT", default="", en="the only one wanted"),
     syntax="LIRE 'PROC' FIC1 (MOT1) ;",
     en="PROC: the procedures that a file defines (only MOT1 if it is given); a file of statements "
     "without a DEBP becomes the procedure MOT1.",
-    fr="PROC : les procédures définies dans un fichier (seulement MOT1 s'il est donné) ; un "
-    "fichier d'instructions sans DEBP devient la procédure MOT1.",
 )
 def _proc(call: Call, file: str, name: str) -> None:
     path = input_path(call, file)
@@ -129,9 +124,6 @@ def _proc(call: Call, file: str, name: str) -> None:
     en="AVS: the next structure of the AVS UCD file that OPTI LECT names, as a table: MAILSUPP its "
     "nodes, LEMAILLA its cells, SOUMAILA the parts by kind and material, LECHPOIN and LEMCHAML "
     "its fields, values of the model under their names.",
-    fr="AVS : la structure suivante du fichier AVS UCD que nomme OPTI LECT, en table : MAILSUPP "
-    "ses noeuds, LEMAILLA ses éléments, SOUMAILA les parties par type et matériau, LECHPOIN et "
-    "LEMCHAML ses champs, les valeurs globales sous leur nom.",
 )
 def _avs(call: Call) -> Table:
     name = option_name(call.session, "LECT", 4)
@@ -188,7 +180,6 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     _FILE,
     syntax="MAIL1 = LIRE 'STL' FIC1 ;",
     en="STL: a mesh of TRI3, text or binary; ELIM joins its nodes.",
-    fr="STL : un maillage de TRI3, texte ou binaire ; ELIM réunit ses noeuds.",
 )
 def _stl(call: Call, file: str) -> Mesh:
     corners = read_stl(file_to_read(call, str(file), ".stl"))

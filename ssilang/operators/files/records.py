@@ -15,19 +15,9 @@ from ssilang.operators.files.reading import LIRE
 from ssilang.operators.workspace import workspace
 
 _ENTRIES: tuple[Entry, ...] = (
-    lead("file", "MOT", en="file", fr="fichier"),
-    opt(
-        "factor",
-        "FLOTTANT",
-        en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2",
-        fr="facteur des valeurs : 9.81 fait des m/s2 de g, 0.01 de cm/s2",
-    ),
-    flag(
-        "in_si",
-        "SI",
-        en="metres and seconds, by the unit that the file names",
-        fr="mètres et secondes, selon l'unité que nomme le fichier",
-    ),
+    lead("file", "MOT", en="file"),
+    opt("factor", "FLOTTANT", en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2"),
+    flag("in_si", "SI", en="metres and seconds, by the unit that the file names"),
 )
 """What every format of records reads: file, then a factor or 'SI'."""
 
@@ -38,8 +28,6 @@ _ENTRIES: tuple[Entry, ...] = (
     syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1 | 'SI') ;",
     en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
     "evolution in time, times FLOT1, or in metres and seconds ('SI').",
-    fr="PEER : un accélérogramme au format de la base PEER (.AT2, .VT2, .DT2), évolution dans le "
-    "temps, multipliée par FLOT1, ou en mètres et secondes ('SI').",
 )
 def _peer(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     record = read_peer(file_to_read(call, str(file), ".AT2"))
@@ -51,7 +39,6 @@ def _peer(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     *_ENTRIES,
     syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1 | 'SI') ;",
     en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC).",
-    fr="ESM : un accélérogramme au format texte des bases ESM et ITACA (.ASC).",
     examples=(
         "OPTI SORT 'quake.asc' ;\n"
         "SORT 'CHAI' 'SAMPLING_INTERVAL_S: 0.01' ; SORT 'CHAI' 'NDATA: 3' ;\n"
@@ -69,13 +56,10 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     *_ENTRIES,
     key(
         "number", "CANAL", arg("n", "ENTIER"), default=0,
-        en="which record of a file that has several", fr="quel signal d'un fichier à plusieurs",
-    ),
+        en="which record of a file that has several"),
     syntax="EVO1 = LIRE 'COSMOS' FIC1 (FLOT1 | 'SI') ('CANAL' N1) ;",
     en="COSMOS: a ground motion in version 1.20 of the COSMOS format (.V1, .V2), the first of the "
     "file or record CANAL.",
-    fr="COSMOS : un accélérogramme en version 1.20 du format COSMOS (.V1, .V2), le premier du "
-    "fichier ou le signal CANAL.",
     examples=(
         "OPTI SORT 'quake.v2' ; SORT 'CHAI' 'Corrected (Format v01.20)' ; SORT 'CHAI' 'event' ;\n"
         "SORT 'CHAI' '34 Real-header values follow on 34 lines, Format= (1F8.3)' ;\n"
@@ -101,9 +85,6 @@ def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: in
     syntax="EVO1 = LIRE 'SIGNAL' FIC1 (FLOT1 | 'SI') ;",
     en="SIGNAL: ground motions as a table (CSV or blanks): a column of times and further ones, "
     "under titles that name units, as in time (s); acceleration (g). A curve for each column.",
-    fr="SIGNAL : des accélérogrammes en table (CSV ou blancs) : une colonne de temps et d'autres, "
-    "sous des titres qui nomment les unités, comme dans temps (s) ; acceleration (g). Une courbe "
-    "par colonne.",
     examples=(
         "OPTI SORT 'quake.csv' ; SORT 'CHAI' 'time (s);acceleration (cm/s2)' ;\n"
         "SORT 'CHAI' '0.;0.' ; SORT 'CHAI' '0.1;20.' ; SORT 'CHAI' '0.2;-10.' ;\n"

@@ -153,30 +153,16 @@ class _Begun:
 
 
 _WORDS = (
-    flag("formatted", "FORMAT", en="changes nothing", fr="sans effet"),
-    key(
-        "label",
-        "LABEL",
-        arg("label", "MOT"),
-        default="",
-        en="label of the record",
-        fr="label de l'enregistrement",
-    ),
-    flag("silent", "MUET", en="changes nothing", fr="sans effet"),
+    flag("formatted", "FORMAT", en="changes nothing"),
+    key("label", "LABEL", arg("label", "MOT"), default="", en="label of the record"),
+    flag("silent", "MUET", en="changes nothing"),
 )
 
 
 @operator(
     "SAUV",
     *_WORDS,
-    many(
-        "objects",
-        "*",
-        "TEXTE",
-        whole=True,
-        en="objects, all that have a name by default",
-        fr="objets, sinon tous ceux qui ont un nom",
-    ),
+    many("objects", "*", "TEXTE", whole=True, en="objects, all that have a name by default"),
     family="files",
     full_name="SAUVER",
     help=Help(
@@ -184,11 +170,6 @@ _WORDS = (
         "SAUV names, in the output folder; without objects, everything that has a name. Further "
         "statements add to the file, under a LABEL if one is given. REST reads it back. The "
         "format is ssilang's own (JSON and arrays), FORMAT and MUET change nothing.",
-        fr="Sauve des objets, tout ce à quoi ils se réfèrent et les noms des uns et des autres, "
-        "dans le fichier que nomme OPTI SAUV, dans le dossier de sortie ; sans objet, tout ce qui "
-        "a un nom. Les instructions suivantes complètent le fichier, sous un LABEL s'il est donné. "
-        "REST le relit. Le format est propre à ssilang (JSON et tableaux) ; FORMAT et MUET n'y "
-        "changent rien.",
         syntax="SAUV ('FORMAT') ('LABEL' MOT1) ('MUET') (OBJ1 OBJ2 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 3 (0. 0.) (1. 0.) ; OPTI SAUV 'l.sauv' ; SAUV L ; "
@@ -279,9 +260,6 @@ def _settings(ws: Workspace) -> dict[str, Any]:
         en="Gives back the objects of the file that OPTI REST names, under their names; up to the "
         "record of a LABEL if one is given. Its nodes are added to those that exist, as are the "
         "unknowns of OPTI INCO. Dimension and mode are those of the file if none has been set.",
-        fr="Rend les objets du fichier que nomme OPTI REST, sous leurs noms ; jusqu'à celui d'un "
-        "LABEL s'il est donné. Ses noeuds s'ajoutent à ceux qui existent, comme les inconnues "
-        "d'OPTI INCO. Dimension et mode sont ceux du fichier s'ils n'ont pas été fixés.",
         syntax="REST ('FORMAT') ('LABEL' MOT1) ;",
         examples=(
             "X = PROG 1. 2. ; OPTI SAUV 'x.sauv' ; SAUV X ; X = 0 ; "

@@ -24,8 +24,6 @@ SORT = shared_operator(
     "files",
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
     "folder. The extension may be left out.",
-    "Écrit des objets dans le fichier que nomme OPTI SORT (fort.7 sinon), dans le dossier de "
-    "sortie. L'extension peut être omise.",
     "SORTIR",
     examples=(
         (
@@ -62,24 +60,17 @@ _NUMBER = arg("n", "ENTIER")
         "TABLE",
         at_least=1,
         en="lists, or what holds them",
-        fr="listes, ou ce qui en contient",
     ),
-    key("width", "NCOL", _NUMBER, en="columns side by side", fr="colonnes côte à côte"),
-    key("digits", "DIGI", _NUMBER, en="decimals", fr="décimales"),
+    key("width", "NCOL", _NUMBER, en="columns side by side"),
+    key("digits", "DIGI", _NUMBER, en="decimals"),
     select(
-        "separator",
-        {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]},
-        en="separator",
-        fr="séparateur",
+        "separator", {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),
     syntax="SORT 'EXCE' OBJ1 (OBJ2 ...) ('NCOL' N1) ('SEPA' PVIR|VIRG|ESPA|TABU|OBLI) "
     "('DIGI' N2) ;",
     en="EXCE: a CSV table with a column for each list of the objects (LISTREEL LISTENTI LISTMOTS "
     "EVOLUTION TABLE), headed by the curves' axis names and the tables' indices. NCOL columns "
     "at most side by side, DIGI decimals. Further SORT statements append.",
-    fr="EXCE : un tableau CSV, une colonne par liste des objets (LISTREEL LISTENTI LISTMOTS "
-    "EVOLUTION TABLE), titrée par les noms des axes des évolutions et les indices des tables. "
-    "NCOL colonnes au plus côte à côte, DIGI décimales. Les SORT suivants ajoutent au fichier.",
     examples=("OPTI SORT 'valeurs.csv' ; SORT 'EXCE' (PROG 1. 2. 3.) 'SEPA' 'VIRG' ;",),
 )
 def _exce(
@@ -131,7 +122,6 @@ def _columns(value: Any, name: str, units: UnitSystem | None) -> list[Column]:
     by_hand=TEXT_IS_FREE,
     syntax="SORT 'CHAI' OBJ1 (OBJ2 ...) ;",
     en="CHAI: a line of text, written as MESS writes it. Further SORT statements append.",
-    fr="CHAI : une ligne de texte, écrite comme par MESS. Les SORT suivants ajoutent au fichier.",
     examples=("OPTI SORT 'notes.txt' ; SORT 'CHAI' 'x =' 2.5 ;",),
 )
 def _chai(call: Call, word: str) -> None:
@@ -141,21 +131,13 @@ def _chai(call: Call, word: str) -> None:
 
 @SORT.form(
     said("BILA"),
-    lead("name", "MOT", en="name of the figure", fr="nom du résultat"),
-    arg("value", "FLOTTANT", en="figure", fr="résultat"),
-    opt("expected", "FLOTTANT", en="value expected", fr="valeur attendue"),
-    opt(
-        "tolerance",
-        "FLOTTANT",
-        range=NOT_NEGATIVE,
-        en="largest distance to it",
-        fr="plus grand écart admis",
-    ),
+    lead("name", "MOT", en="name of the figure"),
+    arg("value", "FLOTTANT", en="figure"),
+    opt("expected", "FLOTTANT", en="value expected"),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
     "and the tolerance on their distance if there are any.",
-    fr="BILA : inscrit un résultat du calcul sous un nom dans summary.json, avec s'il y a lieu la "
-    "valeur attendue et la tolérance sur l'écart.",
     examples=("SORT 'BILA' 'two and two' (2. + 2.) 4. 1.E-12 ;",),
 )
 def _bila(

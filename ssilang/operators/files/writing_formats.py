@@ -23,19 +23,15 @@ from ssilang.operators.workspace import workspace
 
 @SORT.form(
     said("AVS"),
-    opt("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    opt("nodal", "CHPOINT", en="nodal field", fr="champ par points"),
-    opt("cells", "MCHAML", en="field in cells", fr="champ par éléments"),
-    flag("follows", "SUIT", en="behind what is written", fr="à la suite"),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s", fr="temps, en s"),
+    opt("mesh", "MAILLAGE", en="mesh"),
+    opt("nodal", "CHPOINT", en="nodal field"),
+    opt("cells", "MCHAML", en="field in cells"),
+    flag("follows", "SUIT", en="behind what is written"),
+    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
     syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
     en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
     "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
     "structure to those written since OPTI SORT, TEMP adds the value 'time'.",
-    fr="AVS : un maillage (sinon les éléments du champ par éléments, sinon les noeuds du champ par "
-    "points) avec un champ par points et un champ par éléments (une valeur moyenne par élément), "
-    "en texte AVS UCD. SUIT ajoute une structure à celles écrites depuis OPTI SORT, TEMP ajoute la "
-    "valeur 'time'.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; "
         "SORT 'AVS ' L 'TEMP' 1.5 ;",
@@ -72,10 +68,9 @@ def _support(
 
 @SORT.form(
     said("STL"),
-    arg("mesh", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
+    arg("mesh", "MAILLAGE", en="surface of TRI3"),
     syntax="SORT 'STL ' MAIL1 ;",
     en="STL: a surface of TRI3 as STL text.",
-    fr="STL : une surface de TRI3 en texte STL.",
 )
 def _stl(call: Call, mesh: Mesh) -> None:
     output = run_output(call.session)
@@ -83,7 +78,7 @@ def _stl(call: Call, mesh: Mesh) -> None:
     output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
 
 
-_MESH = arg("mesh", "MAILLAGE", en="mesh", fr="maillage")
+_MESH = arg("mesh", "MAILLAGE", en="mesh")
 
 
 @SORT.form(
@@ -92,8 +87,6 @@ _MESH = arg("mesh", "MAILLAGE", en="mesh", fr="maillage")
     syntax="SORT 'ABAQ' MAIL1 ;",
     en="ABAQ: the nodes and cells of a mesh of solids as an Abaqus deck (.inp); in two dimensions "
     "OPTI MODE says which: CPS, CPE or CAX.",
-    fr="ABAQ : les noeuds et éléments d'un maillage massif en jeu de données d'Abaqus (.inp) ; en "
-    "dimension 2, OPTI MODE dit lesquels : CPS, CPE ou CAX.",
     examples=(
         "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
         "OPTI SORT 'ring' ; SORT 'ABAQ' S ; OPTI ACQU 'ring.inp' ; LIST (ACQU 'BRUT') ;",
@@ -114,8 +107,6 @@ def _abaq(call: Call, mesh: Mesh) -> None:
     syntax="SORT 'NAS' MAIL1 ;",
     en="NAS: the nodes and cells of a mesh as Nastran bulk data (.bdf), a property number for "
     "each kind of cells.",
-    fr="NAS : les noeuds et éléments d'un maillage en données de Nastran (.bdf), un numéro de "
-    "propriété par type d'éléments.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
         "OPTI SORT 'plate' ; SORT 'NAS' S ; OPTI ACQU 'plate.bdf' ; LIST (ACQU 'BRUT') ;",
@@ -131,30 +122,18 @@ def _nas(call: Call, mesh: Mesh) -> None:
 @SORT.form(
     said("MAT"),
     choice(
-        "form",
-        ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"),
-        en="format, only MM is made",
-        fr="format, seul MM existe",
+        "form", ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"), en="format, only MM is made"
     ),
-    choice(
-        "storage",
-        ("ASSEMBLEE", "ELEMENTAIRE"),
-        en="assembled, the only one made",
-        fr="assemblée, la seule forme qui existe",
-    ),
-    key("title", "TITR", arg("t", "MOT"), default="", en="title", fr="titre"),
-    flag("unknowns", "INCO", en="a file of the unknowns too", fr="avec un fichier des inconnues"),
-    flag("places", "GEOM", en="a file of the nodes too", fr="avec un fichier des noeuds"),
-    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    choice("storage", ("ASSEMBLEE", "ELEMENTAIRE"), en="assembled, the only one made"),
+    key("title", "TITR", arg("t", "MOT"), default="", en="title"),
+    flag("unknowns", "INCO", en="a file of the unknowns too"),
+    flag("places", "GEOM", en="a file of the nodes too"),
+    arg("matrix", "RIGIDITE", en="matrix"),
     syntax="SORT 'MAT ' 'MM' 'ASSE' RIGI1 ('TITR' MOT1) ('INCO') ('GEOM') ;",
     en="MAT: a matrix, assembled, as Matrix Market text (.mm), the multipliers of its conditions "
     "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
     "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
     "of the node).",
-    fr="MAT : une rigidité assemblée, en texte Matrix Market (.mm), les multiplicateurs de ses "
-    "conditions derrière ses inconnues. INCO ajoute un fichier .inco (noeud local et composante "
-    "de chaque inconnue, puis de chaque équation, puis les noms), GEOM un fichier .geom "
-    "(coordonnées des noeuds locaux, numéro du noeud).",
     examples=(
         "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; K = APPU 'UX' 400. P ; OPTI SORT 'k' ; "
         "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",

@@ -22,13 +22,11 @@ from ssilang.operators.workspace import workspace
 
 
 @SORT.form(
-    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    flag("kept", "NOOP", en="changes nothing", fr="sans effet"),
+    main("mesh", "MAILLAGE", en="mesh"),
+    flag("kept", "NOOP", en="changes nothing"),
     syntax="SORT MAIL1 ('NOOP') ;",
     en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
     "ssilang's own that LIRE reads; SAUV saves everything else too.",
-    fr="Sans mot : un maillage avec ses parties nommées (points et maillages sur ses noeuds), dans "
-    "un fichier propre à ssilang que relit LIRE ; SAUV sauve aussi tout le reste.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; SORT L ; "
         "OPTI LECT 'line' ; LIRE L ; MESS (NBEL L) ;",
@@ -61,11 +59,10 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
 
 
 @LIRE.form(
-    lead("file", "MOT", en="file, or mesh that must be there", fr="fichier, ou maillage voulu"),
+    lead("file", "MOT", en="file, or mesh that must be there"),
     gives="TABLE|",
     syntax="TAB1 = LIRE FIC1 ;",
     en="A file by its ending (LIRE 'm.msh'): as MESH.",
-    fr="Un fichier selon la fin de son nom (LIRE 'm.msh') : comme MESH.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
         "OPTI SORT 'plate.inp' ; SORT 'MESH' S ; T = LIRE 'plate.inp' ; LIST (T . 'MAILLAGE') ;",
@@ -79,12 +76,10 @@ def _lire_file(call: Call, file: str) -> Table | None:
 
 
 @LIRE.form(
-    named("wanted", optional=True, en="mesh that must be there", fr="maillage qui doit y être"),
+    named("wanted", optional=True, en="mesh that must be there"),
     syntax="LIRE (GEO1) ;",
     en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
     "by SORT; GEO1 must be one of them if it is given.",
-    fr="Sans mot : le maillage et ses parties nommées du fichier que nomme OPTI LECT, écrit par "
-    "SORT ; GEO1 doit en être un s'il est donné.",
 )
 def _lire_own(call: Call, wanted: str) -> None:
     path = input_path(call, option_name(call.session, "LECT", 4))

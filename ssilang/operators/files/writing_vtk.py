@@ -60,34 +60,19 @@ class _Said:
 @SORT.form(
     said("VTK"),
     many(
-        "objects",
-        *_OBJECTS,
-        "MOT",
-        en="meshes, fields and tables of them, each with a name or not",
-        fr="maillages, champs et tables de tels objets, chacun avec ou sans nom",
+        "objects", *_OBJECTS, "MOT", en="meshes, fields and tables of them, each with a name or not"
     ),
+    choice("encoding", _ENCODINGS, default="ZIP", en="as text, binary or packed"),
     choice(
-        "encoding",
-        _ENCODINGS,
-        default="ZIP",
-        en="as text, binary or packed",
-        fr="en texte, en binaire ou compressé",
-    ),
-    choice(
-        "listing",
-        _LISTS,
-        default="AUTO",
-        en="the series goes on, begins anew, or is not listed",
-        fr="la série se poursuit, recommence, ou n'est pas énumérée",
+        "listing", _LISTS, default="AUTO", en="the series goes on, begins anew, or is not listed"
     ),
     choice(
         "format",
         _FORMATS,
         en="files by instant and mesh with a list, or one file for all (VTU if nothing is said)",
-        fr="un fichier par instant et maillage avec une liste, ou un pour tous (VTU par défaut)",
     ),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s", fr="temps, en s"),
-    flag("double", "DOUBLE_PRECISION", en="changes nothing", fr="sans effet"),
+    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
+    flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
     syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
@@ -102,17 +87,6 @@ class _Said:
     "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
     "models (material) whose names the script has, the field data says which is which. "
     "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
-    fr="VTK : maillages, champs par points ou par éléments et tables de tels objets, chacun avec "
-    "un nom facultatif, en fichiers .vtu pour ParaView : NOM.vtu pour un maillage, "
-    "NOM.pas.maillage.vtu pour plusieurs maillages ou instants (TEMP), et NOM.pvd qui les "
-    "énumère. Déplacements, vitesses et forces deviennent des vecteurs, contraintes et "
-    "déformations des tenseurs, tractions et ouvertures de joints des vecteurs dans les axes du "
-    "joint. AUTO poursuit la série commencée par ce calcul si le temps croît, sinon en commence "
-    "une ; SUIT poursuit le .pvd existant, NOUV recommence, NPVD n'écrit pas de liste. VTKHDF : "
-    "NOM.vtkhdf a tous les temps, son maillage (qui ne peut changer) une fois ; ParaView 5.12 et "
-    "pyvista l'ouvrent, pendant le calcul aussi. Les éléments portent le numéro des maillages "
-    "(group) et des modèles (material) nommés dans le jeu de données, les données générales disent "
-    "lequel est lequel. Les nombres sont en double précision, compressés sauf FORM ou BINA.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
         "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; "

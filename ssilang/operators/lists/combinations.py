@@ -24,8 +24,6 @@ COLI = shared(
     Help(
         en="Linear combination: fields each followed by its coefficient, or a list of fields (or "
         "a table 1 .. N of fields or lists) with a list of coefficients.",
-        fr="Combinaison linéaire : champs chacun suivi de son coefficient, ou une liste de champs "
-        "(ou une table 1 .. N de champs ou de listes) avec une liste de coefficients.",
         syntax="CHP1 = COLI CHP2 X2 CHP3 X3 ... ; OBJ1 = COLI LCHP1 | TAB1 LREE1 ;",
         examples=(
             "T = TABL ; T . 1 = PROG 1. 2. ; T . 2 = PROG 3. 4. ; LIST (COLI T (PROG 2. 1.)) ;",
@@ -41,14 +39,8 @@ COLI = shared(
 
 
 @COLI.form(
-    arg(
-        "held",
-        "LISTCHPO",
-        "TABLE",
-        en="fields, or a table 1 .. N of fields or lists",
-        fr="champs, ou table 1 .. N de champs ou de listes",
-    ),
-    arg("factors", "LISTREEL", en="coefficients", fr="coefficients"),
+    arg("held", "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"),
+    arg("factors", "LISTREEL", en="coefficients"),
     gives="CHPOINT|MCHAML|LISTREEL",
 )
 def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
@@ -59,8 +51,8 @@ def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
 
 
 @COLI.form(
-    many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields", fr="champs"),
-    many("factors", "FLOTTANT", en="coefficients", fr="coefficients"),
+    many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields"),
+    many("factors", "FLOTTANT", en="coefficients"),
     gives="CHPOINT|MCHAML",
 )
 def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:
@@ -88,11 +80,10 @@ def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
 
 @operator(
     "SOMT",
-    arg("field", "CHPOINT", en="field of one component", fr="champ d'une composante"),
+    arg("field", "CHPOINT", en="field of one component"),
     family="fields",
     help=Help(
         en="Sum of the values of a field of a single component (SCAL, most often).",
-        fr="Somme des valeurs d'un champ de composante unique (SCAL, le plus souvent).",
         syntax="X1 = SOMT CHPO1 ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (SOMT (MANU 'CHPO' P 'SCAL' 3.)) ;",),
     ),

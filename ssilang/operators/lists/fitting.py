@@ -23,26 +23,16 @@ _GAIN = 1e-12
 
 @operator(
     "MOCA",
-    arg("start", "LISTREEL", en="parameters", fr="paramètres"),
-    arg("measured", "LISTREEL", en="measured values", fr="valeurs mesurées"),
-    arg("values", "LISTREEL", en="values for the parameters", fr="valeurs pour les paramètres"),
-    many(
-        "derivatives",
-        "LISTREEL",
-        at_least=1,
-        en="derivative by each parameter",
-        fr="dérivée par rapport à chaque paramètre",
-    ),
-    key("weights", "POIDS", arg("weights", "LISTREEL"), en="weights", fr="poids"),
+    arg("start", "LISTREEL", en="parameters"),
+    arg("measured", "LISTREEL", en="measured values"),
+    arg("values", "LISTREEL", en="values for the parameters"),
+    many("derivatives", "LISTREEL", at_least=1, en="derivative by each parameter"),
+    key("weights", "POIDS", arg("weights", "LISTREEL"), en="weights"),
     family="lists",
     help=Help(
         en="The parameters that bring a function nearest to measured values: from its values and "
         "derivatives for a first set of parameters, those for which the sum of (weight * "
         "difference) ** 2 is least, the function taken for linear. Repeated, it serves for others.",
-        fr="Les paramètres qui approchent le mieux une fonction de valeurs mesurées : à partir de "
-        "ses valeurs et dérivées pour un premier jeu de paramètres, ceux qui rendent minimale la "
-        "somme des (poids * écart) ** 2, la fonction étant prise pour linéaire. Répété, il sert "
-        "pour les autres.",
         syntax="LREE1 = MOCA LREE2 LREE3 LREE4 LREE5 (LREE6 ...) ('POIDS' LREE7) ;",
         examples=(
             "X = PROG 0. 1. 2. ; Y = PROG 1. 3. 5. ; U = PROG 3*1. ; "
@@ -86,24 +76,16 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
 
 @operator(
     "LEVM",
-    key("abscissas", "ABSC", arg("list", "LISTREEL"), optional=False, en="points", fr="points"),
-    key("measured", "ORDO", arg("list", "LISTREEL"), optional=False, en="values", fr="valeurs"),
-    key("spreads", "SIGM", arg("list", "LISTREEL"), optional=False, en="weights", fr="poids"),
-    key(
-        "start",
-        "PARA",
-        arg("list", "LISTREEL"),
-        optional=False,
-        en="first parameters, none zero",
-        fr="premiers paramètres, non nuls",
-    ),
+    key("abscissas", "ABSC", arg("list", "LISTREEL"), optional=False, en="points"),
+    key("measured", "ORDO", arg("list", "LISTREEL"), optional=False, en="values"),
+    key("spreads", "SIGM", arg("list", "LISTREEL"), optional=False, en="weights"),
+    key("start", "PARA", arg("list", "LISTREEL"), optional=False, en="first parameters, none zero"),
     key(
         "function",
         "PROC",
         arg("procedure", "PROCEDUR"),
         optional=False,
         en="`LY LDY = PROC1 LX LP`",
-        fr="`LY LDY = PROC1 LX LP`",
     ),
     family="lists",
     help=Help(
@@ -111,10 +93,6 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
         "and Marquardt's damped steps, and the criterion, the sum of (weight * difference) ** 2. "
         "The procedure is given the points and the parameters; it gives the values and their "
         "derivatives by the parameters in one list, point after point.",
-        fr="Les paramètres qui approchent le mieux une fonction de points mesurés, par les pas "
-        "amortis de Levenberg et Marquardt, et le critère, la somme des (poids * écart) ** 2. La "
-        "procédure reçoit les points et les paramètres ; elle rend les valeurs, et leurs dérivées "
-        "par rapport aux paramètres en une seule liste, point après point.",
         syntax="LREE1 X1 = LEVM 'ABSC' LREE2 'ORDO' LREE3 'SIGM' LREE4 'PARA' LREE5 'PROC' PROC1 ;",
         examples=(
             "DEBP EXPO X1*LISTREEL P1*LISTREEL ; K1 = EXTR P1 1 ; Y1 = EXP (K1 * X1) ; "
@@ -182,11 +160,9 @@ def _damped(
 
 @operator(
     "GANE",
-    arg("table", "TABLE", en="0: values, 1 to n: derivatives", fr="0 : valeurs, 1 à n : dérivées"),
-    key(
-        "damping", "AMOR", arg("factor", "FLOTTANT"), default=0.0, en="damping", fr="amortissement"
-    ),
-    flag("matrices", "MATR", en="not available", fr="non disponible"),
+    arg("table", "TABLE", en="0: values, 1 to n: derivatives"),
+    key("damping", "AMOR", arg("factor", "FLOTTANT"), default=0.0, en="damping"),
+    flag("matrices", "MATR", en="not available"),
     family="lists",
     full_name="GANEWTON",
     help=Help(
@@ -194,10 +170,6 @@ def _damped(
         "VECTEUR holds f for the present variables at 0 and its derivatives at 1 to n (numbers, "
         "lists or nodal fields), the result the steps H1 to Hn, [J^T J + nu I] H = - J^T f. "
         "'AMOR' gives nu (Levenberg and Marquardt), else 0.",
-        fr="Le pas de la méthode de Gauss et Newton vers le plus petit f.f : la table de "
-        "sous-type VECTEUR contient f pour les variables actuelles en 0 et ses dérivées en 1 à n "
-        "(nombres, listes ou champs par points), le résultat les pas H1 à Hn, [J^T J + nu I] H = "
-        "- J^T f. 'AMOR' donne nu (Levenberg et Marquardt), sinon 0.",
         syntax="TAB2 = GANE TAB1 ('AMOR' X1) ;",
         examples=(
             "T = TABL 'VECTEUR' ; T . 0 = PROG 1. 3. ; T . 1 = PROG 1. 1. ; "

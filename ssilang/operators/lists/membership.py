@@ -32,9 +32,6 @@ DANS = shared(
         en="Whether a list of integers stands in another one (as its k-th stretch of that "
         "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
         "('SEQU') or in any order ('QUEL').",
-        fr="Dit si une liste d'entiers est dans une autre (comme sa k-ième tranche de cette "
-        "longueur), un réel dans une liste, un point dans un maillage, une liste de réels dans "
-        "une autre, en séquence ('SEQU') ou dans un ordre quelconque ('QUEL').",
         syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
         "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
         examples=(
@@ -48,20 +45,14 @@ DANS = shared(
         ),
     ),
 )
-_WAY = choice(
-    "way",
-    ("SEQU", "QUEL"),
-    default="SEQU",
-    en="in sequence, or in any order",
-    fr="en séquence, ou dans un ordre quelconque",
-)
-_SECOND = {"en": "list where it is looked for", "fr": "liste où on la cherche"}
+_WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")
+_SECOND = "list where it is looked for"
 
 
 @DANS.form(
     _WAY,
-    arg("point", "POINT", en="point", fr="point"),
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("point", "POINT", en="point"),
+    arg("mesh", "MAILLAGE", en="mesh"),
 )
 def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
     return bool(np.any(mesh.node_ids == point.node))
@@ -69,8 +60,8 @@ def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("part", "LISTENTI", en="list of integers", fr="liste d'entiers"),
-    arg("whole", "LISTENTI", en=_SECOND["en"], fr=_SECOND["fr"]),
+    arg("part", "LISTENTI", en="list of integers"),
+    arg("whole", "LISTENTI", en=_SECOND),
 )
 def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
     return _as_stretch(part.values, whole.values)
@@ -78,8 +69,8 @@ def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("whole", "LISTREEL", en="list of reals", fr="liste de réels"),
-    arg("number", "FLOTTANT", en="number looked for", fr="nombre cherché"),
+    arg("whole", "LISTREEL", en="list of reals"),
+    arg("number", "FLOTTANT", en="number looked for"),
 )
 def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
     return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
@@ -87,8 +78,8 @@ def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("part", "LISTREEL", en="list of reals", fr="liste de réels"),
-    arg("whole", "LISTREEL", en=_SECOND["en"], fr=_SECOND["fr"]),
+    arg("part", "LISTREEL", en="list of reals"),
+    arg("whole", "LISTREEL", en=_SECOND),
 )
 def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
     left, right = part.values, whole.values
@@ -123,17 +114,14 @@ Subtracted = ListReel | ListEnti | ListMots
 
 @operator(
     "SAUF",
-    arg("first", *_SUBTRACTED, en="list", fr="liste"),
-    arg("second", *_SUBTRACTED, en="items to leave out", fr="éléments à omettre"),
-    opt(
-        "tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance", fr="tolérance absolue"
-    ),
-    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    arg("first", *_SUBTRACTED, en="list"),
+    arg("second", *_SUBTRACTED, en="items to leave out"),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
+    flag("fold", "NOCA", en="whatever the case"),
     gives=Like("first"),
     family="lists",
     help=Help(
         en="The items of a list that are not in a second one.",
-        fr="Les éléments d'une liste qui ne sont pas dans une seconde.",
         syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
         examples=("LIST ((LECT 1 2 3 4) SAUF (LECT 2 4)) ;",),
     ),
@@ -151,11 +139,10 @@ def sauf(
 
 
 @INTE.form(
-    main("first", "LISTREEL", en="first list", fr="première liste"),
-    arg("second", "LISTREEL", en="second list", fr="seconde liste"),
+    main("first", "LISTREEL", en="first list"),
+    arg("second", "LISTREEL", en="second list"),
     syntax="LREE3 = LREE1 INTE LREE2 ;",
     en="Two lists of reals: the values of the first that the second holds as well.",
-    fr="Deux listes de réels : les valeurs de la première que contient aussi la seconde.",
     examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
 )
 def common_reals(first: ListReel, second: ListReel) -> ListReel:

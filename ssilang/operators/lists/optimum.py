@@ -20,7 +20,7 @@ _HISTORY = "EXCE_ASYMPTOTES"
 
 @operator(
     "EXCE",
-    arg("table", "TABLE", en="values and slopes", fr="valeurs et pentes"),
+    arg("table", "TABLE", en="values and slopes"),
     family="lists",
     full_name="EXCELLENCE",
     help=Help(
@@ -33,16 +33,6 @@ _HISTORY = "EXCE_ASYMPTOTES"
         "that follow the steps (S0 0.7), from those of T0 where it is given. From a point "
         "that misses conditions, these may be given up at a cost: DELTA0 (50) times what F may "
         "change over the range.",
-        fr="Un pas de la méthode des asymptotes mobiles (Svanberg) vers le plus petit F(X1 ... XN) "
-        "sous C1(X) <= C1MAX ... et des bornes. Tables indicées par numéros : VX0 . i le point "
-        "actuel ; VF . 0 la valeur de F en ce point, VF . i ses dérivées ; MC . j . 0 et "
-        "MC . j . i celles de Cj ; VXMIN, VXMAX, VCMAX les bornes. La table revient avec le "
-        "nouveau point dans VX0 : y calculer valeurs et pentes et recommencer. METHODE 'STA' (par "
-        "défaut) a les asymptotes en T0 X et X / T0 (T0 0,3333 ; variables d'un seul signe, sinon "
-        "à deux fois l'étendue), 'MOV' des asymptotes qui suivent les pas (S0 0,7), à partir de "
-        "celles de T0 s'il est donné. À partir d'un point qui "
-        "manque des conditions, celles-ci peuvent être abandonnées à un coût : DELTA0 (50) fois ce "
-        "que F peut varier sur l'étendue.",
         syntax="TAB1 = EXCE TAB1 ;",
         examples=(
             "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = 2. ; T . 'VF' = TABL ; "

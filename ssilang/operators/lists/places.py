@@ -43,18 +43,12 @@ _ITEM = {
     "LISTREEL": "FLOTTANT", "LISTENTI": "ENTIER", "LISTMOTS": "MOT", "LISTCHPO": "CHPOINT",
     "LISTOBJE": "*",
 }  # fmt: skip
-_PLACES = arg(
-    "places",
-    "ENTIER",
-    "LISTENTI",
-    en="place, or list of places, from 1",
-    fr="rang, ou liste de rangs, à partir de 1",
-)
-_LIST = main("value", *LISTS, en="list", fr="liste")
+_PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from 1")
+_LIST = main("value", *LISTS, en="list")
 
 
 def _list(kind: str) -> Argument:
-    return main("value", kind, en="list", fr="liste")
+    return main("value", kind, en="list")
 
 
 def _places(call: Call, size: int, places: Any) -> list[int]:
@@ -78,24 +72,20 @@ def _plain(item: Any) -> Any:
 
 
 @EXTR.form(
-    main("value", "LISTCHPO", en="list of fields", fr="liste de champs"),
-    key("taken", "VALE", optional=False, en="values at a point", fr="valeurs en un point"),
+    main("value", "LISTCHPO", en="list of fields"),
+    key("taken", "VALE", optional=False, en="values at a point"),
     opt(
         "names",
         "LISTMOTS",
         "MOT",
         en="components, all by default",
-        fr="composantes, toutes sinon",
         kind="component",
     ),
-    opt("point", "POINT", en="where", fr="où"),
+    opt("point", "POINT", en="where"),
     syntax="LREE1 = EXTR LCHP1 'VALE' (POIN1) (MOT1 | LMOT1) ;",
     en="Of a list of fields, with 'VALE': their values at a point, component by component (zero "
     "where a field does not stand on it; one that none stands on is refused). The point may be "
     "left out where all fields stand on a single one.",
-    fr="D'une liste de champs, avec 'VALE' : leurs valeurs en un point, composante par composante "
-    "(zéro où un champ ne s'y appuie pas ; un point qui n'en porte aucun est refusé). Le point "
-    "peut manquer si tous les champs s'appuient sur un seul.",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ; "
         "LIST (EXTR (SUIT C (2. * C)) 'VALE') ;",
@@ -138,8 +128,6 @@ EXTR.form(
     gives="FLOTTANT|LISTREEL",
     syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
     en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
-    fr="D'une liste : l'élément de rang N1 (à partir de 1), ou la liste des éléments de rangs "
-    "LENT1.",
     examples=("LIST (EXTR (PROG 5. 6. 7.) 2) ;", "LIST (EXTR (MOTS 'A' 'B' 'C') (LECT 3 1)) ;"),
 )(_extract)
 for _kind in LISTS[1:-1]:
@@ -148,10 +136,9 @@ for _kind in LISTS[1:-1]:
 
 @EXTR.form(
     _list("LISTOBJE"),
-    key("kind", "TYPE", optional=False, en="type of its objects", fr="type de ses objets"),
+    key("kind", "TYPE", optional=False, en="type of its objects"),
     syntax="MOT1 = EXTR LOBJ1 'TYPE' ;",
     en="Of a list of objects, with 'TYPE': the type of its objects, blank if it holds none.",
-    fr="D'une liste d'objets, avec 'TYPE' : le type de ses objets, blanc si elle est vide.",
     examples=("LIST (EXTR (ENUM 7 8) 'TYPE') ;",),
 )
 def _type_of_items(value: ListObje, kind: bool) -> Mot:
@@ -168,7 +155,6 @@ EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
     gives=Like("value"),
     syntax="LIS2 = ENLE LIS1 N1 | LENT1 ;",
     en="Of a list: without the items at places N1 or LENT1 (places before any removal).",
-    fr="D'une liste : sans les éléments de rangs N1 ou LENT1 (rangs avant toute suppression).",
     examples=("LIST (ENLE (LECT 4 5 6) 2) ;",),
 )
 def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
@@ -180,11 +166,10 @@ _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
 
 
 @ENLE.form(
-    main("places", "LISTENTI", en="places, before the list", fr="rangs, avant la liste"),
-    arg("value", *_OTHER_LISTS, en="list", fr="liste"),
+    main("places", "LISTENTI", en="places, before the list"),
+    arg("value", *_OTHER_LISTS, en="list"),
     gives=Like("value"),
     en="Places may stand before a list of another type.",
-    fr="Les rangs peuvent précéder une liste d'un autre type.",
     examples=("LIST (ENLE (LECT 1 3) (MOTS 'A' 'B' 'C')) ;",),
 )
 def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
@@ -194,7 +179,6 @@ def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
 @DIME.form(
     _LIST,
     en="Of a list: its number of items.",
-    fr="D'une liste : son nombre d'éléments.",
     examples=("LIST (DIME (PROG 1. 2. 3.)) ;",),
 )
 def _size(value: AnyList) -> int:
@@ -206,7 +190,6 @@ INSE = shared(
     "lists",
     Help(
         en="New list with an item put at place N1; those from there on move up.",
-        fr="Nouvelle liste avec un élément mis au rang N1 ; les suivants se décalent.",
         syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
         examples=(
             "LIST (INSE (PROG 1. 3.) 2 2.) ;",
@@ -237,8 +220,8 @@ def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
 for _kind, _item in _ITEM.items():
     INSE.form(
         _list(_kind),
-        arg("place", "ENTIER", en="place, from 1", fr="rang, à partir de 1"),
-        arg("item", _item, en="item to put there", fr="élément à y mettre"),
+        arg("place", "ENTIER", en="place, from 1"),
+        arg("item", _item, en="item to put there"),
         gives=_kind,
     )(_insert)
 
@@ -249,8 +232,6 @@ REMP = shared(
     Help(
         en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
         "word where each MOT2 is replaced by MOT3.",
-        fr="Remplace des éléments d'une liste sur place : tous les noms de la liste le voient. "
-        "D'un mot : un nouveau mot où chaque MOT2 est remplacé par MOT3.",
         syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
         examples=(
             "L = PROG 1. 2. 3. ; REMP L 2 9. ; LIST L ;",
@@ -282,15 +263,9 @@ def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> No
 
 def _replacing(kind: str) -> None:
     REMP.form(
-        arg("value", kind, en="list", fr="liste"),
+        arg("value", kind, en="list"),
         _PLACES,
-        arg(
-            "new",
-            _ITEM[kind],
-            kind,
-            en="item, or one for each place",
-            fr="élément, ou un par rang",
-        ),
+        arg("new", _ITEM[kind], kind, en="item, or one for each place"),
     )(_replace)
 
 
@@ -300,9 +275,9 @@ for _kind in ("LISTREEL", "LISTENTI"):
 
 
 @REMP.form(
-    arg("word", "MOT", en="word", fr="mot"),
-    arg("old", "MOT", "LISTMOTS", en="what is replaced", fr="ce qui est remplacé"),
-    arg("new", "MOT", "LISTMOTS", en="by what", fr="par quoi"),
+    arg("word", "MOT", en="word"),
+    arg("old", "MOT", "LISTMOTS", en="what is replaced"),
+    arg("new", "MOT", "LISTMOTS", en="by what"),
 )
 def _replace_in_word(call: Call, word: str, old: str | ListMots, new: str | ListMots) -> Mot:
     olds = list(old.values) if isinstance(old, ListMots) else [old]
@@ -324,14 +299,13 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
 
 @operator(
     "SOMM",
-    flag("running", "CUMU", en="partial sums", fr="sommes partielles"),
-    arg("value", "LISTREEL", "LISTENTI", en="values to sum", fr="valeurs à sommer"),
+    flag("running", "CUMU", en="partial sums"),
+    arg("value", "LISTREEL", "LISTENTI", en="values to sum"),
     gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",
     help=Help(
         en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
-        fr="Somme des valeurs d'une liste ; avec 'CUMU' la liste des sommes partielles.",
         syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
         examples=("LIST (SOMM (LECT 1 2 3)) ;", "LIST (SOMM 'CUMU' (PROG 1. 2. 3.)) ;"),
     ),
@@ -353,7 +327,6 @@ def somm(running: bool, value: ListReel | ListEnti) -> Any:
     gives=Like("value"),
     syntax="LIS2 = INVE LIS1 ;",
     en="Of a list: its items in reverse order.",
-    fr="D'une liste : ses éléments dans l'ordre inverse.",
     examples=("LIST (INVE (PROG 1. 2.)) ;",),
 )
 def _reverse(value: AnyList) -> Any:
@@ -365,7 +338,6 @@ def _reverse(value: AnyList) -> Any:
     gives=Like("value"),
     syntax="LIS2 = COPI LIS1 ;",
     en="Of a list: a list of its own, that REMP changes without changing the first.",
-    fr="D'une liste : une liste indépendante, que REMP change sans changer la première.",
     examples=("L = PROG 1. 2. ; M = COPI L ; REMP M 1 5. ; LIST L ;",),
 )
 def _copy(value: AnyList) -> Any:

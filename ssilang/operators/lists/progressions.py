@@ -30,30 +30,22 @@ _FREE = "its items, steps and repetitions stand in any order"
 def _items(kind: str) -> tuple[Entry, ...]:
     """What `_read_items` reads."""
     return (
-        many(
-            "items",
-            kind,
-            "LISTREEL",
-            "LISTENTI",
-            en="items, lists of them, or N * item",
-            fr="éléments, listes d'éléments, ou N * élément",
-        ),
+        many("items", kind, "LISTREEL", "LISTENTI", en="items, lists of them, or N * item"),
         key(
             "steps",
             "PAS",
             arg("step", kind),
             repeated=True,
             en="from the item before to the one behind by steps",
-            fr="de l'élément précédent au suivant par pas",
         ),
-        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps", fr="raison des pas"),
-        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps", fr="nombre de pas"),
+        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps"),
+        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps"),
     )
 
 
 _FACTORS = (
-    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default", fr="pente, 1 sinon"),
-    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default", fr="constante, 1 sinon"),
+    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default"),
+    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default"),
 )
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
@@ -250,17 +242,16 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "function",
         {
             "SINU": [
-                arg("frequency", "FLOTTANT", en="frequency", fr="fréquence", unit="Hz"),
-                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees", fr="phase, degrés"),
-                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude", fr="amplitude"),
+                arg("frequency", "FLOTTANT", en="frequency", unit="Hz"),
+                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees"),
+                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude"),
             ],
             "LINE": _FACTORS,
             "EXPO": _FACTORS,
             "LOGA": _FACTORS,
-            "TABL": [arg("table", "TABLE", en="numbers by integers", fr="nombres par entiers")],
+            "TABL": [arg("table", "TABLE", en="numbers by integers")],
         },
         en="a function of the items, or those of a table",
-        fr="une fonction des éléments, ou ceux d'une table",
     ),
     *_items("FLOTTANT"),
     family="lists",
@@ -269,10 +260,6 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "NPAS N gives N more values; GEOM R makes the steps grow by R; N * X repeats. SINU, LINE, "
         "EXPO, LOGA give a function of a list, TABL the numbers of a table in the order of its "
         "integer indices.",
-        fr="Liste de réels. A PAS S B va de A à B par pas voisins de S (ajustés pour finir sur B) "
-        "; NPAS N donne N valeurs de plus ; GEOM R fait croître les pas ; N * X répète. SINU, "
-        "LINE, EXPO, LOGA donnent une fonction d'une liste, TABL les nombres d'une table dans "
-        "l'ordre de ses indices entiers.",
         syntax="LREE1 = PROG X1 X2 ... (PAS S1 (GEOM R1) X3 | PAS S1 (GEOM R1) NPAS N1) "
         "(N2 * X4) ... ;\n"
         "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
@@ -347,8 +334,6 @@ def _function_of_list(call: Call, word: str) -> ListReel:
     help=Help(
         en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
         "values, N * I repeats.",
-        fr="Liste d'entiers. A PAS S B va de A à B par pas de S, NPAS N donne N valeurs de plus, "
-        "N * I répète.",
         syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
         examples=("LIST (LECT 1 PAS 2 9 3 * 0) ;",),
     ),
@@ -366,11 +351,10 @@ def lect(call: Call) -> ListEnti:
 
 @operator(
     "MOTS",
-    many("words", "MOT", "ENTIER", en="words, or N * word", fr="mots, ou N * mot"),
+    many("words", "MOT", "ENTIER", en="words, or N * word"),
     family="lists",
     help=Help(
         en="List of words; N * MOT1 repeats.",
-        fr="Liste de mots ; N * MOT1 répète.",
         syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
         examples=("LIST (MOTS 'UX' 2 * 'UY') ;",),
     ),
@@ -400,12 +384,11 @@ def mots(call: Call) -> ListMots:
 
 @operator(
     "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order", fr="champs, dans l'ordre"),
+    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
     family="lists",
     full_name="SUITE",
     help=Help(
         en="List of nodal fields.",
-        fr="Liste de champs par points.",
         syntax="LCHP1 = SUIT (CHPO1 CHPO2 ...) ;",
         examples=("OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (DIME (SUIT C C)) ;",),
     ),
@@ -420,13 +403,11 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
 
 @operator(
     "ENUM",
-    many("objects", en="objects of one type, or N * object", fr="objets d'un type, ou N * objet"),
+    many("objects", en="objects of one type, or N * object"),
     family="lists",
     help=Help(
         en="List of objects of one type; N * OBJ1 repeats, TABL takes those of a table in the "
         "order of its integer indices.",
-        fr="Liste d'objets d'un même type ; N * OBJ1 répète, TABL prend ceux d'une table dans "
-        "l'ordre de ses indices entiers.",
         syntax="LOBJ1 = ENUM (N1 *) OBJ1 (OBJ2 ...) ; LOBJ1 = ENUM 'TABL' TAB1 ;",
         examples=(
             "L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",

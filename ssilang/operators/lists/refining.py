@@ -27,17 +27,6 @@ RAFF = shared(
         "Nodes that then hang in the middle of an edge or a face of a coarser cell are held by "
         "SURE cells of the mesh (the node, then those that it follows; ELEM 'SURE' takes them); "
         "RELA with a model of the mesh makes the relations that tie them.",
-        "Une liste dont chaque intervalle est découpé : en N1 parts égales ; en parts de taille la "
-        "plus proche possible de FLOT1 ; ou, si N1 est négatif, en environ -N1 parts dont les "
-        "tailles vont géométriquement d'un intervalle au suivant. Les valeurs égales qui se "
-        "suivent "
-        "sont répétées de même.\n"
-        "Un maillage (SEG2 TRI3 QUA4 TET4 CUB8 PRI6) et un champ de tailles : les éléments sont "
-        "coupés en 2, 4 ou 8 tant qu'une arête dépasse la taille voulue, deux voisins différant "
-        "d'une coupe au plus. Les noeuds alors pendants au milieu d'une arête ou d'une face d'un "
-        "élément plus gros sont portés par des éléments SURE du maillage (le noeud, puis ceux "
-        "qu'il suit ; ELEM 'SURE' les prend) ; RELA d'un modèle du maillage fait les relations "
-        "qui les attachent.",
         "LREE2 = RAFF LREE1 N1 | FLOT1 ;\nGEO2 = RAFF GEO1 CHPO1 ;",
         (
             "LIST (RAFF (PROG 0. 1. 3.) 2) ; LIST (RAFF (PROG 0. 1. 3.) 0.5) ;",
@@ -48,22 +37,17 @@ RAFF = shared(
     ),
     full_name="RAFFINER",
 )
-_LIST = arg("value", "LISTREEL", en="list", fr="liste")
+_LIST = arg("value", "LISTREEL", en="list")
 
 RAFF.form(
-    arg("mesh", "MAILLAGE", en="mesh to refine", fr="maillage à raffiner"),
-    arg("sizes", "CHPOINT", en="sizes wanted", fr="tailles voulues", unit="m"),
+    arg("mesh", "MAILLAGE", en="mesh to refine"),
+    arg("sizes", "CHPOINT", en="sizes wanted", unit="m"),
 )(refined)
 
 
 @RAFF.form(
     _LIST,
-    arg(
-        "number",
-        "ENTIER",
-        en="parts of each interval, negative for graded ones",
-        fr="parts de chaque intervalle, négatif pour une progression",
-    ),
+    arg("number", "ENTIER", en="parts of each interval, negative for graded ones"),
 )
 def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
     values, lengths = _intervals(call, value)
@@ -75,7 +59,7 @@ def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
     return ListReel(_joined(values, _graded(lengths, -number)))
 
 
-@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted", fr="taille voulue"))
+@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted"))
 def _refined_by_size(call: Call, value: ListReel, size: float) -> ListReel:
     values, lengths = _intervals(call, value)
     if size <= 0.0:

@@ -19,17 +19,13 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE
         ("DIRE", "INVE", "IVIN"),
         default="DIRE",
         en="halved, or doubled with zeros or with means",
-        fr="réduit, ou doublé par des zéros ou des moyennes",
     ),
-    arg("values", "LISTREEL", en="samples", fr="échantillons"),
+    arg("values", "LISTREEL", en="samples"),
     family="lists",
     help=Help(
         en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
         "zero ('INVE') or the mean of the two neighbours ('IVIN') put after each value, up to an "
         "even length 2 n or, for odd n, 2 n - 1.",
-        fr="Une valeur sur deux d'une liste ('DIRE', par défaut), la première gardée ; ou une "
-        "liste avec un zéro ('INVE') ou la moyenne des deux voisines ('IVIN') après chaque "
-        "valeur, jusqu'à la longueur 2 n ou, pour n impair, 2 n - 1.",
         syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
         examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
     ),
@@ -49,14 +45,13 @@ def diad(way: str, values: ListReel) -> ListReel:
 
 @operator(
     "LTL",
-    arg("first", "LISTREEL", en="first list", fr="première liste"),
-    opt("second", "LISTREEL", en="second one, else the first", fr="seconde, sinon la première"),
-    opt("a", "FLOTTANT", default=1.0, en="factor", fr="facteur"),
-    opt("b", "FLOTTANT", default=1.0, en="second factor", fr="second facteur"),
+    arg("first", "LISTREEL", en="first list"),
+    opt("second", "LISTREEL", en="second one, else the first"),
+    opt("a", "FLOTTANT", default=1.0, en="factor"),
+    opt("b", "FLOTTANT", default=1.0, en="second factor"),
     family="lists",
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
-        fr="Produit scalaire de deux listes (ou d'une avec elle-même) fois deux nombres.",
         syntax="X1 = LTL LREEL1 (LREEL2) (X2 (X3)) ;",
         examples=("LIST (LTL (PROG 1. 2.) (PROG 3. 4.) 10.) ;",),
     ),
@@ -71,21 +66,19 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
 
 @operator(
     "CVOL",
-    arg("signal", "LISTREEL", en="signal", fr="signal"),
-    arg("response", "LISTREEL", en="response", fr="réponse"),
+    arg("signal", "LISTREEL", en="signal"),
+    arg("response", "LISTREEL", en="response"),
     key(
         "before",
         "NPNE",
         arg("n", "ENTIER", range=NOT_NEGATIVE),
         en="number of its values before 0; by default it is symmetric",
-        fr="nombre de ses valeurs avant 0 ; par défaut elle est symétrique",
     ),
     choice(
         "ends",
         ("SYME", "PADD"),
         default="SYME",
         en="beyond its ends the signal is mirrored, or zero",
-        fr="hors de ses bornes le signal est symétrique, ou nul",
     ),
     family="signals",
     help=Help(
@@ -93,10 +86,6 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         "signal k - j. The list gives the response for j = 0, 1 ... of a symmetric one, or with "
         "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
         "default) or zero ('PADD').",
-        fr="Convolution d'un signal avec une réponse : la valeur k est la somme sur j de la "
-        "réponse j fois le signal k - j. La liste donne la réponse pour j = 0, 1 ... si elle est "
-        "symétrique, ou avec 'NPNE' N1 toute la réponse depuis j = -N1. Hors de ses bornes le "
-        "signal est pris symétrique ('SYME', par défaut) ou nul ('PADD').",
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
         examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),
@@ -154,18 +143,14 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         },
         optional=False,
         en="which function",
-        fr="quelle fonction",
     ),
-    arg("values", "LISTREEL", en="arguments", fr="arguments"),
+    arg("values", "LISTREEL", en="arguments"),
     family="lists",
     full_name="FONCTION",
     help=Help(
         en="Special functions of the values of a list: Bessel's J0 J1 Y0 Y1 ('BESSEL'), Fresnel's "
         "integrals of cos(t)/sqrt(2 pi t) ('FRESNEL' 'CX') or sin(t)/sqrt(2 pi t) ('SX') from 0 "
         "to x, the gamma function ('GAMMA').",
-        fr="Fonctions spéciales des valeurs d'une liste : J0 J1 Y0 Y1 de Bessel ('BESSEL'), "
-        "intégrales de Fresnel de cos(t)/sqrt(2 pi t) ('FRESNEL' 'CX') ou sin(t)/sqrt(2 pi t) "
-        "('SX') de 0 à x, fonction gamma ('GAMMA').",
         syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
         examples=(
@@ -191,13 +176,11 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
 
 @operator(
     "ZLEG",
-    arg("degree", "ENTIER", en="degree", fr="degré"),
+    arg("degree", "ENTIER", en="degree"),
     family="lists",
     help=Help(
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
         "polynomial of degree N1 and the two ends, and their weights: N1 + 1 of each.",
-        fr="Points de Gauss-Lobatto sur (-1, 1) : les zéros de la dérivée du polynôme de Legendre "
-        "de degré N1 et les deux bouts, et leurs poids : N1 + 1 de chaque.",
         syntax="LREEL1 LREEL2 = ZLEG N1 ;",
         examples=("X W = ZLEG 2 ; LIST X ; LIST W ;",),
     ),

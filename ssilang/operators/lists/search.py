@@ -51,20 +51,17 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
 
 @operator(
     "POSI",
-    lead("item", en="what is looked for", fr="ce que l'on cherche"),
+    lead("item", en="what is looked for"),
     key(
         "where",
         "DANS",
         arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE"),
         optional=False,
         en="where it is looked for",
-        fr="où on le cherche",
     ),
-    flag("every", "TOUS", en="all places", fr="tous les rangs"),
-    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
-    opt(
-        "tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance", fr="tolérance absolue"
-    ),
+    flag("every", "TOUS", en="all places"),
+    flag("fold", "NOCA", en="whatever the case"),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
     gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
@@ -72,9 +69,6 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
         en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
         "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
         "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
-        fr="Rang d'un élément dans une liste (d'un mot dans un mot, d'un point dans un maillage de "
-        "points), 0 s'il n'y est pas. 'TOUS' donne tous les rangs ; une liste d'éléments donne le "
-        "premier rang de chacun. 'NOCA' ignore la casse ; un réel final est la tolérance absolue.",
         syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
         examples=(
             "LIST (POSI 'B' 'DANS' (MOTS 'A' 'B')) ;",
@@ -168,22 +162,15 @@ def without_doubles(
 
 
 _ORDER = (
-    choice(
-        "order",
-        ("CROI", "DECR"),
-        default="CROI",
-        en="increasing or decreasing",
-        fr="croissant ou décroissant",
-    ),
-    flag("absolute", "ABSO", en="by absolute values", fr="selon les valeurs absolues"),
-    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    choice("order", ("CROI", "DECR"), default="CROI", en="increasing or decreasing"),
+    flag("absolute", "ABSO", en="by absolute values"),
+    flag("fold", "NOCA", en="whatever the case"),
 )
 _DISTINCT = key(
     "distinct",
     "UNIQ",
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0),
     en="without doubles, within a tolerance",
-    fr="sans doublons, à une tolérance près",
 )
 _COST = (
     key(
@@ -192,17 +179,11 @@ _COST = (
         arg("costs", "LISTREEL", "LISTENTI"),
         optional=False,
         en="cost of each item at each place",
-        fr="coût de chaque élément à chaque rang",
     ),
-    choice(
-        "method",
-        ("HONG", "COMP"),
-        en="changes nothing: the best is found",
-        fr="sans effet : le meilleur est trouvé",
-    ),
+    choice("method", ("HONG", "COMP"), en="changes nothing: the best is found"),
 )
-_SORTED = main("value", *SORTABLE, en="list to sort by", fr="liste qui règle le tri")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it", fr="listes qui la suivent")
+_SORTED = main("value", *SORTABLE, en="list to sort by")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it")
 
 
 @ORDO.form(
@@ -236,9 +217,6 @@ def _sort_by_cost(
     en="Of lists: increasing order ('DECR': decreasing), 'ABSO' by absolute values, 'NOCA' "
     "whatever the case, 'UNIQ' without doubles; further lists follow the first one's order. "
     "'COUT' gives the least total cost, then the lists in the permutation that has it.",
-    fr="De listes : ordre croissant ('DECR' : décroissant), 'ABSO' selon les valeurs absolues, "
-    "'NOCA' sans égard à la casse, 'UNIQ' sans doublons ; les autres listes suivent l'ordre de la "
-    "première. 'COUT' donne le moindre coût total, puis les listes dans la permutation qui l'a.",
     examples=(
         "LIST (ORDO (PROG 3. 1. 2.) 'DECR') ;",
         "A B = ORDO (LECT 2 1) (MOTS 'X' 'Y') ; LIST B ;",
@@ -282,15 +260,15 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     return costs[rows, order].sum().item(), [int(i) for i in order]
 
 
-_TABLE = main("table", "TABLE", en="table of lists", fr="table de listes")
-_INDEX_EN, _INDEX_FR = "index of the list to sort by", "indice de la liste qui règle le tri"
+_TABLE = main("table", "TABLE", en="table of lists")
+_INDEX_EN = "index of the list to sort by"
 
 
 @ORDO.form(
     _TABLE,
     *_COST,
     *_ORDER,
-    opt("index", en="changes nothing: all lists follow", fr="sans effet : toutes suivent"),
+    opt("index", en="changes nothing: all lists follow"),
     gives=ANY,
     syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
     examples=(
@@ -312,17 +290,15 @@ def _sort_table_by_cost(
 
 
 # an index may be spelt like a keyword: it is one where no other index stands
-@ORDO.form(_TABLE, lead("index", en=_INDEX_EN, fr=_INDEX_FR), *_ORDER, _DISTINCT)
+@ORDO.form(_TABLE, lead("index", en=_INDEX_EN), *_ORDER, _DISTINCT)
 @ORDO.form(
     _TABLE,
     *_ORDER,
     _DISTINCT,
-    arg("index", en=_INDEX_EN, fr=_INDEX_FR),
+    arg("index", en=_INDEX_EN),
     syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
     en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
     "list.",
-    fr="D'une table de listes : toutes triées comme la liste d'indice OBJ1 ; 'UNIQ' si elle est "
-    "la seule liste.",
     examples=(
         "T = TABL ; T . 'UNIQ' = PROG 3. 1. 2. 1. ;\nT = ORDO T 'UNIQ' 'UNIQ' ;\n"
         "LIST (T . 'UNIQ') ; T = ORDO T 'UNIQ' ; LIST (T . 'UNIQ') ;",
@@ -360,23 +336,14 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
 
 
 @UNIQ.form(
-    main("value", *SORTABLE, "MAILLAGE", en="list, or mesh", fr="liste, ou maillage"),
-    many("others", *SORTABLE, "MAILLAGE", en="further ones", fr="d'autres"),
-    opt(
-        "tolerance",
-        "FLOTTANT",
-        range=NOT_NEGATIVE,
-        en="absolute tolerance of reals",
-        fr="tolérance absolue des réels",
-    ),
-    flag("fold", "NOCA", en="whatever the case", fr="sans égard à la casse"),
+    main("value", *SORTABLE, "MAILLAGE", en="list, or mesh"),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones"),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
+    flag("fold", "NOCA", en="whatever the case"),
     gives=Like("value", ("others",)),
     syntax="OBJ3 (OBJ4 ...) = UNIQ OBJ1 (OBJ2 ...) (FLOT1) ('NOCA') ;",
     en="Of lists and meshes: without doubles, the first ones kept; as many results as operands. "
     "Cells are doubles on the same nodes, whatever their order and colour.",
-    fr="De listes et de maillages : sans doublons, les premiers sont gardés ; autant de résultats "
-    "que d'opérandes. Des éléments aux mêmes noeuds sont des doublons, quels que soient leur ordre "
-    "et leur couleur.",
     examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ; A B = UNIQ (PROG 1. 1.) (LECT 2 2) ; LIST B ;",),
 )
 def _unique(

@@ -151,12 +151,9 @@ _EXTRACTED: dict[str, Callable[[Matrix, Chosen], Mesh | Matrix | ListMots | Node
 
 
 _PART = choice(
-    "part",
-    ("NOMU", "MULT", "UNIL"),
-    en="without multipliers, of conditions, or of unilateral ones",
-    fr="sans multiplicateurs, des conditions, ou des seules unilatérales",
+    "part", ("NOMU", "MULT", "UNIL"), en="without multipliers, of conditions, or of unilateral ones"
 )
-_MATRIX = main("matrix", "RIGIDITE", en="matrix", fr="rigidité")
+_MATRIX = main("matrix", "RIGIDITE", en="matrix")
 
 
 @EXTR.form(
@@ -166,7 +163,7 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix", fr="rigidité")
         {
             "MAIL": [_PART],
             "RIGI": [_PART],
-            "COMP": [flag("dual", "DUAL", en="of the equations", fr="des équations")],
+            "COMP": [flag("dual", "DUAL", en="of the equations")],
             "DIAG": [],
             "SYME": [],
             "ANTI": [],
@@ -174,8 +171,6 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix", fr="rigidité")
         optional=False,
         en="mesh, matrices or conditions, names of unknowns, diagonal, symmetric or "
         "antisymmetric part",
-        fr="maillage, matrices ou conditions, noms d'inconnues, diagonale, partie symétrique ou "
-        "antisymétrique",
     ),
     gives=by("what", {"MAIL": "MAILLAGE", "COMP": "LISTMOTS", "DIAG": "CHPOINT"}, "RIGIDITE"),
     syntax="GEO1 = EXTR RIG1 'MAIL' ('NOMU' | 'MULT' | 'UNIL') ;\n"
@@ -185,9 +180,6 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix", fr="rigidité")
     en="Of a matrix: its mesh (without or with only the nodes of multipliers), its element "
     "matrices or its conditions, its symmetric or antisymmetric part, the names of its unknowns, "
     "its diagonal, or the terms of some unknowns and equations.",
-    fr="D'une rigidité : son maillage (sans les multiplicateurs, ou eux seuls), ses matrices "
-    "élémentaires ou ses conditions, sa partie symétrique ou antisymétrique, les noms de ses "
-    "inconnues, sa diagonale, ou les termes de certaines inconnues et équations.",
     examples=("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (EXTR (APPU UX 2. P1) 'DIAG') ;",),
 )
 def extract(call: Call, matrix: Matrix, what: Chosen) -> Mesh | Matrix | ListMots | NodeField:
@@ -199,8 +191,8 @@ def extract(call: Call, matrix: Matrix, what: Chosen) -> Mesh | Matrix | ListMot
 
 @EXTR.form(
     _MATRIX,
-    arg("unknowns", "LISTMOTS", en="unknowns", fr="inconnues"),
-    arg("equations", "LISTMOTS", en="equations", fr="équations"),
+    arg("unknowns", "LISTMOTS", en="unknowns"),
+    arg("equations", "LISTMOTS", en="equations"),
 )
 def extract_terms(matrix: Matrix, unknowns: ListMots, equations: ListMots) -> Matrix:
     """The terms of some unknowns and equations."""
@@ -210,8 +202,8 @@ def extract_terms(matrix: Matrix, unknowns: ListMots, equations: ListMots) -> Ma
 
 @EXTR.form(
     _MATRIX,
-    arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
-    opt("equation", "MOT", kind="component", en="equation", fr="équation"),
+    arg("unknown", "MOT", kind="component", en="unknown"),
+    opt("equation", "MOT", kind="component", en="equation"),
 )
 def extract_term(call: Call, matrix: Matrix, unknown: str, equation: str | None) -> Matrix:
     """The terms of one unknown and one equation."""
@@ -222,29 +214,26 @@ def extract_term(call: Call, matrix: Matrix, unknown: str, equation: str | None)
 
 @REDU.form(
     _MATRIX,
-    arg("mesh", "MAILLAGE", en="cells that stay", fr="éléments gardés"),
+    arg("mesh", "MAILLAGE", en="cells that stay"),
     syntax="RIG2 = REDU RIG1 GEO1 ;",
     en="A matrix keeps the element matrices of the cells of the mesh, and the conditions on its "
     "nodes.",
-    fr="Une rigidité garde les matrices des éléments du maillage, et les conditions portant sur "
-    "ses nœuds.",
 )
 def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
     """A matrix on fewer cells."""
     return parts.on_mesh(matrix, mesh)
 
 
-_CHANGED = arg("matrix", "RIGIDITE", en="matrix", fr="rigidité")
+_CHANGED = arg("matrix", "RIGIDITE", en="matrix")
 
 
 @CHAN.form(
     said("TYPE"),
     _CHANGED,
-    arg("kind", "MOT", en="its new kind", fr="son nouveau sous-type"),
+    arg("kind", "MOT", en="its new kind"),
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'TYPE' RIG1 MOT1 ;",
     en="The same matrix of another kind ('RIGIDITE', 'MASSE', 'AMORTISS').",
-    fr="La même matrice avec un autre sous-type ('RIGIDITE', 'MASSE', 'AMORTISS').",
 )
 def change_kind(matrix: Matrix, kind: str) -> Matrix:
     """Another kind."""
@@ -259,8 +248,6 @@ def change_kind(matrix: Matrix, kind: str) -> Matrix:
     of=("RIGIDITE",),
     syntax="RIG2 = CHAN 'DEPE' RIG1 ;",
     en="Relations to be eliminated by RESO: RESO eliminates all it can, so they stay as they are.",
-    fr="Relations à éliminer par RESO : RESO les élimine toujours quand il le peut, elles restent "
-    "telles quelles.",
 )
 def dependent(matrix: Matrix) -> Matrix:
     """The matrix itself."""
@@ -269,20 +256,12 @@ def dependent(matrix: Matrix) -> Matrix:
 
 @CHAN.form(
     said("COND"),
-    arg(
-        "matrix",
-        "RIGIDITE",
-        en="relations, alone or with a stiffness",
-        fr="relations, seules ou avec une rigidité",
-    ),
+    arg("matrix", "RIGIDITE", en="relations, alone or with a stiffness"),
     of=("RIGIDITE",),
     syntax="RIG2 RIG3 = CHAN 'COND' RIG1 ;",
     en="COND gives of relations the matrix of dependence T, which gives all unknowns of RIG1 by "
     "those that the relations leave free (CHPO * RIG2, CMCT), and the one that condenses forces "
     "(CHPO * RIG3). Unknowns that RIG1 does not have stay out of both products.",
-    fr="COND rend la matrice de dépendance T de relations, qui donne toutes les inconnues de RIG1 "
-    "par celles que les relations laissent libres (CHPO * RIG2, CMCT), et celle qui condense des "
-    "forces (CHPO * RIG3). Les inconnues absentes de RIG1 restent hors des deux produits.",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; C = RELA 2. 'UX' P '-' 1. 'UX' Q ; "
         "T D = CHAN 'COND' C ; LIST ((MANU 'CHPO' Q 1 'UX' 6.) * T) ; "
@@ -295,36 +274,20 @@ def condensing(matrix: Matrix) -> tuple[Matrix, Matrix]:
 
 
 _SHAPE = (
-    choice(
-        "shape",
-        ("SYME", "ANTI", "QUEL"),
-        en="symmetric, antisymmetric or any (default)",
-        fr="symétrique, antisymétrique ou quelconque (par défaut)",
-    ),
-    flag(
-        "own",
-        "DUPL",
-        en="each condition gets a multiplier of its own",
-        fr="chaque condition reçoit son propre multiplicateur",
-    ),
+    choice("shape", ("SYME", "ANTI", "QUEL"), en="symmetric, antisymmetric or any (default)"),
+    flag("own", "DUPL", en="each condition gets a multiplier of its own"),
 )
 _FOUR = (
-    ("old_unknowns", "unknowns", "inconnues"),
-    ("new_unknowns", "their new names", "leurs nouveaux noms"),
-    ("old_equations", "equations", "équations"),
-    ("new_equations", "their new names", "leurs nouveaux noms"),
+    ("old_unknowns", "unknowns"),
+    ("new_unknowns", "their new names"),
+    ("old_equations", "equations"),
+    ("new_equations", "their new names"),
 )
 
 
 @CHAN.form(
     said("INCO"),
-    choice(
-        "imaginary",
-        ("COMP",),
-        optional=False,
-        en="an I (imaginary part) before all names",
-        fr="un I (partie imaginaire) devant tous les noms",
-    ),
+    choice("imaginary", ("COMP",), optional=False, en="an I (imaginary part) before all names"),
     _CHANGED,
     *_SHAPE,
     of=("RIGIDITE",),
@@ -335,11 +298,6 @@ _FOUR = (
     " 'COMP' puts an I (imaginary part) before all of them, if there are no "
     "conditions. The result counts as unsymmetric unless 'SYME' is said. 'DUPL' gives each "
     "condition a multiplier of its own, so that it stands beside that from which it is made.",
-    fr="Change les noms des inconnues (deux premières listes : anciens, nouveaux) et des équations "
-    "(deux dernières) d'une rigidité (ou anciens noms dans les deux premières listes, nouveaux "
-    "dans les deux dernières) ; 'COMP' met un I (partie imaginaire) devant tous, s'il n'y a "
-    "pas de condition. Le résultat est quelconque sauf si 'SYME' est dit. 'DUPL' donne à chaque "
-    "condition son propre multiplicateur, pour qu'elle s'ajoute à celle dont elle vient.",
 )
 def imaginary_names(
     call: Call, imaginary: bool, matrix: Matrix, shape: str | None, own: bool
@@ -355,7 +313,7 @@ def imaginary_names(
 @CHAN.form(
     said("INCO"),
     _CHANGED,
-    *(arg(name, "LISTMOTS", en=en, fr=fr) for name, en, fr in _FOUR),
+    *(arg(name, "LISTMOTS", en=en) for name, en in _FOUR),
     *_SHAPE,
     of=("RIGIDITE",),
 )
@@ -378,7 +336,7 @@ def other_names(
 @CHAN.form(
     said("INCO"),
     _CHANGED,
-    *(arg(name, "MOT", kind="component", en=en, fr=fr) for name, en, fr in _FOUR),
+    *(arg(name, "MOT", kind="component", en=en) for name, en in _FOUR),
     *_SHAPE,
     of=("RIGIDITE",),
 )
@@ -439,12 +397,11 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
 
 @operator(
     "XTMX",
-    arg("field", "CHPOINT", en="X", fr="X"),
-    arg("matrix", "RIGIDITE", en="M", fr="M"),
+    arg("field", "CHPOINT", en="X"),
+    arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
     help=Help(
         "Quadratic form X^T M X of a field and a matrix.",
-        "Forme quadratique X^T M X d'un champ et d'une rigidité.",
         "X1 = XTMX CHPO1 RIG1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 1 'UX' 3. ;"
@@ -458,13 +415,12 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
 
 @operator(
     "YTMX",
-    arg("right", "CHPOINT", en="X", fr="X"),
-    arg("left", "CHPOINT", en="Y", fr="Y"),
-    arg("matrix", "RIGIDITE", en="M", fr="M"),
+    arg("right", "CHPOINT", en="X"),
+    arg("left", "CHPOINT", en="Y"),
+    arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
     help=Help(
         "Bilinear form Y^T M X of two fields (X first) and a matrix.",
-        "Forme bilinéaire Y^T M X de deux champs (X d'abord) et d'une rigidité.",
         "X1 = YTMX CHPO1 CHPO2 RIG1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 1 'UX' 3. ;"
@@ -478,12 +434,11 @@ def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
 
 @operator(
     "DIMN",
-    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    arg("matrix", "RIGIDITE", en="matrix"),
     family="matrix",
     full_name="DIMNOYAU",
     help=Help(
         en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
-        fr="Dimension du noyau d'une rigidité avec ses relations : le nombre de mouvements libres.",
         syntax="N1 = DIMN RIG1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 1 (0. 0.) (1. 0.) ; S = TRAN 1 L (0. 1.) ; "
@@ -498,9 +453,8 @@ def dimn(matrix: Matrix) -> int:
 
 
 @DIME.form(
-    main("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    main("matrix", "RIGIDITE", en="matrix"),
     en="Of a matrix: its number of unknowns.",
-    fr="D'une rigidité : son nombre d'inconnues.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
         "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "

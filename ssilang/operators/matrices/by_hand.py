@@ -21,35 +21,18 @@ from ssilang.operators.matrices.supports import nodes_of
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 
 
-_KIND = key(
-    "kind",
-    "TYPE",
-    arg("word", "MOT"),
-    en="kind, such as RIGIDITE (default) or MASSE",
-    fr="sous-type, comme RIGIDITE (par défaut) ou MASSE",
-)
+_KIND = key("kind", "TYPE", arg("word", "MOT"), en="kind, such as RIGIDITE (default) or MASSE")
 
 
 def _sign(words: Sequence[str]) -> Keyword:
-    return choice(
-        "sign",
-        words,
-        en="symmetric, antisymmetric or any",
-        fr="symétrique, antisymétrique ou quelconque",
-    )
+    return choice("sign", words, en="symmetric, antisymmetric or any")
 
 
 @MANU.form(
     said("RIGIDITE"),
     _KIND,
-    arg("support", "MAILLAGE", "POINT", en="cells", fr="éléments"),
-    key(
-        "dual",
-        "DUAL",
-        many("names", "LISTMOTS", at_least=1),
-        en="names of the equations",
-        fr="noms des équations",
-    ),
+    arg("support", "MAILLAGE", "POINT", en="cells"),
+    key("dual", "DUAL", many("names", "LISTMOTS", at_least=1), en="names of the equations"),
     _sign(("ANTI", "QUEL")),
     many(
         "primal",
@@ -57,26 +40,14 @@ def _sign(words: Sequence[str]) -> Keyword:
         at_least=1,
         kind="component",
         en="unknowns of a node, or one list a node",
-        fr="inconnues d'un noeud, ou une liste par noeud",
     ),
-    many(
-        "rows",
-        "LISTREEL",
-        at_least=1,
-        en="terms row by row, all or the lower triangle",
-        fr="termes ligne par ligne, tous ou le triangle inférieur",
-    ),
+    many("rows", "LISTREEL", at_least=1, en="terms row by row, all or the lower triangle"),
     syntax="RIG1 = MANU 'RIGI' ('TYPE' MOT1) GEO1 LMOT1 ... ('DUAL' LMOT2 ...) ('ANTI' | 'QUEL') "
     "LREEL1 ... ;",
     en="Matrix by hand. The same element matrix on all cells of a mesh: names of the unknowns of a "
     "node (or one list a node), then its terms row by row, all or the lower triangle, in one list "
     "or one a row. A field gives a diagonal, or the column (row) of one unknown. A list of fields "
     "gives the columns of a matrix on modal unknowns.",
-    fr="Rigidité fabriquée à la main. La même matrice sur tous les éléments d'un maillage : noms "
-    "des inconnues d'un nœud (ou une liste par nœud), puis ses termes ligne par ligne, tous ou le "
-    "triangle inférieur, en une liste ou une par ligne. Un champ donne une diagonale, ou la "
-    "colonne (ligne) d'une inconnue. Une liste de champs donne les colonnes d'une matrice sur des "
-    "inconnues modales.",
     examples=(
         "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ;"
         " M1 = MANU 'RIGI' 'TYPE' 'MASSE' P1 (MOTS 'UX' 'UY') (PROG 3. 0. 3.) ;"
@@ -109,7 +80,7 @@ def repeated(
 
 @MANU.form(
     said("RIGIDITE"),
-    choice("shape", ("COLO", "LIGN"), optional=False, en="column or row", fr="colonne ou ligne"),
+    choice("shape", ("COLO", "LIGN"), optional=False, en="column or row"),
     _KIND,
     _sign(tuple(_SIGN)),
     key(
@@ -117,12 +88,11 @@ def repeated(
         ("DUAL", "PRIM"),
         arg("name", "MOT", kind="component"),
         en="its equation, or its unknown",
-        fr="son équation, ou son inconnue",
     ),
-    arg("field", "CHPOINT", en="terms", fr="termes"),
-    arg("point", "POINT", en="node of the unknown", fr="noeud de l'inconnue"),
-    arg("name", "MOT", kind="component", en="unknown or equation", fr="inconnue ou équation"),
-    many("lists", "LISTMOTS", en="other names of the field", fr="autres noms du champ"),
+    arg("field", "CHPOINT", en="terms"),
+    arg("point", "POINT", en="node of the unknown"),
+    arg("name", "MOT", kind="component", en="unknown or equation"),
+    many("lists", "LISTMOTS", en="other names of the field"),
     of=("CHPOINT",),
     syntax="RIG1 = MANU 'RIGI' CHPO1 'COLO' | 'LIGN' ('SYME' | 'ANTI' | 'QUEL') P1 MOT2 "
     "('DUAL' | 'PRIM' MOT3) (LMOT1 LMOT2) ('TYPE' MOT1) ;",
@@ -153,8 +123,8 @@ def one_column(
 @MANU.form(
     said("RIGIDITE"),
     _KIND,
-    flag("diagonal", "DIAG", en="a diagonal", fr="une diagonale"),
-    arg("field", "CHPOINT", en="terms of the diagonal", fr="termes de la diagonale"),
+    flag("diagonal", "DIAG", en="a diagonal"),
+    arg("field", "CHPOINT", en="terms of the diagonal"),
     of=("CHPOINT",),
     syntax="RIG1 = MANU 'RIGI' CHPO1 ('DIAG') ('TYPE' MOT1) ;",
 )
@@ -166,8 +136,8 @@ def diagonal(kind: str | None, diagonal: bool, field: NodeField) -> Matrix:
 @MANU.form(
     said("RIGIDITE"),
     _KIND,
-    arg("fields", "LISTCHPO", en="columns", fr="colonnes"),
-    arg("mesh", "MAILLAGE", en="points of the modes", fr="points des modes"),
+    arg("fields", "LISTCHPO", en="columns"),
+    arg("mesh", "MAILLAGE", en="points of the modes"),
     of=("LISTCHPO",),
     syntax="RIG1 = MANU 'RIGI' LCHPO1 GEO1 ('TYPE' MOT1) ;",
 )
@@ -179,11 +149,9 @@ def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
 
 @MANU.form(
     said("SUPE", "MULT"),
-    many("places", "POINT", "MAILLAGE", at_least=1, en="points", fr="points"),
+    many("places", "POINT", "MAILLAGE", at_least=1, en="points"),
     syntax="GEO1 = MANU 'SUPE' | 'MULT' P1 (P2 ...) | GEO2 ;",
     en="'SUPE' and 'MULT' make one cell of all the points given, to carry a matrix by hand.",
-    fr="'SUPE' et 'MULT' font un seul élément de tous les points donnés, support d'une rigidité "
-    "manuelle.",
     examples=(
         "OPTI DIME 2 ; G1 = MANU 'SUPE' (0. 0.) (1. 0.) (2. 0.) ; LIST (NBEL G1) ;"
         " R1 = MANU 'RIGI' G1 (MOTS 'ALFA') (PROG 1. 0. 2. 0. 0. 3.) ;",

@@ -12,14 +12,13 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "CABL",
-    arg("mesh", "MAILLAGE", en="cables", fr="câbles"),
-    arg("force", "FLOTTANT", en="force", fr="force", unit="N"),
-    arg("percent", "FLOTTANT", en="lengthening under it", fr="son allongement", unit="%"),
+    arg("mesh", "MAILLAGE", en="cables"),
+    arg("force", "FLOTTANT", en="force", unit="N"),
+    arg("percent", "FLOTTANT", en="lengthening under it", unit="%"),
     family="matrix",
     full_name="CABLE",
     help=Help(
         en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
-        fr="Rigidité de câbles (SEG2) dont la force est X1 à un allongement de X2 pour cent.",
         syntax="RIG1 = CABL GEO1 X1 X2 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; "

@@ -12,16 +12,13 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
 
 @operator(
     "CMCT",
-    arg("matrix", "RIGIDITE", en="relations C", fr="relations C"),
-    arg("diagonal", "CHPOINT", en="M^-1", fr="M^-1"),
+    arg("matrix", "RIGIDITE", en="relations C"),
+    arg("diagonal", "CHPOINT", en="M^-1"),
     family="matrix",
     help=Help(
         en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
         "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
         "without the unknowns that the relations give by the others.",
-        fr="Condensation. Avec des relations C et un champ contenant l'inverse d'une diagonale "
-        "M : la matrice C M^-1 C^T sur les multiplicateurs LX. Avec une matrice K et des "
-        "relations : la matrice sans les inconnues que les relations donnent par les autres.",
         syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
         examples=(
             _TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
@@ -41,12 +38,9 @@ def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
 
 
 @cmct.form(
-    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    arg("matrix", "RIGIDITE", en="matrix"),
     arg(
-        "relations",
-        "RIGIDITE",
-        en="relations, or the first matrix that CHAN 'COND' makes of them",
-        fr="relations, ou la première matrice que CHAN 'COND' en fait",
+        "relations", "RIGIDITE", en="relations, or the first matrix that CHAN 'COND' makes of them"
     ),
 )
 def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:

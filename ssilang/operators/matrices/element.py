@@ -66,40 +66,22 @@ def nodes_of(place: Mesh | Point) -> IntArray:
     return np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
 
 
-MODEL = arg("model", "MMODEL", en="model", fr="modèle")
-PARAMETERS = many(
-    "fields",
-    "MCHAML",
-    at_least=1,
-    en="parameters, or Hooke matrices",
-    fr="caractéristiques, ou matrices de Hooke",
-)
+MODEL = arg("model", "MMODEL", en="model")
+PARAMETERS = many("fields", "MCHAML", at_least=1, en="parameters, or Hooke matrices")
 _IGNORED = (
-    flag("alone", "NOER", en="accepted, changes nothing", fr="accepté, sans effet"),
-    flag("reference", "REFE", en="accepted, changes nothing", fr="accepté, sans effet"),
+    flag("alone", "NOER", en="accepted, changes nothing"),
+    flag("reference", "REFE", en="accepted, changes nothing"),
 )
-_BUCKLING = flag(
-    "buckling",
-    "FLAM",
-    en="of type MASSE, for an analysis of buckling with VIBR",
-    fr="de type MASSE, pour une analyse de flambage avec VIBR",
-)
+_BUCKLING = flag("buckling", "FLAM", en="of type MASSE, for an analysis of buckling with VIBR")
 _AT_NODES = (
     key(
         "names",
         ("DEPL", "ROTA", *UNKNOWNS),
         repeated=True,
         en="all translations (default), all rotations, or unknowns",
-        fr="toutes les translations (par défaut), toutes les rotations, ou des inconnues",
     ),
-    arg(
-        "amount",
-        "FLOTTANT",
-        usual=NOT_NEGATIVE,
-        en="value at each node",
-        fr="valeur en chaque noeud",
-    ),
-    arg("place", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+    arg("amount", "FLOTTANT", usual=NOT_NEGATIVE, en="value at each node"),
+    arg("place", "MAILLAGE", "POINT", en="nodes"),
 )
 _OF_SPRINGS = tuple(  # negative ones stand for the moment of a weight
     replace(entry, usual=ANY_NUMBER) if isinstance(entry, Argument) else entry
@@ -133,10 +115,6 @@ def _additional(
         en="Stiffness matrix: of a model with its parameters (or Hooke matrices and geometric "
         "parameters), or springs added at nodes: 'DEPL' on all translations, 'ROTA' on all "
         "rotations, or on the named unknowns; every node gets the whole value.",
-        fr="Matrice de rigidité : d'un modèle avec ses paramètres (ou des matrices de Hooke et "
-        "les caractéristiques géométriques), ou raideurs ajoutées aux noeuds : 'DEPL' sur toutes "
-        "les translations, 'ROTA' sur toutes les rotations, ou sur les inconnues nommées ; "
-        "chaque noeud reçoit toute la valeur.",
         syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\n"
         "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=(
@@ -199,9 +177,6 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
         en="Mass matrix: consistent one of a model with its parameters (RHO), or masses added at "
         "nodes: 'DEPL' on all translations, 'ROTA' inertia on all rotations, or on the named "
         "unknowns; every node gets the whole value.",
-        fr="Matrice de masse : cohérente d'un modèle avec ses paramètres (RHO), ou masses "
-        "ajoutées aux noeuds : 'DEPL' sur toutes les translations, 'ROTA' inertie sur toutes les "
-        "rotations, ou sur les inconnues nommées ; chaque noeud reçoit toute la valeur.",
         syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\n"
         "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
         examples=(
@@ -243,9 +218,6 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
         en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
         "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
         "list keep their diagonal term).",
-        fr="Matrice de masse diagonale : d'un modèle (somme des lignes pour les éléments "
-        "linéaires, diagonale mise à l'échelle de la masse pour les autres), ou d'une matrice "
-        "pleine (somme des lignes ; les inconnues de la liste gardent leur terme diagonal).",
         syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",
@@ -266,14 +238,8 @@ def lump(
 
 
 @lump.form(
-    arg("matrix", "RIGIDITE", en="full mass", fr="masse pleine"),
-    opt(
-        "kept",
-        "LISTMOTS",
-        kind="component",
-        en="unknowns that keep their diagonal term",
-        fr="inconnues qui gardent leur terme diagonal",
-    ),
+    arg("matrix", "RIGIDITE", en="full mass"),
+    opt("kept", "LISTMOTS", kind="component", en="unknowns that keep their diagonal term"),
 )
 def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
     """Diagonal mass of a full one."""
@@ -283,7 +249,7 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
 @operator(
     "AMOR",
     MODEL,
-    arg("boundary", "MAILLAGE", en="absorbing boundary", fr="frontière absorbante"),
+    arg("boundary", "MAILLAGE", en="absorbing boundary"),
     PARAMETERS,
     *_IGNORED,
     family="matrix",
@@ -294,12 +260,6 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
         "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
         "translations, 'ROTA' on all rotations, or on the named unknowns. 'COROTATIF': damping "
         "that turns with beams at OMEG about their axis, with the circulatory stiffness beside it.",
-        fr="Matrice d'amortissement : d'un modèle dont les paramètres ont la viscosité VISQ "
-        "(rigidité dont VISQ est le module) ; de la frontière absorbante GEO1 d'un modèle "
-        "(Lysmer : RHO VP selon la normale, RHO VS en travers, d'après YOUN NU RHO) ; ou "
-        "amortisseurs ajoutés aux noeuds : 'DEPL' sur toutes les translations, 'ROTA' sur "
-        "toutes les rotations, ou sur les inconnues nommées. 'COROTATIF' : amortissement qui "
-        "tourne avec des poutres à OMEG autour de leur axe, avec la raideur circulatoire.",
         syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
         "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
         "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
@@ -336,13 +296,7 @@ def amor(
 
 
 @amor.form(
-    choice(
-        "turning",
-        ("COROTATIF",),
-        optional=False,
-        en="the damping turns with the beams",
-        fr="l'amortissement tourne avec les poutres",
-    ),
+    choice("turning", ("COROTATIF",), optional=False, en="the damping turns with the beams"),
     MODEL,
     PARAMETERS,
     *_IGNORED,
@@ -391,8 +345,6 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
     help=Help(
         en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
         "take it in the place of the parameters.",
-        fr="Champ des matrices de Hooke d'un modèle, composante MAHO ; RIGI, SIGM et ELAS "
-        "l'acceptent à la place des paramètres.",
         syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
@@ -416,22 +368,13 @@ def hook(
 @operator(
     "KSIG",
     MODEL,
-    many(
-        "fields",
-        "MCHAML",
-        at_least=1,
-        en="stresses, and parameters",
-        fr="contraintes, et caractéristiques",
-    ),
+    many("fields", "MCHAML", at_least=1, en="stresses, and parameters"),
     _BUCKLING,
     family="matrix",
     full_name="KSIGMA",
     help=Help(
         en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
         "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
-        fr="Rigidité géométrique d'un champ de contraintes ; avec 'FLAM' elle a le type MASSE que "
-        "veut VIBR : faite avec les contraintes opposées, ses valeurs propres sont les facteurs "
-        "de charge critique.",
         syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
@@ -450,13 +393,13 @@ def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool
     return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")
 
 
-_WHOLE = flag("whole", "ASYM", en="the unsymmetric part too", fr="aussi la partie non symétrique")
+_WHOLE = flag("whole", "ASYM", en="the unsymmetric part too")
 
 
 @operator(
     "KP",
     MODEL,
-    arg("pressure", "CHPOINT", "MCHAML", en="pressure", fr="pression", unit="Pa"),
+    arg("pressure", "CHPOINT", "MCHAML", en="pressure", unit="Pa"),
     _BUCKLING,
     _WHOLE,
     family="matrix",
@@ -465,10 +408,6 @@ _WHOLE = flag("whole", "ASYM", en="the unsymmetric part too", fr="aussi la parti
         "(follower pressure): derivative of the nodal forces, symmetric part unless 'ASYM'. The "
         "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
         "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
-        fr="Variation des forces d'une pression quand les faces qui la portent bougent et tournent "
-        "(pression suiveuse) : dérivée des forces nodales, partie symétrique sauf avec 'ASYM'. La "
-        "pression, champ par points ou par éléments, est positive selon les normales propres des "
-        "faces. 'FLAM' donne le type MASSE pour une analyse de flambage avec VIBR.",
         syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
         examples=(
             "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 2 (1. 0.) (1. 1.) ; "
@@ -491,24 +430,15 @@ def kp(
         "modulus",
         "FLOTTANT",
         en="gradient of the pressure",
-        fr="gradient de la pression",
         unit="N/m3",
     ),
-    opt(
-        "direction",
-        "POINT",
-        en="its direction, else the sides' normals",
-        fr="sa direction, sinon les normales des faces",
-    ),
+    opt("direction", "POINT", en="its direction, else the sides' normals"),
     _BUCKLING,
     _WHOLE,
     syntax="RIG1 = KP MODL1 X1 (VEC1) ('FLAM') ('ASYM') ;",
     en="With a number X1: of a pressure that grows by X1 for each unit of way along VEC1, the "
     "change of forces as the sides move in it. Without VEC1 it grows along the sides' own normals: "
     "springs of X1 for each unit of area (Winkler's soil).",
-    fr="Avec un nombre X1 : d'une pression qui croît de X1 par unité de chemin selon VEC1, la "
-    "variation des forces quand les faces s'y déplacent. Sans VEC1 elle croît selon les normales "
-    "propres des faces : des ressorts de X1 par unité d'aire (sol de Winkler).",
     examples=(
         "OPTI DIME 3 MODE TRID ELEM TRI3 ; S = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
         "M = MODE S MECANIQUE DKT ; U = MANU 'CHPO' S 1 'UZ' 1. ; LIST (XTMX U (KP M 3.)) ; "

@@ -12,29 +12,18 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 @operator(
     "MFIL",
-    arg("weights", "CHPOINT", en="weight of each node", fr="poids de chaque noeud"),
-    opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", fr="rayon", unit="m"),
-    opt("power", "FLOTTANT", default=1.0, en="power", fr="puissance"),
-    opt(
-        "least",
-        "FLOTTANT",
-        range=NOT_NEGATIVE,
-        default=0.0,
-        en="least weight kept",
-        fr="plus petit poids gardé",
-    ),
-    opt("unknown", "MOT", kind="component", en="unknown, else SCAL", fr="inconnue, sinon SCAL"),
-    opt("dual", "MOT", kind="component", en="dual, else the same", fr="duale, sinon la même"),
+    arg("weights", "CHPOINT", en="weight of each node"),
+    opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
+    opt("power", "FLOTTANT", default=1.0, en="power"),
+    opt("least", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
+    opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
+    opt("dual", "MOT", kind="component", en="dual, else the same"),
     family="matrix",
     help=Help(
         en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
         "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
         "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
         "(SCAL) and the dual (the same).",
-        fr="Rigidité dont le produit par un champ par points le lisse : chaque noeud prend la "
-        "moyenne de ses voisins à moins de X1, pondérée par (1 - d / X1) ** X2 et par le champ "
-        "CHPO1 (les volumes des noeuds, par exemple) ; les poids non supérieurs à X3 sont omis. "
-        "Les mots nomment l'inconnue (SCAL) et la duale (la même).",
         syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (4. 0.) ; X = COOR 1 L ; "

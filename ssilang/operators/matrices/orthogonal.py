@@ -19,29 +19,20 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
 
 @operator(
     "ORTH",
-    flag(
-        "alike",
-        "SEMBLABLE",
-        en="the fields have the same nodes and components",
-        fr="les champs ont les mêmes noeuds et composantes",
-    ),
-    arg("field", "CHPOINT", en="field X", fr="champ X"),
-    arg("shapes", "LISTCHPO", en="fields U", fr="champs U"),
-    arg("norms", "LISTREEL", en="products U K U", fr="produits U K U"),
-    opt("loaded", "LISTCHPO", en="fields K U", fr="champs K U"),
-    arg("matrix", "RIGIDITE", en="matrix K", fr="rigidité K"),
-    opt("precision", "FLOTTANT", range=POSITIVE, en="precision", fr="précision"),
-    opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most", fr="passages au plus"),
+    flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
+    arg("field", "CHPOINT", en="field X"),
+    arg("shapes", "LISTCHPO", en="fields U"),
+    arg("norms", "LISTREEL", en="products U K U"),
+    opt("loaded", "LISTCHPO", en="fields K U"),
+    arg("matrix", "RIGIDITE", en="matrix K"),
+    opt("precision", "FLOTTANT", range=POSITIVE, en="precision"),
+    opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most"),
     family="matrix",
     full_name="ORTHOGONALISER",
     help=Help(
         en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
         "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
         "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
-        fr="Champ rendu orthogonal, au sens d'une rigidité K, aux champs U d'une liste qui le sont "
-        "entre eux : X - somme (X K U) / (U K U) U. La liste de réels contient les U K U ; une "
-        "seconde liste de champs peut contenir les K U. Une précision demande d'autres passages, "
-        "N1 au plus.",
         syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
         examples=(
             _TWO + "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; X = MANU 'CHPO' (P ET Q) 1 'UX' "

@@ -11,14 +11,12 @@ from ssilang.language.values import ListChpo, ListReel
 
 @operator(
     "ZXXT",
-    arg("fields", "LISTCHPO", en="fields v", fr="champs v"),
-    arg("factors", "LISTREEL", en="numbers a", fr="nombres a"),
+    arg("fields", "LISTCHPO", en="fields v"),
+    arg("factors", "LISTREEL", en="numbers a"),
     family="matrix",
     help=Help(
         en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
         "M_DAMPIN and M_DAMP_K.",
-        fr="Matrice pleine d'amortissement a1 v1 v1T + a2 v2 v2T + ... de champs v et de nombres "
-        "a, pour M_DAMPIN et M_DAMP_K.",
         syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
         examples=(
             "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
@@ -34,14 +32,12 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
 
 @operator(
     "XXT",
-    arg("field", "CHPOINT", en="v", fr="v"),
-    opt("factor", "FLOTTANT", default=1.0, en="a", fr="a"),
+    arg("field", "CHPOINT", en="v"),
+    opt("factor", "FLOTTANT", default=1.0, en="a"),
     family="matrix",
     help=Help(
         en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
         "all its nodes.",
-        fr="Rigidité a v v^T d'un champ par points v (forces, ou déplacements) : un seul "
-        "superélément plein sur tous ses noeuds.",
         syntax="RIG1 = XXT CHPO1 (X1) ;",
         examples=(
             "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "

@@ -123,25 +123,14 @@ def _consume(call: Call) -> None:
 # --- a field of coefficients -----------------------------------------------------------------
 
 
-_SIDE = choice(
-    "sense",
-    tuple(_SENSE),
-    en="the sum stays at or above the value, or at or below",
-    fr="la somme reste supérieure ou égale à la valeur, ou inférieure ou égale",
-)
+_SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, or at or below")
 
 
 @operator(
     "RELA",
-    arg("field", "CHPOINT", en="factors of the unknowns", fr="facteurs des inconnues"),
+    arg("field", "CHPOINT", en="factors of the unknowns"),
     _SIDE,
-    key(
-        "dual",
-        "DUAL",
-        arg("field", "CHPOINT"),
-        en="force on the body for a multiplier of one",
-        fr="force sur le corps pour un multiplicateur égal à un",
-    ),
+    key("dual", "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"),
     family="relations",
     full_name="RELATION",
     help=Help(
@@ -155,16 +144,6 @@ _SIDE = choice(
         "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
         "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
         "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
-        "Relations linéaires, à ajouter à la matrice d'un système ; DEPI donne leur valeur "
-        "(0 par défaut). Une somme de termes fait une relation par nœud des maillages (de même "
-        "nombre de nœuds, ou d'un seul) ; avec 'MINI' la somme reste supérieure ou égale à la "
-        "valeur, avec 'MAXI' inférieure ou égale. Un champ fait une relation, ses valeurs fois "
-        "les inconnues du même nom ; 'DUAL' donne le champ de la réaction. 'CORI' : corps rigide ; "
-        "'DEPL' garde les distances de ses nœuds, qui ne sont pas coplanaires ; 'DEPL' 'ROTA' le "
-        "lie à un centre qui tourne, premier nœud de GEO1 (poutres, coques, ou un point à part), "
-        "GEO2 étant ceux de ses nœuds qui n'ont pas de rotations. 'ENSE' : même valeur partout, "
-        "'ACCRO' : nœuds accrochés aux éléments qui les contiennent, "
-        "'GLIS' : de même sauf le long de la ligne, 'MILI' : nœuds milieux.",
         "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
         "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
@@ -222,7 +201,7 @@ def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
 
 
 @rela.form(
-    arg("model", "MMODEL", en="model with hanging nodes", fr="modèle à noeuds pendants"),
+    arg("model", "MMODEL", en="model with hanging nodes"),
     _SIDE,
     syntax="RIG1 = RELA MODL1 ;",
 )
@@ -234,43 +213,34 @@ def of_hanging_nodes(call: Call, model: Model, sense: str | None) -> Matrix | No
 # --- options ---------------------------------------------------------------------------------
 
 
-_UNKNOWNS = opt(
-    "words",
-    "LISTMOTS",
-    kind="component",
-    en="unknowns, else all displacements",
-    fr="inconnues, sinon tous les déplacements",
-)
+_UNKNOWNS = opt("words", "LISTMOTS", kind="component", en="unknowns, else all displacements")
 _TOLERANCE = opt(
     "tolerance",
     "FLOTTANT",
     range=NOT_NEGATIVE,
     default=1e-5,
     en="how far outside of a cell a node counts, relative to the cell",
-    fr="distance à un élément à laquelle un noeud compte encore, relative à l'élément",
 )
-_GUEST = arg("guest", "MAILLAGE", "POINT", en="nodes to tie", fr="noeuds à attacher")
-_HOST = arg("host", "MAILLAGE", en="cells that hold them", fr="éléments qui les tiennent")
+_GUEST = arg("guest", "MAILLAGE", "POINT", en="nodes to tie")
+_HOST = arg("host", "MAILLAGE", en="cells that hold them")
 
 
 @rela.form(
     said("CORI"),
-    choice("turning", ("ROTA",), optional=False, en="nodes that turn", fr="noeuds qui tournent"),
-    flag("moving", "DEPL", en="nodes that move", fr="noeuds qui se déplacent"),
-    flag("unchecked", "NOVERIF", en="accepted", fr="accepté"),
+    choice("turning", ("ROTA",), optional=False, en="nodes that turn"),
+    flag("moving", "DEPL", en="nodes that move"),
+    flag("unchecked", "NOVERIF", en="accepted"),
     arg(
         "mesh",
         "MAILLAGE",
         "POINT",
         en="GEO1: nodes of the body that have rotations, or its centre; the first carries it",
-        fr="GEO1 : noeuds du corps qui ont des rotations, ou son centre ; le premier le porte",
     ),
     opt(
         "rest",
         "MAILLAGE",
         "POINT",
         en="GEO2: its nodes without rotations, such as the side of a solid",
-        fr="GEO2 : ses noeuds sans rotations, comme la face d'un massif",
     ),
     syntax="RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;",
 )
@@ -292,18 +262,12 @@ def rigid_with_rotations(
 
 @rela.form(
     said("CORI"),
-    flag("moving", "DEPL", en="nodes that move", fr="noeuds qui se déplacent"),
-    flag(
-        "unchecked",
-        "NOVERIF",
-        en="without a check that the nodes hold the body",
-        fr="sans vérifier que les noeuds tiennent le corps",
-    ),
+    flag("moving", "DEPL", en="nodes that move"),
+    flag("unchecked", "NOVERIF", en="without a check that the nodes hold the body"),
     arg(
         "mesh",
         "MAILLAGE",
         en="GEO1: the body, four nodes not in a plane or more (in the plane three not on a line)",
-        fr="GEO1 : le corps, au moins quatre noeuds non coplanaires (trois non alignés en plan)",
     ),
 )
 def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
@@ -315,8 +279,8 @@ def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
 
 @rela.form(
     said("ENSE"),
-    arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
-    arg("mesh", "MAILLAGE", en="nodes", fr="noeuds"),
+    arg("unknown", "MOT", kind="component", en="unknown"),
+    arg("mesh", "MAILLAGE", en="nodes"),
     syntax="RIG1 = RELA 'ENSE' MOT1 GEO1 ;",
 )
 def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
@@ -329,9 +293,9 @@ def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
 
 @rela.form(
     said("ACCRO"),
-    choice("strong", ("FORT",), optional=False, en="onto a model", fr="sur un modèle"),
-    arg("host", "MMODEL", en="model that holds them", fr="modèle qui les tient"),
-    arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie", fr="noeuds à attacher"),
+    choice("strong", ("FORT",), optional=False, en="onto a model"),
+    arg("host", "MMODEL", en="model that holds them"),
+    arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie"),
     syntax="RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;",
 )
 def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model | Point) -> Matrix:
@@ -375,7 +339,7 @@ def _unknowns(call: Call, words: ListMots | None) -> tuple[str, ...]:
 @rela.form(
     said("MILI"),
     _UNKNOWNS,
-    arg("mesh", "MAILLAGE", en="quadratic cells", fr="éléments quadratiques"),
+    arg("mesh", "MAILLAGE", en="quadratic cells"),
     syntax="RIG1 = RELA 'MILI' (LISTMOTS1) GEO1 ;",
 )
 def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
@@ -389,9 +353,9 @@ def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
     _SIDE,
     each(
         "terms",
-        opt("factor", "FLOTTANT", en="factor", fr="facteur"),
-        arg("unknown", "MOT", kind="component", en="unknown", fr="inconnue"),
-        arg("support", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+        opt("factor", "FLOTTANT", en="factor"),
+        arg("unknown", "MOT", kind="component", en="unknown"),
+        arg("support", "MAILLAGE", "POINT", en="nodes"),
     ),
     by_hand="its terms are signs, numbers, words and meshes in any order",
 )

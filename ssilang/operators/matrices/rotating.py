@@ -20,17 +20,12 @@ _SHAFT = (
 )
 
 
-_VECTOR = opt("vector", "POINT", en="rotation vector", fr="vecteur rotation", unit="rad/s")
+_VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
 
 
 @operator(
     "KENT",
-    choice(
-        "what",
-        ("CENTRIFUGE", "EULER"),
-        en="for the rotation vector, or for its rate",
-        fr="pour le vecteur rotation, ou pour sa dérivée",
-    ),
+    choice("what", ("CENTRIFUGE", "EULER"), en="for the rotation vector, or for its rate"),
     MODEL,
     PARAMETERS,
     _VECTOR,
@@ -42,12 +37,6 @@ _VECTOR = opt("vector", "POINT", en="rotation vector", fr="vecteur rotation", un
         "bars, beams and pipes (whose mass stands on their line), shells (on their surface). In "
         "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
         "(1 without a vector).",
-        fr="Raideur d'un corps dans un repère tournant, à ajouter à celle de ses éléments : "
-        "'CENTRIFUGE' pour le vecteur rotation w (rho w x (w x u), négative en travers de l'axe), "
-        "'EULER' pour la dérivée du vecteur (rho dw/dt x u, antisymétrique). Massifs, barres, "
-        "poutres et tuyaux (dont la masse est sur la ligne), coques (sur la surface). En "
-        "axisymétrie et Fourier : 'CENTRIFUGE' autour de l'axe, par la seconde composante du "
-        "vecteur (1 sans vecteur).",
         syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
         examples=(_SHAFT.format("") + "LIST (EXTR (KENT 'CENTRIFUGE' M A (0 0 3)) 'DIAG') ;",),
     ),
@@ -84,7 +73,7 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
 
 @operator(
     "CORI",
-    flag("harmonic", "HARM", en="not available", fr="non disponible"),
+    flag("harmonic", "HARM", en="not available"),
     MODEL,
     PARAMETERS,
     _VECTOR,
@@ -94,9 +83,6 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
         en="Coriolis' forces in a frame that turns at the vector w, as an antisymmetric damping: "
         "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
         "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
-        fr="Forces de Coriolis dans un repère qui tourne au vecteur w, comme un amortissement "
-        "antisymétrique : 2 rho w x v. La raideur centrifuge de KENT l'accompagne. Massifs, "
-        "barres, poutres et tuyaux (dont la masse est sur la ligne), coques (sur la surface).",
         syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
         examples=(_SHAFT.format("") + "LIST (TYPE (CORI M A (0 0 3))) ;",),
     ),
@@ -127,9 +113,6 @@ def cori(
         en="Gyroscopic coupling of beams that turn about their own axis at the speed OMEG (rad/s, "
         "a parameter), in a fixed frame: an antisymmetric matrix on the velocities, counted as a "
         "damping.",
-        fr="Couplage gyroscopique de poutres qui tournent autour de leur axe à la vitesse OMEG "
-        "(rad/s, une caractéristique), en repère fixe : une matrice antisymétrique sur les "
-        "vitesses, comptée comme un amortissement.",
         syntax="RIG1 = GYRO MODL1 MAT1 ;",
         examples=(_SHAFT.format("'OMEG' 3.") + "LIST (TYPE (GYRO M A)) ;",),
     ),

@@ -40,18 +40,6 @@ SUPE = shared(
         "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters asked "
         "for feel, the conditions in the matrix holding; with 'LCHP' the displacement of the body "
         "for a unit of each of them comes first.",
-        "Super-éléments. 'RIGIDITE' : la rigidité d'un corps condensée sur des inconnues "
-        "maîtresses "
-        ": toutes les inconnues aux noeuds d'un maillage, celles d'une autre matrice, ou les "
-        "composantes d'un champ. Les conditions que contient la matrice restent sur la matrice "
-        "condensée, leurs inconnues étant aussi maîtresses : on peut donc les charger par DEPI et "
-        "elles peuvent être unilatérales ; avec 'NOMU' elles jouent à l'intérieur. EXTR SUP1 "
-        "'RIGI' "
-        "donne la rigidité condensée. 'CHARGE' : les efforts sur les maîtres équivalents aux "
-        "efforts sur le corps. 'DEPLA' : le déplacement de tout le corps à partir de celui des "
-        "maîtres et de ses efforts ('NOER' est accepté). 'MASSE' : la masse vue par les maîtres "
-        "demandés, les conditions de la matrice étant tenues ; avec 'LCHP' vient d'abord le "
-        "déplacement du corps pour une unité de chacun d'eux.",
         "SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
         "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
         "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
@@ -74,19 +62,14 @@ SUPE = shared(
         ),
     ),
 )
-_ELEMENT = arg("element", "SUPERELE", en="super-element", fr="super-élément")
-_ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing", fr="accepté, sans effet")
+_ELEMENT = arg("element", "SUPERELE", en="super-element")
+_ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing")
 
 
 @SUPE.form(
     said("RIGIDITE"),
-    flag(
-        "inside",
-        "NOMU",
-        en="the conditions of the matrix hold inside",
-        fr="les conditions de la matrice jouent à l'intérieur",
-    ),
-    arg("matrix", "RIGIDITE", en="stiffness of the body", fr="rigidité du corps"),
+    flag("inside", "NOMU", en="the conditions of the matrix hold inside"),
+    arg("matrix", "RIGIDITE", en="stiffness of the body"),
     arg(
         "chosen",
         "MAILLAGE",
@@ -94,7 +77,6 @@ _ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing", fr="accepté, 
         "CHPOINT",
         "POINT",
         en="masters: nodes, unknowns of a matrix or components of a field",
-        fr="maîtres : noeuds, inconnues d'une rigidité ou composantes d'un champ",
     ),
 )
 def stiffness(
@@ -107,9 +89,7 @@ def stiffness(
     return condense(matrix, nodes, inside)
 
 
-@SUPE.form(
-    said("CHARGE"), _ELEMENT, arg("load", "CHPOINT", en="loads on the body", fr="charges du corps")
-)
+@SUPE.form(said("CHARGE"), _ELEMENT, arg("load", "CHPOINT", en="loads on the body"))
 def load(element: SuperElement, load: NodeField) -> NodeField:
     """Loads on the masters."""
     return condensed_load(element, load)
@@ -119,8 +99,8 @@ def load(element: SuperElement, load: NodeField) -> NodeField:
     said("DEPLA"),
     _ACCEPTED,
     _ELEMENT,
-    arg("masters", "CHPOINT", en="displacement of the masters", fr="déplacement des maîtres"),
-    opt("load", "CHPOINT", en="loads on the body", fr="charges du corps"),
+    arg("masters", "CHPOINT", en="displacement of the masters"),
+    opt("load", "CHPOINT", en="loads on the body"),
 )
 def displacement(
     alone: bool, element: SuperElement, masters: NodeField, load: NodeField | None
@@ -131,14 +111,9 @@ def displacement(
 
 @SUPE.form(
     said("MASSE"),
-    flag(
-        "shapes",
-        "LCHP",
-        en="the displacement for a unit of each master first",
-        fr="d'abord le déplacement pour une unité de chaque maître",
-    ),
+    flag("shapes", "LCHP", en="the displacement for a unit of each master first"),
     _ELEMENT,
-    arg("mass", "RIGIDITE", en="mass of the body", fr="masse du corps"),
+    arg("mass", "RIGIDITE", en="mass of the body"),
     gives=by("shapes", {True: ("LISTCHPO", "RIGIDITE")}, "RIGIDITE"),
 )
 def mass(shapes: bool, element: SuperElement, mass: Matrix) -> Matrix | tuple[ListChpo, Matrix]:
@@ -156,19 +131,16 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
 
 
 @EXTR.form(
-    main("element", "SUPERELE", en="super-element", fr="super-élément"),
+    main("element", "SUPERELE", en="super-element"),
     choice(
         "what",
         tuple(_PARTS),
         en="condensed stiffness, stiffness, conditions or mesh of the masters",
-        fr="rigidité condensée, rigidité, conditions ou maillage des maîtres",
     ),
     gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"),
     syntax="RIG1 = EXTR SUP1 'RIGI' | 'RIGT' | 'BLOQ' ;\nGEO1 = EXTR SUP1 'ELEM' ;",
     en="Of a super-element: its condensed stiffness, the stiffness of the whole body, the "
     "conditions in it, or the mesh of its masters.",
-    fr="D'un super-élément : sa rigidité condensée, la rigidité du corps entier, les conditions "
-    "qu'elle contient, ou le maillage de ses maîtres.",
 )
 def extract(call: Call, element: SuperElement, what: str | None) -> Matrix | Mesh:
     """A part of a super-element."""

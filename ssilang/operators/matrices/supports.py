@@ -33,8 +33,8 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
-IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "dans le plan")
-IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space", "en dimension 3")
+IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
+IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space")
 
 
 def nodes_of(support: Point | Mesh) -> IntArray:
@@ -59,45 +59,34 @@ def warn_of_foreign(call: Call, unknowns: Sequence[str]) -> None:
         call.warn("operators.matrices.foreign-unknown", names=foreign, own=own, mode=mode.value)
 
 
-_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
-_ON_AXIS = arg("on_axis", "POINT", en="second point of the axis", fr="second point de l'axe")
+_CENTRE = arg("centre", "POINT", en="centre")
+_ON_AXIS = arg("on_axis", "POINT", en="second point of the axis")
 
 
 def _held(*centre: Argument) -> tuple[Entry, ...]:
     """What BLOQ and APPU read to know unknowns and directions; points of RADI and ORTHO."""
     return (
         choice(
-            "sense",
-            tuple(_SENSE),
-            en="the unknowns stay at or above the value, or at or below",
-            fr="les inconnues restent supérieures ou égales à la valeur, ou inférieures ou égales",
+            "sense", tuple(_SENSE), en="the unknowns stay at or above the value, or at or below"
         ),
-        key(
-            "groups",
-            ("DEPL", "ROTA"),
-            repeated=True,
-            en="all displacements, all rotations",
-            fr="tous les déplacements, toutes les rotations",
-        ),
+        key("groups", ("DEPL", "ROTA"), repeated=True, en="all displacements, all rotations"),
         key(
             "direction",
             "DIRECTION",
             arg("vector", "POINT", "CHPOINT"),
             en="along a vector, or a field of vectors",
-            fr="selon un vecteur, ou un champ de vecteurs",
         ),
         key(
             "polar",
             ("RADIAL", "ORTHO"),
             *centre,
             en="along or across the line from a centre (2D) or an axis (3D)",
-            fr="selon le rayon depuis un centre (2D) ou un axe (3D), ou perpendiculairement",
         ),
-        many("unknowns", "MOT", "LISTMOTS", kind="component", en="unknowns", fr="inconnues"),
+        many("unknowns", "MOT", "LISTMOTS", kind="component", en="unknowns"),
     )
 
 
-_SUPPORT = arg("support", "MAILLAGE", "POINT", en="nodes", fr="noeuds")
+_SUPPORT = arg("support", "MAILLAGE", "POINT", en="nodes")
 
 
 class _Held:
@@ -184,11 +173,6 @@ class _Held:
         "they stay at or above it, with 'MAXI' at or below. 'DEPL' and 'ROTA' name all "
         "displacements and rotations of the mode; 'DIRE' holds along a vector (or a field of "
         "vectors), 'RADI' and 'ORTHO' along or across the line from a point (2D) or an axis (3D).",
-        "Bloque des inconnues aux nœuds d'un maillage : à zéro, ou à la valeur donnée par DEPI. "
-        "Avec 'MINI' elles restent supérieures ou égales à cette valeur, avec 'MAXI' inférieures "
-        "ou égales. 'DEPL' et 'ROTA' désignent tous les déplacements et rotations du mode ; "
-        "'DIRE' bloque selon un vecteur (ou un champ de vecteurs), 'RADI' et 'ORTHO' selon le "
-        "rayon ou perpendiculairement, depuis un point (2D) ou un axe (3D).",
         "RIG1 = BLOQ ('MINI' | 'MAXI') MOT1 (MOT2 ...) | LISTMOTS1 GEO1 ;\n"
         "RIG1 = BLOQ ('DEPL') ('ROTA') ('DIRE' VEC1 | CHPO1) GEO1 ;\n"
         "RIG1 = BLOQ 'RADI' | 'ORTHO' P1 (P2) GEO1 ;\n"
@@ -238,7 +222,7 @@ def static_links(table: Table) -> list[tuple[Table, Point, str]]:
     return found  # type: ignore[return-value]
 
 
-@bloq.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+@bloq.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
 def bloq_of_table(call: Call, table: Table) -> Matrix:
     """Conditions of a table of static links."""
     ws = workspace(call.session)
@@ -263,25 +247,15 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         "mixed",
         "RELA",
         en="the field SCAL gives the value of relations between unknowns of one node",
-        fr="le champ SCAL donne la valeur de relations entre inconnues d'un même noeud",
     ),
-    arg("matrix", "RIGIDITE", en="conditions", fr="conditions"),
-    arg(
-        "value",
-        "FLOTTANT",
-        "CHPOINT",
-        en="one value for all, or a field of the held unknowns",
-        fr="une valeur pour toutes, ou un champ des inconnues bloquées",
-    ),
+    arg("matrix", "RIGIDITE", en="conditions"),
+    arg("value", "FLOTTANT", "CHPOINT", en="one value for all, or a field of the held unknowns"),
     family="relations",
     full_name="DEPIMPOSE",
     help=Help(
         "Values imposed on conditions made by BLOQ, RELA ...: one number for all, or a field of "
         "the held unknowns. With 'RELA' a field SCAL gives the value of relations between unknowns "
         "of one node. Add the result to the second member of RESO.",
-        "Valeurs imposées aux conditions de BLOQ, RELA ... : un nombre pour toutes, ou un champ "
-        "des inconnues bloquées. Avec 'RELA' un champ SCAL donne la valeur de relations entre "
-        "inconnues d'un même nœud. Le résultat s'ajoute au second membre de RESO.",
         "CHPO1 = DEPI RIG1 FLOT1 | CHPO2 | 'RELA' CHPO3 ;\nDEPI TAB1 ;  (LIAISONS_STATIQUES)",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'UX' P1 ;"
@@ -305,7 +279,7 @@ def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> N
     return fill(matrix.relations, value)
 
 
-@depi.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+@depi.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
 def depi_of_table(call: Call, table: Table) -> None:
     """Values of one on the conditions of a table of static links."""
     for entry, _, _ in static_links(table):
@@ -321,24 +295,14 @@ def depi_of_table(call: Call, table: Table) -> None:
 def _plane(points: int) -> tuple[Entry, ...]:
     """What SYMT and ANTI read: points of a line or plane, then nodes."""
     return (
-        key(
-            "groups",
-            ("DEPL", "ROTA"),
-            repeated=True,
-            en="displacements, rotations",
-            fr="déplacements, rotations",
-        ),
-        *(
-            arg(f"p{i + 1}", "POINT", en="point of the symmetry", fr="point de la symétrie")
-            for i in range(points)
-        ),
-        arg("mesh", "MAILLAGE", "POINT", en="nodes", fr="noeuds"),
+        key("groups", ("DEPL", "ROTA"), repeated=True, en="displacements, rotations"),
+        *(arg(f"p{i + 1}", "POINT", en="point of the symmetry") for i in range(points)),
+        arg("mesh", "MAILLAGE", "POINT", en="nodes"),
         opt(
             "tolerance",
             "FLOTTANT",
             range=NOT_NEGATIVE,
             en="distance up to which a node counts, else a tenth of the density",
-            fr="distance de sélection, sinon un dixième de la densité",
             unit="m",
         ),
     )
@@ -384,9 +348,6 @@ _PLANE_EXAMPLE = (
         "Conditions of symmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): no "
         "displacement across it ('DEPL'), no rotation about axes in it ('ROTA'). FLOT1 is the "
         "distance up to which a node counts (default a tenth of the density).",
-        "Conditions de symétrie aux nœuds du maillage situés sur une droite (2D) ou un plan (3D) : "
-        "pas de déplacement à travers ('DEPL'), pas de rotation autour d'axes du plan ('ROTA'). "
-        "FLOT1 est la distance de sélection (par défaut un dixième de la densité).",
         _PLANE_SYNTAX.format("SYMT"),
         (
             _PLANE_EXAMPLE.format("SYMT"),
@@ -414,8 +375,6 @@ symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
     help=Help(
         "Conditions of antisymmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): "
         "no displacement within it, no rotation about its normal.",
-        "Conditions d'antisymétrie aux nœuds du maillage situés sur une droite (2D) ou un plan "
-        "(3D) : pas de déplacement dans le plan, pas de rotation autour de sa normale.",
         _PLANE_SYNTAX.format("ANTI"),
         (
             _PLANE_EXAMPLE.format("ANTI"),
@@ -437,7 +396,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", fr="raideur de chacun")
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each")
 
 
 @operator(
@@ -451,8 +410,6 @@ _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", fr="raideur de
     help=Help(
         "Linear springs to the ground at the nodes of a mesh, on the unknowns named or along a "
         "direction (as in BLOQ), of stiffness FLOT1 each.",
-        "Ressorts linéaires vers le sol aux nœuds d'un maillage, sur les inconnues nommées ou "
-        "selon une direction (comme BLOQ), de raideur FLOT1 chacun.",
         "RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 'UY' 1.E6 P1 ;",

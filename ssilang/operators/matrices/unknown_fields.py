@@ -20,19 +20,16 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "values",
         {
             "ALEATOIRE": [],
-            "UNIFORME": [arg("value", "FLOTTANT", en="value", fr="valeur")],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value")],
         },
         en="random, or the same everywhere",
-        fr="aléatoires, ou la même partout",
     ),
-    arg("matrix", "RIGIDITE", en="matrix", fr="rigidité"),
+    arg("matrix", "RIGIDITE", en="matrix"),
     family="fields",
     full_name="CHPOINT",
     help=Help(
         en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
         "random values between 0 and 1 ('ALEATOIRE').",
-        fr="Champ par points sur les inconnues d'une rigidité : la même valeur partout "
-        "('UNIFORME'), ou des valeurs aléatoires entre 0 et 1 ('ALEATOIRE').",
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
         examples=(
             _TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",

@@ -13,7 +13,6 @@ DISTANCE = opt(
     "distance",
     "FLOTTANT",
     en="how far off still counts, a tenth of the density by default",
-    fr="écart admis, par défaut le dixième de la densité",
     unit="m",
     range=NOT_NEGATIVE,
 )

@@ -81,23 +81,12 @@ def _make(base: Mesh, path: Path, end_size: float, cuts: Cuts, listed: ListReel 
     return made if surface is base else stacked(base, made)
 
 
-_BASE = arg(
-    "base",
-    "MAILLAGE",
-    en="surface, or volume whose face 2 is swept",
-    fr="surface, ou volume dont la face 2 est balayée",
-)
+_BASE = arg("base", "MAILLAGE", en="surface, or volume whose face 2 is swept")
 _CUTS = (
     LAYERS,
     SIZES,
-    key(
-        "places",
-        "PROG",
-        arg("places", "LISTREEL"),
-        en="positions of the layers",
-        fr="position des couches",
-    ),
-    flag("wordy", "VERB", en="accepted, without effect", fr="accepté, sans effet"),
+    key("places", "PROG", arg("places", "LISTREEL"), en="positions of the layers"),
+    flag("wordy", "VERB", en="accepted, without effect"),
 )
 
 
@@ -105,27 +94,16 @@ _CUTS = (
     "VOLU",
     _BASE,
     *_CUTS,
-    opt(
-        "goal",
-        "MAILLAGE",
-        en="surface to reach, or volume whose face 1 is reached",
-        fr="surface à atteindre, ou volume dont la face 1 est atteinte",
-    ),
+    opt("goal", "MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
     opt(
         "thickness",
         "FLOTTANT",
         "CHPOINT",
         range=POSITIVE,
         en="thickness to give to a shell",
-        fr="épaisseur à donner à une coque",
         unit="m",
     ),
-    opt(
-        "outwards",
-        "POINT",
-        en="vector from the inner to the outer skin of the shell",
-        fr="vecteur de la peau intérieure à la peau extérieure de la coque",
-    ),
+    opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
     family="mesh",
     full_name="VOLUME",
     help=Help(
@@ -137,14 +115,6 @@ _CUTS = (
         "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
         "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
         "FACE gives the faces.",
-        fr="Volume intérieur à une surface fermée, rempli de tétraèdres (pyramides sur les "
-        "quadrangles) si rien d'autre n'est dit. Volume engendré par une surface : selon un "
-        "vecteur ('TRAN'), autour d'un axe ('ROTA', degrés), parallèlement à elle-même le long "
-        "d'une ligne ('GENE'), ou d'une surface à une autre de même structure. N1 > 0 : N1 couches "
-        "égales ; N1 < 0 : gradées ; sans N1 les densités décident (DINI et DFIN les remplacent) ; "
-        "'PROG' donne la position des couches. Un volume à la place d'une surface est prolongé de "
-        "sa face 2. Avec une épaisseur (ou un champ d'épaisseurs) et une direction, une coque "
-        "devient massive. FACE rend les faces.",
         syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
         "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
         "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
@@ -191,7 +161,7 @@ def volu(
     said("TRANSLATION"),
     _BASE,
     *_CUTS,
-    arg("vector", "POINT", en="vector", fr="vecteur", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m"),
 )
 def translated(
     call: Call,
@@ -228,7 +198,7 @@ def turned(
 @volu.form(
     select(
         "along",
-        {"GENERATRICE": [arg("line", "MAILLAGE", en="line to follow", fr="ligne à suivre")]},
+        {"GENERATRICE": [arg("line", "MAILLAGE", en="line to follow")]},
         optional=False,
     ),
     _BASE,
@@ -295,18 +265,11 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
 
 @operator(
     "PAVE",
-    many(
-        "faces",
-        "MAILLAGE",
-        en="six faces, opposite ones one after the other",
-        fr="six faces, les opposées se suivant",
-    ),
+    many("faces", "MAILLAGE", en="six faces, opposite ones one after the other"),
     family="mesh",
     help=Help(
         en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
         "after the other.",
-        fr="Briques à l'intérieur de six faces maillées en grilles de quadrangles (DALL), les "
-        "faces opposées se suivant.",
         syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ;"

@@ -107,12 +107,12 @@ BASIS = either(
     "basis",
     group(
         "tables",
-        many("tables", "TABLE", at_least=1, en="modes, static shapes", fr="modes, déformées"),
+        many("tables", "TABLE", at_least=1, en="modes, static shapes"),
     ),
     group(
         "model",
-        arg("model", "MMODEL", en="model of shapes", fr="modèle de déformées"),
-        many("material", "MCHAML", at_least=1, en="its parameters", fr="ses caractéristiques"),
+        arg("model", "MMODEL", en="model of shapes"),
+        many("material", "MCHAML", at_least=1, en="its parameters"),
     ),
 )
 
@@ -163,7 +163,7 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
 
 pjba = operator(
     "PJBA",
-    main("thing", "CHPOINT", "CHARGEME", "RIGIDITE", en="what is projected", fr="objet projeté"),
+    main("thing", "CHPOINT", "CHARGEME", "RIGIDITE", en="what is projected"),
     BASIS,
     gives=Like("thing"),
     family="modal",
@@ -171,9 +171,6 @@ pjba = operator(
         "Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
         "(and FBET) at the points that mark the shapes, matrices give the matrix X^T K X there, a "
         "list of fields the products with each shape (with a matrix: X^T M u).",
-        "Projette sur une base modale (et des déformées statiques) : forces et chargements donnent "
-        "FALF (et FBET) aux points repères, une rigidité donne X^T K X, une liste de champs les "
-        "produits avec chaque déformée (avec une matrice : X^T M u).",
         "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
         (
@@ -187,16 +184,10 @@ pjba = operator(
 
 
 @pjba.form(
-    main("fields", "LISTCHPO", en="fields", fr="champs"),
+    main("fields", "LISTCHPO", en="fields"),
     BASIS,
-    opt(
-        "count",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of shapes, all without it",
-        fr="nombre de déformées",
-    ),
-    opt("metric", "RIGIDITE", en="matrix of the product", fr="matrice du produit"),
+    opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
+    opt("metric", "RIGIDITE", en="matrix of the product"),
 )
 def project_list(
     call: Call, fields: ListChpo, basis: Chosen, count: int | None, metric: Matrix | None
@@ -342,38 +333,13 @@ operator(
         arg("frequency", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="frequency of the response",
-        fr="fréquence de la réponse",
     ),
-    flag(
-        "seismic",
-        "SEISME",
-        en="displacements of supports, or accelerations of the base",
-        fr="déplacements d'appuis, ou accélérations de la base",
-    ),
-    key(
-        "directions",
-        ("UX", "UY", "UZ"),
-        repeated=True,
-        en="of the base",
-        fr="de la base",
-    ),
-    many(
-        "matrices",
-        "RIGIDITE",
-        at_least=1,
-        en="stiffness, and mass",
-        fr="rigidité, et masse",
-    ),
-    arg("basis", "TABLE", en="modes", fr="modes"),
-    opt(
-        "shocks",
-        "TABLE",
-        en="points of shocks: . i . 'POINT' and . 'NORMALE'",
-        fr="points de choc : . i . 'POINT' et . 'NORMALE'",
-    ),
-    opt(
-        "field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI", fr="forces, ou champ de DEPI"
-    ),
+    flag("seismic", "SEISME", en="displacements of supports, or accelerations of the base"),
+    key("directions", ("UX", "UY", "UZ"), repeated=True, en="of the base"),
+    many("matrices", "RIGIDITE", at_least=1, en="stiffness, and mass"),
+    arg("basis", "TABLE", en="modes"),
+    opt("shocks", "TABLE", en="points of shocks: . i . 'POINT' and . 'NORMALE'"),
+    opt("field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI"),
     family="modal",
     help=Help(
         "Pseudo-modes: the static response to forces, to a unit force at each point of shock along "
@@ -381,11 +347,6 @@ operator(
         "acceleration of the base ('SEISME' 'UX': forces - M d), minus what the modes of the table "
         "hold of it. With free motions the response is taken at half "
         "the first frequency, or at 'FREQ'.",
-        "Pseudo-modes : réponse statique à des forces, à une force unité en chaque point de choc "
-        "selon sa normale, à des déplacements d'appuis ('SEISME' et un champ de DEPI) ou à une "
-        "accélération unité de la base ('SEISME' 'UX' : forces - M d), moins la part que portent "
-        "les modes de la table. Avec des mouvements libres, la réponse "
-        "est prise à la moitié de la première fréquence, ou à 'FREQ'.",
         "TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 "
         "| LCHP1) ;",
         (
@@ -421,14 +382,12 @@ def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
 
 operator(
     "IDLI",
-    arg("matrix", "RIGIDITE", en="conditions", fr="conditions"),
-    arg("place", "MAILLAGE", en="points", fr="points"),
+    arg("matrix", "RIGIDITE", en="conditions"),
+    arg("place", "MAILLAGE", en="points"),
     family="modal",
     help=Help(
         "Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
         "conditions of a matrix act.",
-        "Table LIAISONS_STATIQUES des points d'un maillage, et de leurs inconnues, sur lesquels "
-        "portent les conditions d'une rigidité.",
         "TAB1 = IDLI RIG1 GEO1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"

@@ -11,11 +11,10 @@ from ssilang.operators.tables.entries import Entries
 
 @operator(
     "ZCON",
-    arg("table", "TABLE", en="table of CONTINU", fr="table de CONTINU"),
+    arg("table", "TABLE", en="table of CONTINU"),
     family="modal",
     help=Help(
         en="Continuation of the table of CONTINU, which is the procedure to call.",
-        fr="Continuation de la table de CONTINU, procédure à appeler.",
         syntax="ZCON TAB1 ;",
     ),
 )

@@ -265,10 +265,8 @@ _DUFFING = (
 operator(
     "DYNC",
     TABLES,
-    arg("harmonics", "ENTIER", range=POSITIVE, en="number of harmonics", fr="nombre d'harmoniques"),
-    arg(
-        "samples", "ENTIER", range=POSITIVE, en="instants of a period", fr="instants d'une période"
-    ),
+    arg("harmonics", "ENTIER", range=POSITIVE, en="number of harmonics"),
+    arg("samples", "ENTIER", range=POSITIVE, en="instants of a period"),
     family="modal",
     help=Help(
         "Branches of periodic motions of modes with links, by harmonic balance and continuation "
@@ -280,15 +278,6 @@ operator(
         "from the present motion. REPONSE has FREQUENCE, COEFFICIENTS . j . POINT, "
         "NORME_DEPLACEMENT, STABILITE (1: unstable), Floquet exponents (by integration over one "
         "period); BIFURCATION the points LP, BP, PD and NS, each sought to the last digits.",
-        "Branches de mouvements périodiques de modes avec liaisons, par équilibrage harmonique et "
-        "continuation le long de l'arc : réponse à une charge harmonique ('TYPE' 'FORC' : charges "
-        "aux indices 0, +j pour cos jwt, -j pour sin jwt de la table CHARGEMENT, fois w^2 si son "
-        "'BALOURD' vaut 1) de la fréquence d'INITIAL à 'VAL_FIN', ou modes non linéaires ('NNM') "
-        "à partir d'une petite 'ENERGIE', sans amortissement ; l'énergie est celle du mouvement, "
-        "des modes et des liaisons au premier instant. Les fréquences sont en rad/s. Les liaisons "
-        "sont celles de DYNE dont la force suit du mouvement présent. REPONSE contient FREQUENCE, "
-        "COEFFICIENTS . j . POINT, NORME_DEPLACEMENT, STABILITE (1 : instable), les exposants de "
-        "Floquet (par intégration sur une période) ; BIFURCATION les points LP, BP, PD et NS.",
         "TAB1 = DYNC TMOD (TCHR) (TLIAI) (TAMOR) TINI TNUM NHBM NFFT ;",
         (
             _DUFFING + "R = DYNC TM TC TL TA TI TN 3 64 ; LIST (R . 'BIFURCATION' . 'TYPE') ; "

@@ -62,9 +62,7 @@ class System:
         return NodeField(self.numbering.table, parts, "DIFFUS")
 
 
-TABLES = many(
-    "given", "TABLE", en="basis, links, damping, loads ...", fr="base, liaisons, amortissement ..."
-)
+TABLES = many("given", "TABLE", en="basis, links, damping, loads ...")
 
 
 def _dyne(
@@ -309,17 +307,16 @@ _EXAMPLE = (
 )
 operator(
     "DYNE",
-    choice("scheme", SCHEMES, optional=False, en="how time is stepped", fr="schéma en temps"),
+    choice("scheme", SCHEMES, optional=False, en="how time is stepped"),
     TABLES,
-    arg("steps", "ENTIER", range=POSITIVE, en="number of steps", fr="nombre de pas"),
-    arg("h", "FLOTTANT", range=POSITIVE, en="time step", fr="pas de temps", unit="s"),
+    arg("steps", "ENTIER", range=POSITIVE, en="number of steps"),
+    arg("h", "FLOTTANT", range=POSITIVE, en="time step", unit="s"),
     opt(
         "every",
         "ENTIER",
         range=POSITIVE,
         default=1,
         en="one step of so many is kept, all without it",
-        fr="un pas gardé sur tant, tous sans lui",
     ),
     family="modal",
     help=Help(
@@ -333,16 +330,6 @@ operator(
         "into the obstacle, where the motion along it is beyond the gap. The table of results has "
         "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
         "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
-        "Pas de temps sur base modale : De Vogelaere (ordre quatre), différences centrées, "
-        "accélération moyenne ou Fox-Goodwin, depuis le repos, des valeurs initiales ou la suite "
-        "d'un calcul (INITIAL) ; chargements sur les modes (CHARGEMENT, indice 'BASE_A', faits par "
-        "PJBA ou SEIS), amortissement, et liaisons (LIAISON) : POINT_PLAN, POINT_POINT, "
-        "POINT_CERCLE avec ou sans frottement, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, "
-        "ressorts et rotules plastiques entre points, COUPLAGE_DEPLACEMENT et COUPLAGE_VITESSE. "
-        "Les contacts poussent contre la "
-        "normale, dirigée vers l'obstacle, là où le mouvement dépasse le jeu. La table résultat a "
-        "une entrée par pas sauvé (DEPLACEMENT, VITESSE ... sur ALFA), TEMPS_DE_SORTIE, les listes "
-        "des liaisons demandées, et REPRISE pour continuer. Un pas trop long est refusé.",
         "TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
         "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
         (

@@ -44,26 +44,18 @@ operator(
         "kind_of",
         ("MASSE", "RAIDEUR", "AMORTISSEMENT"),
         en="what the matrix is, by its type without it",
-        fr="nature de la matrice, selon son type sans lui",
     ),
-    key(
-        "chosen",
-        "QUELCONQUE",
-        arg("factors", "LISTREEL"),
-        en="factors of the four blocks",
-        fr="facteurs des quatre blocs",
-    ),
-    arg("matrix", "RIGIDITE", en="matrix", fr="matrice"),
-    opt("other", "RIGIDITE", en="of the imaginary rows", fr="des lignes imaginaires"),
+    key("chosen", "QUELCONQUE", arg("factors", "LISTREEL"), en="factors of the four blocks"),
+    arg("matrix", "RIGIDITE", en="matrix"),
+    opt("other", "RIGIDITE", en="of the imaginary rows"),
     opt(
         "pulsation",
         "FLOTTANT",
         default=1.0,
         en="circular frequency, 1 without it",
-        fr="pulsation, 1 sans elle",
         unit="rad/s",
     ),
-    opt("buckling", "LOGIQUE", default=False, en="of type MASSE", fr="de type MASSE"),
+    opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
     family="modal",
     full_name="IMPEDANCE",
     help=Help(
@@ -71,10 +63,6 @@ operator(
         "IFX ...): of a stiffness (K), a mass (- w^2 M) or a damping (i w C), w = 1 if it is not "
         "given; 'QUEL' gives the factors of the four blocks. A second matrix serves the imaginary "
         "rows.",
-        "Matrice des mouvements harmoniques u exp(i w t) sur les parties réelles et imaginaires "
-        "(UX et IUX, FX et IFX ...) : d'une raideur (K), d'une masse (- w^2 M) ou d'un "
-        "amortissement (i w C), w = 1 par défaut ; 'QUEL' donne les facteurs des quatre blocs. "
-        "Une seconde matrice sert aux lignes imaginaires.",
         "RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
         "LREEL1) (LOG1) ;",
         (
@@ -114,20 +102,9 @@ def _entry(mode: ComplexMode, shapes: list[Shape] | None) -> dict[str, Any]:
 
 operator(
     "VIBC",
-    many(
-        "matrices",
-        "RIGIDITE",
-        en="mass, stiffness, and damping",
-        fr="masse, rigidité, et amortissement",
-    ),
-    opt("basis", "TABLE", en="basis of the projection", fr="base de la projection"),
-    opt(
-        "pairs",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of couples, all without it",
-        fr="nombre de couples, tous",
-    ),
+    many("matrices", "RIGIDITE", en="mass, stiffness, and damping"),
+    opt("basis", "TABLE", en="basis of the projection"),
+    opt("pairs", "ENTIER", range=POSITIVE, en="number of couples, all without it"),
     family="modal",
     full_name="VIBC",
     help=Help(
@@ -135,10 +112,6 @@ operator(
         "[K + i w C - w^2 M] x = 0 with w = 2 pi f: couples f, - conj f by increasing modulus, or "
         "the N1 first couples. With the basis of the projection the shapes are physical. A "
         "positive imaginary part of f means decay.",
-        "Tous les modes complexes d'un petit système (en général projeté sur des modes réels par "
-        "PJBA), [K + i w C - w^2 M] x = 0 avec w = 2 pi f : couples f, - conj f par module "
-        "croissant, ou les N1 premiers couples. Avec la base de projection les déformées sont "
-        "physiques. Une partie imaginaire positive de f traduit un amortissement.",
         "BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"

@@ -49,11 +49,10 @@ def known_names(entries: Entries) -> Names:
 
 @operator(
     "ZHBM",
-    arg("table", "TABLE", en="table of HBM", fr="table de HBM"),
+    arg("table", "TABLE", en="table of HBM"),
     family="modal",
     help=Help(
         en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
-        fr="Matrices d'équilibrage harmonique de la table de HBM, procédure à appeler.",
         syntax="ZHBM TAB1 ;",
     ),
 )
@@ -154,12 +153,11 @@ class Motion:
 
 @operator(
     "ZHPO",
-    arg("table", "TABLE", en="table of HBM_POST", fr="table de HBM_POST"),
-    arg("results", "LISTMOTS", en="MAXI, TEMP, VITE", fr="MAXI, TEMP, VITE"),
+    arg("table", "TABLE", en="table of HBM_POST"),
+    arg("results", "LISTMOTS", en="MAXI, TEMP, VITE"),
     family="modal",
     help=Help(
         en="Results in time of the table of HBM_POST, which is the procedure to call.",
-        fr="Résultats temporels de la table de HBM_POST, procédure à appeler.",
         syntax="ZHPO TAB1 LMOT1 ;",
     ),
 )

@@ -28,19 +28,16 @@ _MODE = (
 
 @operator(
     "SEIS",
-    arg("curve", "EVOLUTIO", en="acceleration of the ground", fr="accélération du sol"),
-    arg("table", "TABLE", en="basis", fr="base"),
-    arg("factor", "FLOTTANT", en="factor", fr="facteur"),
-    choice("direction", _AXES, optional=False, en="direction of the ground", fr="direction du sol"),
+    arg("curve", "EVOLUTIO", en="acceleration of the ground"),
+    arg("table", "TABLE", en="basis"),
+    arg("factor", "FLOTTANT", en="factor"),
+    choice("direction", _AXES, optional=False, en="direction of the ground"),
     family="modal",
     full_name="SEISME",
     help=Help(
         en="Load on the modes of a basis by an acceleration of the ground in time, along 'UX', "
         "'UY' or 'UZ', times a number: the generalised force of mode i is -Q_i X1 times the curve, "
         "Q_i the generalised displacement of the mode in that direction.",
-        fr="Chargement sur les modes d'une base par une accélération du sol en temps, selon 'UX', "
-        "'UY' ou 'UZ', fois un nombre : la force généralisée du mode i est -Q_i X1 fois la courbe, "
-        "Q_i le déplacement généralisé du mode dans cette direction.",
         syntax="CHAR1 = SEIS EVOL1 TAB1 X1 'UX' | 'UY' | 'UZ' ;",
         examples=(
             _MODE + "E = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 2.) ; C = SEIS E B 3. 'UX' ; "
@@ -68,18 +65,15 @@ def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) 
 
 @operator(
     "SIGS",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
-    arg("table", "TABLE", en="shapes", fr="déformées"),
+    arg("model", "MMODEL", en="model"),
+    many("material", "MCHAML", at_least=1, en="parameters"),
+    arg("table", "TABLE", en="shapes"),
     family="modal",
     full_name="SIGSOL",
     help=Help(
         en="Table of modes, pseudo-modes or static shapes with the stresses of each: entry "
         "CONTRAINTE_MODALE of modes, CONTRAINTE of the others. A new table; the shapes are those "
         "of the old one.",
-        fr="Table de modes, pseudo-modes ou déformées statiques avec les contraintes de chacun : "
-        "indice CONTRAINTE_MODALE des modes, CONTRAINTE des autres. Une nouvelle table ; les "
-        "déformées sont celles de l'ancienne.",
         syntax="TAB2 = SIGS MODL1 MAT1 (CAR1) TAB1 ;",
         examples=(
             _MODE

@@ -51,8 +51,8 @@ def _stiffnesses(call: Call, modes: list[Shape]) -> list[float]:
 # --- modes and static shapes -----------------------------------------------------------------
 
 
-_BASIS = arg("basis", "TABLE", en="modes, or static shapes", fr="modes, ou déformées statiques")
-_OTHER = opt("other", "TABLE", en="the other of both", fr="l'autre des deux")
+_BASIS = arg("basis", "TABLE", en="modes, or static shapes")
+_OTHER = opt("other", "TABLE", en="the other of both")
 
 
 @rigi.form(_BASIS, _OTHER, ahead=True)
@@ -118,7 +118,7 @@ def modal_mass(call: Call, basis: Table) -> Matrix:
     return _diagonal(modes, masses, "MASSE")
 
 
-@mass.form(_BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass", fr="masse"), ahead=True)
+@mass.form(_BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass"), ahead=True)
 def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matrix) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     return projected_matrix(inertia, [s.field for s in shapes], *_places(shapes))
@@ -131,7 +131,6 @@ def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matri
         "LISTREEL",
         usual=NOT_NEGATIVE,
         en="damping ratios",
-        fr="amortissements réduits",
         unit="%",
     ),
 )
@@ -160,8 +159,6 @@ rigi.extend_help(
     "RIG1 = RIGI TAB1 (TAB2) ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points. Of "
     "static shapes, on BETA, with modes or without: the works of their FORCE and REACTION.",
-    "D'une base modale : rigidités généralisées sur la diagonale, sur ALFA aux points repères. De "
-    "déformées statiques, sur BETA, avec ou sans modes : travaux de leurs FORCE et REACTION.",
     (_EXAMPLE.format("RIGI", ""),),
 )
 mass.extend_help(
@@ -169,13 +166,10 @@ mass.extend_help(
     "MASS1 = MASS TAB1 (TAB2) MASS2 ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised masses on the diagonal. With a mass matrix of the body: its "
     "projection on modes (ALFA), on static shapes (BETA) or on both.",
-    "D'une base modale : masses généralisées sur la diagonale. Avec une matrice de masse du "
-    "corps : sa projection sur des modes (ALFA), des déformées statiques (BETA) ou les deux.",
     (_EXAMPLE.format("MASS", ""),),
 )
 amor.extend_help(
     "AMOR1 = AMOR TAB1 LREEL1 ;  (BASE_MODALE)",
     "Of a modal basis: 2 x m w on the diagonal, reduced dampings x in per cent, one a mode.",
-    "D'une base modale : 2 x m w sur la diagonale, amortissements réduits x en %, un par mode.",
     (_EXAMPLE.format("AMOR", " (PROG 5.)"),),
 )

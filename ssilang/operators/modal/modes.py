@@ -23,10 +23,8 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.workspace import solver_of, workspace
 
-_FREQUENCY = arg(
-    "frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", fr="fréquence", unit="Hz"
-)
-_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of modes", fr="nombre de modes")
+_FREQUENCY = arg("frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", unit="Hz")
+_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of modes")
 
 
 def _wanted(call: Call, method: Chosen) -> list[tuple[float, int]]:
@@ -169,28 +167,27 @@ def modal_table(
 
 operator(
     "VIBR",
-    flag("solution", "SOLU", en="an object: not available", fr="un objet : non disponible"),
+    flag("solution", "SOLU", en="an object: not available"),
     select(
         "method",
         {
             "PROCHE": [
-                arg("frequencies", "LISTREEL", en="frequencies", fr="fréquences", unit="Hz"),
-                opt("counts", "LISTENTI", en="modes near each, 1", fr="modes autour de chacune, 1"),
+                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz"),
+                opt("counts", "LISTENTI", en="modes near each, 1"),
             ],
             "INTERVALLE": [
-                arg("low", "FLOTTANT", en="one end", fr="une borne", unit="Hz"),
-                arg("high", "FLOTTANT", en="the other", fr="l'autre", unit="Hz"),
+                arg("low", "FLOTTANT", en="one end", unit="Hz"),
+                arg("high", "FLOTTANT", en="the other", unit="Hz"),
             ],
             "SIMULTANE": [_FREQUENCY, _COUNT],
             "IRAM": [
                 _FREQUENCY,
                 _COUNT,
-                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", fr="partie imaginaire"),
+                opt("decay", "FLOTTANT", default=0.0, en="imaginary part"),
             ],
         },
         optional=False,
         en="near frequencies, in an interval, near one",
-        fr="proches de fréquences, dans un intervalle, autour d'une",
     ),
     key(
         "lowest",
@@ -198,7 +195,6 @@ operator(
         arg("count", "ENTIER", range=POSITIVE),
         default=0,
         en="so many from the low end",
-        fr="nombre gardé du côté bas",
     ),
     key(
         "highest",
@@ -206,24 +202,17 @@ operator(
         arg("count", "ENTIER", range=POSITIVE),
         default=0,
         en="so many from the high end",
-        fr="nombre gardé du côté haut",
     ),
-    flag("shown", "IMPR", en="accepted, changes nothing", fr="accepté, sans effet"),
-    flag("multiple", "MULT", en="accepted, changes nothing", fr="accepté, sans effet"),
-    flag("table", "TBAS", en="a table: the default", fr="une table : par défaut"),
-    flag("largest", "LM", en="accepted, changes nothing", fr="accepté, sans effet"),
-    many(
-        "matrices",
-        "RIGIDITE",
-        en="stiffness, mass, and damping",
-        fr="rigidité, masse, et amortissement",
-    ),
+    flag("shown", "IMPR", en="accepted, changes nothing"),
+    flag("multiple", "MULT", en="accepted, changes nothing"),
+    flag("table", "TBAS", en="a table: the default"),
+    flag("largest", "LM", en="accepted, changes nothing"),
+    many("matrices", "RIGIDITE", en="stiffness, mass, and damping"),
     opt(
         "signed",
         "LOGIQUE",
         default=True,
         en="negative frequencies of unstable modes (default VRAI)",
-        fr="fréquences négatives des modes instables (VRAI par défaut)",
     ),
     family="modal",
     full_name="VIBRATION",
@@ -235,14 +224,6 @@ operator(
         "DEFORMEE_MODALE (largest displacement 1), DEPLACEMENTS_GENERALISES . 1 to 3 and "
         "POINT_REPERE. Unilateral conditions count as equalities. A damping matrix or an "
         "unsymmetric stiffness gives complex modes (IRAM), mirror images (- conj f) included.",
-        "Modes propres, [K - (2 pi f)^2 M] x = 0, de fréquences voisines de celles données "
-        "(PROC : pour chaque fréquence d'une liste, tant ; SIMU, IRAM : tant autour d'une) ou "
-        "dans un intervalle (INTE ; BASS ou HAUT en garde tant d'un côté). Table BASE_MODALE : "
-        ". 'MODES' . i contient FREQUENCE (négative si instable, sauf avec FAUX), "
-        "MASSE_GENERALISEE, DEFORMEE_MODALE (plus grand déplacement 1), "
-        "DEPLACEMENTS_GENERALISES . 1 à 3 et POINT_REPERE. Les conditions unilatérales comptent "
-        "comme des égalités. Une matrice d'amortissement ou une raideur non symétrique donne "
-        "des modes complexes (IRAM), images (- conj f) comprises.",
         "TAB1 = VIBR 'PROCHE' LREEL1 (LENTI1) RIG1 MASS1 (LOG1) ;\n"
         "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"

@@ -172,9 +172,8 @@ _QUANTITY = choice(
     QUANTITIES,
     default="DEPL",
     en="displacement (default), velocity, acceleration, stresses, reactions",
-    fr="déplacement (par défaut), vitesse, accélération, contraintes, réactions",
 )
-_LOAD = opt("load", "CHARGEME", en="load of pseudo-modes", fr="chargement des pseudo-modes")
+_LOAD = opt("load", "CHARGEME", en="load of pseudo-modes")
 
 
 def _reco(
@@ -270,16 +269,11 @@ def _reactions(
 
 reco = operator(
     "RECO",
-    main("weights", "CHPOINT", en="contributions", fr="contributions"),
+    main("weights", "CHPOINT", en="contributions"),
     BASIS,
     _QUANTITY,
     _LOAD,
-    opt(
-        "time",
-        "FLOTTANT",
-        en="number of shapes to take; instant of the load",
-        fr="nombre de déformées prises ; instant du chargement",
-    ),
+    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load"),
     family="modal",
     help=Help(
         "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
@@ -287,11 +281,6 @@ reco = operator(
         "instant: 'DEPL', 'VITE', 'ACCE', 'CONT' for stresses (SIGS gives those of the shapes) or "
         "'REAC' for reactions (REAC gives those of the shapes). "
         "With a load, the pseudo-modes of the basis that its forces drive are added.",
-        "Champ u = somme des déformées d'une base multipliées par les contributions ALFA (et BETA) "
-        "que porte un champ à leurs points repères ; de résultats en temps (DYNE, PASAPAS) à un "
-        "instant : 'DEPL', 'VITE', 'ACCE', 'CONT' pour les contraintes (SIGS donne celles des "
-        "déformées) ou 'REAC' pour les réactions (REAC les donne). Avec un chargement, on ajoute "
-        "les pseudo-modes que ses forces excitent.",
         "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
         "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
@@ -314,11 +303,11 @@ reco = operator(
 
 
 @reco.form(
-    main("results", "TABLE", en="results of DYNE or PASAPAS", fr="résultats de DYNE ou PASAPAS"),
+    main("results", "TABLE", en="results of DYNE or PASAPAS"),
     BASIS,
     _QUANTITY,
     _LOAD,
-    arg("time", "FLOTTANT", en="instant", fr="instant", unit="s"),
+    arg("time", "FLOTTANT", en="instant", unit="s"),
 )
 def reco_of_results(
     call: Call,
@@ -337,15 +326,9 @@ def reco_of_results(
 
 
 @reco.form(
-    main("fields", "LISTCHPO", en="contributions", fr="contributions"),
+    main("fields", "LISTCHPO", en="contributions"),
     BASIS,
-    opt(
-        "count",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of shapes, all without it",
-        fr="nombre de déformées",
-    ),
+    opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
 )
 def reco_of_list(call: Call, fields: ListChpo, basis: Chosen, count: int | None) -> ListChpo:
     """What each field of a list combines to."""

@@ -24,7 +24,7 @@ from ssilang.operators.numbers.arithmetic import rule
 # --- unit size -------------------------------------------------------------------------------
 
 
-_THING = arg("thing", "CHPOINT", "TABLE", en="field, or basis", fr="champ, ou base")
+_THING = arg("thing", "CHPOINT", "TABLE", en="field, or basis")
 
 
 def _nnor(
@@ -103,17 +103,10 @@ def _unit_mode(entry: Table, shape: NodeField, by: float) -> Table:
 
 nnor = operator(
     "NNOR",
-    flag(
-        "largest", "INFI", en="by the largest value, the default", fr="par le maximum, par défaut"
-    ),
+    flag("largest", "INFI", en="by the largest value, the default"),
     _THING,
-    choice(
-        "side",
-        ("AVEC", "SANS"),
-        en="of the components named (default), or of the others",
-        fr="des composantes citées (par défaut), ou des autres",
-    ),
-    opt("names", "LISTMOTS", en="components", fr="composantes", kind="component"),
+    choice("side", ("AVEC", "SANS"), en="of the components named (default), or of the others"),
+    opt("names", "LISTMOTS", en="components", kind="component"),
     gives=Like("thing"),
     family="modal",
     full_name="NNOR",
@@ -121,9 +114,6 @@ nnor = operator(
         "Divides a field by its largest value (of the components named, or without them), or by "
         "its Euclidean norm (of a matrix: square root of X^T M X). Of a modal table: all shapes, "
         "with generalised masses and displacements that follow.",
-        "Divise un champ par sa plus grande valeur (des composantes citées, ou sans elles), ou par "
-        "sa norme euclidienne (d'une matrice : racine de X^T M X). D'une base modale : toutes les "
-        "déformées, masses et déplacements généralisés en accord.",
         "OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
         "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
         (
@@ -139,7 +129,7 @@ nnor = operator(
 @nnor.form(
     said("EUCL"),
     _THING,
-    opt("metric", "RIGIDITE", en="matrix of the norm", fr="matrice de la norme"),
+    opt("metric", "RIGIDITE", en="matrix of the norm"),
     gives=Like("thing"),
 )
 def by_euclidean_norm(thing: NodeField | Table, metric: Matrix | None) -> NodeField | Table:
@@ -175,14 +165,11 @@ def _known(table: Table) -> list[Shape]:
 
 @operator(
     "JEU",
-    arg("matrix", "RIGIDITE", en="relations", fr="relations"),
+    arg("matrix", "RIGIDITE", en="relations"),
     family="relations",
     help=Help(
         "Second member of relations between displacements so that they speak of positions: the sum "
         "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
-        "Second membre de relations entre déplacements pour qu'elles portent sur les positions : "
-        "la somme des coefficients fois (coordonnée + déplacement) vaut zéro, ou reste au-dessus "
-        "ou au-dessous.",
         "CHPO1 = JEU RIG1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 0. 0.3 ;"

@@ -30,18 +30,12 @@ _ENTRIES = {
 
 @operator(
     "PREC",
-    arg("model", "MMODEL", en="cables, bars", fr="câbles, barres"),
-    arg("material", "MCHAML", en="their parameters", fr="leurs caractéristiques"),
-    opt("table", "TABLE", en="losses", fr="pertes"),
-    arg("force", "FLOTTANT", en="tension at the end", fr="tension au bout", unit="N"),
-    opt(
-        "ends",
-        "MAILLAGE",
-        "POINT",
-        en="points that are pulled, else the last of each cable",
-        fr="points de mise en tension, sinon le dernier de chaque câble",
-    ),
-    opt("before", "MCHAML", en="not built", fr="non programmé"),
+    arg("model", "MMODEL", en="cables, bars"),
+    arg("material", "MCHAML", en="their parameters"),
+    opt("table", "TABLE", en="losses"),
+    arg("force", "FLOTTANT", en="tension at the end", unit="N"),
+    opt("ends", "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"),
+    opt("before", "MCHAML", en="not built"),
     family="model",
     full_name="PRECONTRAINTE",
     help=Help(
@@ -50,12 +44,6 @@ _ENTRIES = {
         "has the larger tension. With a table, losses by friction (FF per radian, PHIF per metre: "
         "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
         "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
-        fr="Tensions EFFX de câbles de précontrainte (barres BARR sur SEG2, sans branchement) "
-        "tendus par F1 à une extrémité : le dernier point de chaque câble, ou les points donnés ; "
-        "tendu aux deux bouts, un câble a la plus grande tension. Avec une table, pertes par "
-        "frottement (FF par radian, PHIF par mètre : exp(-FF alpha - PHIF s)), par recul à "
-        "l'ancrage (GANC) et par relaxation (RMU0, FPRG en Pa, RH10 en % à 1 000 heures) ; par "
-        "défaut 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
         syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0 0) (50 0) ; M = MODE L MECANIQUE ELASTIQUE "
@@ -135,14 +123,12 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
 
 @operator(
     "IMPF",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     family="model",
     full_name="IMPF",
     help=Help(
         en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
         "'CONTACT' 'FROTTANT' does without).",
-        fr="Le maillage lui-même : Cast3M n'emploie plus cet opérateur, et le frottement s'en "
-        "passe (MODE 'CONTACT' 'FROTTANT').",
         syntax="GEO1 = IMPF GEO2 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
     ),

@@ -12,15 +12,12 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "FREN",
-    arg("line", "MAILLAGE", en="lines", fr="lignes"),
+    arg("line", "MAILLAGE", en="lines"),
     family="mesh",
     full_name="FRENET",
     help=Help(
         en="Frenet frame along lines, as a nodal field: tangent TX TY (TZ), normal NX NY (NZ) and, "
         "in 3D, binormal BX BY BZ. In 2D the normal is the tangent turned by a quarter turn.",
-        fr="Repère de Frenet le long de lignes, en un champ par points : tangente TX TY (TZ), "
-        "normale NX NY (NZ) et, en 3D, binormale BX BY BZ. En 2D la normale est la tangente "
-        "tournée d'un quart de tour.",
         syntax="CHPO1 = FREN LIG1 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; F = FREN (DROI 4 (0. 0.) (1. 0.)) ; LIST (TYPE F) ;",),
     ),

@@ -50,21 +50,16 @@ _EXAMPLE = (
 )
 
 
-_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
-_ON_AXIS = arg("on_axis", "POINT", en="point of the axis", fr="point de l'axe")
-_SECOND = opt(
-    "second",
-    "POINT",
-    en="vector of the plane of the first two axes, in space",
-    fr="vecteur du plan des deux premiers axes, en 3D",
-)
+_CENTRE = arg("centre", "POINT", en="centre")
+_ON_AXIS = arg("on_axis", "POINT", en="point of the axis")
+_SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, in space")
 
 
 @operator(
     "RTEN",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    arg("field", "MCHAML", en="stresses or strains", fr="contraintes ou déformations"),
-    opt("material", "MCHAML", en="parameters with axes", fr="caractéristiques avec axes"),
+    arg("model", "MMODEL", en="model"),
+    arg("field", "MCHAML", en="stresses or strains"),
+    opt("material", "MCHAML", en="parameters with axes"),
     select(
         "frame",
         {
@@ -78,30 +73,21 @@ _SECOND = opt(
                     default="CART",
                     en="straight axes in each half plane of the axis (default), or those of its "
                     "small circle",
-                    fr="axes droits dans chaque demi-plan méridien (par défaut), ou ceux de son "
-                    "petit cercle",
                 ),
                 _CENTRE,
                 _ON_AXIS,
-                opt(
-                    "on_circle",
-                    "POINT",
-                    en="centre of a small circle (CIRC)",
-                    fr="centre d'un petit cercle (CIRC)",
-                ),
+                opt("on_circle", "POINT", en="centre of a small circle (CIRC)"),
             ],
         },
         en="polar, cylindrical or spherical coordinates, or those of a torus",
-        fr="coordonnées polaires, cylindriques ou sphériques, ou celles d'un tore",
     ),
     choice(
         "product",
         ("RTAR", "RART"),
         default="RTAR",
         en="of matrices of rotation R: Rt A R (default) or R A Rt",
-        fr="de matrices de rotation R : Rt A R (par défaut) ou R A Rt",
     ),
-    opt("first", "POINT", en="first axis", fr="premier axe"),
+    opt("first", "POINT", en="first axis"),
     _SECOND,
     family="stress",
     full_name="RTENS",
@@ -116,17 +102,6 @@ _SECOND = opt(
         "the first axis is the projection of the first vector, or of the direction around the "
         "axis; the side that counts as upper stays the element's. A nodal field of vectors is "
         "turned to the frame of the vectors.",
-        fr="Contraintes ou déformations de massifs et de coques planes dans un autre repère : "
-        "selon un vecteur (en 3D deux : le premier axe et un vecteur du plan des deux premiers), "
-        "dans le repère d'orthotropie d'un champ de caractéristiques, ou en coordonnées polaires "
-        "('POLA' centre), cylindriques ('CYLI' centre, point de l'axe), sphériques ('SPHE') ou "
-        "celles d'un tore ('TORI' : 'CART' comme 'CYLI' ; 'CIRC' : le long du grand cercle, le "
-        "long du petit dont le centre est le troisième point, vers l'extérieur), ou par un champ "
-        "de matrices de rotation (composantes UX,X UX,Y ... comme celles de GRAD). Les "
-        "composantes gardent leurs noms. Dans les coques, le premier axe est la projection du "
-        "premier vecteur, ou de la direction orthoradiale ; le côté compté comme supérieur reste "
-        "celui de l'élément. Un champ par points de vecteurs est tourné dans le repère des "
-        "vecteurs.",
         syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
         "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 | "
         "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
@@ -199,8 +174,8 @@ def rten(
 
 
 @rten.form(
-    arg("field", "CHPOINT", en="vectors", fr="vecteurs"),
-    arg("first", "POINT", en="first axis", fr="premier axe"),
+    arg("field", "CHPOINT", en="vectors"),
+    arg("first", "POINT", en="first axis"),
     _SECOND,
 )
 def rten_of_vectors(field: NodeField, first: Point, second: Point | None) -> NodeField:
@@ -265,12 +240,11 @@ def _round(call: Call, frame: Chosen) -> Frames:
 
 @operator(
     "VLOC",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    many("fields", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
+    arg("model", "MMODEL", en="model"),
+    many("fields", "MCHAML", at_least=1, en="parameters"),
     family="model",
     help=Help(
         en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
-        fr="Repère d'orthotropie d'un matériau en champ par éléments : V1X V1Y (V1Z) V2X ....",
         syntax="CHAM1 = VLOC MODL1 MAT1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
@@ -300,20 +274,13 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
 
 @operator(
     "CALP",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    many(
-        "fields",
-        "MCHAML",
-        at_least=1,
-        en="stresses or strains, and parameters",
-        fr="contraintes ou déformations, et caractéristiques",
-    ),
+    arg("model", "MMODEL", en="model"),
+    many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
     choice(
         "side",
         tuple(SIDES),
         default="MOYE",
         en="side of a shell: that of the normal, the middle (default) or the other",
-        fr="côté d'une coque : celui de la normale, le milieu (par défaut) ou l'autre",
     ),
     family="stress",
     help=Help(
@@ -321,10 +288,6 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
         "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMXX SMYY SMXY (or strains) of shells in their "
         "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
         "other side ('INFE').",
-        fr="Contrainte au point DY DZ de la section des poutres (repère local) : SMXX = EFFX / "
-        "SECT + MOMY DZ / INRY - MOMZ DY / INRZ ; contraintes SMXX SMYY SMXY (ou déformations) des "
-        "coques dans leur repère, du côté de la normale ('SUPE'), au milieu ('MOYE', par défaut) "
-        "ou de l'autre côté ('INFE').",
         syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "

@@ -38,14 +38,14 @@ SHAPES = ("DEFO", "RIDE", "MADE")
 
 
 _AXES = (
-    arg("first", "POINT", en="first axis, or centre", fr="premier axe, ou centre"),
-    many("others", "POINT", en="further vectors or points", fr="autres vecteurs ou points"),
+    arg("first", "POINT", en="first axis, or centre"),
+    many("others", "POINT", en="further vectors or points"),
 )
-_MODEL = arg("model", "MMODEL", en="model", fr="modèle")
+_MODEL = arg("model", "MMODEL", en="model")
 _PAIRS = each(
     "pairs",
-    arg("name", "MOT", kind="parameter", en="parameter", fr="paramètre"),
-    arg("value", *_VALUES, en="its value", fr="sa valeur"),
+    arg("name", "MOT", kind="parameter", en="parameter"),
+    arg("value", *_VALUES, en="its value"),
 )
 
 
@@ -63,17 +63,15 @@ def _tables(language: str) -> Sequence[HelpTable]:
         {"DIRECTION": _AXES, "RADIAL": _AXES},
         repeated=True,
         en="axes of orthotropy: along vectors, or from a centre",
-        fr="repère d'orthotropie : selon des vecteurs, ou depuis un centre",
     ),
     select(
         "turn",
         {
             "PARALLELE": [],
             "PERPENDICULAIRE": [],
-            "INCLINE": [arg("angle", "FLOTTANT", en="angle", fr="angle", unit="deg")],
+            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg")],
         },
         en="how the axes lie to that direction",
-        fr="position du repère par rapport à cette direction",
     ),
     _PAIRS,
     family="model",
@@ -92,20 +90,6 @@ def _tables(language: str) -> Sequence[HelpTable]:
         "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
         "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
         "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
-        fr="Champ des paramètres d'un modèle : nom et valeur, autant qu'on veut.\n"
-        "Ce que prend chaque loi est dans les tableaux ci-dessous, et sur la page de la loi "
-        "(`ssilang help CAM_CLAY`) ; ce que prend un élément, section comprise, sur celle de "
-        "l'élément. Les paramètres géométriques (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) se "
-        "donnent ici aussi, ou par CARA. Les joints de deux points (JOI1) prennent des forces là "
-        "où les autres prennent des contraintes.\n"
-        "Une valeur est un nombre, un champ par éléments, une évolution (paramètre qui dépend d'un "
-        "autre champ) ou, pour VECT, un point. Les nombres hors du domaine d'un paramètre, et les "
-        "paramètres d'une loi qui ne vont pas ensemble, sont refusés.\n"
-        "Les poutres ELASTIQUE SECTION prennent le modèle de leur section et son matériau : la "
-        "section est dans x y, x le long de l'axe local y de la poutre ; ses fibres prennent ALPY "
-        "ALPZ (et les points SECT). DIRECTION V1 (V2) ou RADIAL P1 (P2), puis PARALLELE, "
-        "PERPENDICULAIRE ou INCLINE angle, donnent les axes d'orthotropie (de JOI1 : V1 est la "
-        "normale).",
         syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
         tables=_tables,
         examples=(
@@ -161,9 +145,6 @@ def material_names(zone: Zone) -> tuple[str, ...]:
     help=Help(
         en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
         "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
-        fr="Champ des caractéristiques géométriques d'un modèle : DIM3 (épaisseur en contraintes "
-        "planes), SECT (barres), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (poutres), EPAI "
-        "(joints).",
         syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "

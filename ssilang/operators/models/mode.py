@@ -79,42 +79,18 @@ class Wish:
     options: dict[str, object] = field(default_factory=dict)
 
 
-_WORDS = many(
-    "said",
-    "MOT",
-    kind="law",
-    en="formulation, law and elements",
-    fr="formulation, loi et éléments",
-)
+_WORDS = many("said", "MOT", kind="law", en="formulation, law and elements")
 _SETTINGS = (
-    key("constituent", "CONS", arg("name", "MOT"), en="constituent", fr="constituant"),
+    key("constituent", "CONS", arg("name", "MOT"), en="constituent"),
     key(
         "section",
         "DPGE",
         arg("point", "POINT"),
         en="point that carries the motion of the section in generalised plane strain",
-        fr="point qui porte le mouvement de la section en déformation plane généralisée",
     ),
-    key(
-        "layers",
-        "INTEGRE",
-        arg("count", "ENTIER"),
-        en="points across the thickness of shells",
-        fr="points dans l'épaisseur des coques",
-    ),
-    choice(
-        "rule",
-        ("GAUSS", "LOBATTO"),
-        length=8,
-        en="integration of joints",
-        fr="intégration des joints",
-    ),
-    choice(
-        "bound",
-        ("LIBRE", "LIE"),
-        en="whether the axes of JOI1 follow",
-        fr="si le repère de JOI1 suit",
-    ),
+    key("layers", "INTEGRE", arg("count", "ENTIER"), en="points across the thickness of shells"),
+    choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
+    choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
 )
 MODE = shared(
     "MODE",
@@ -164,50 +140,6 @@ MODE = shared(
         "same solution in more iterations. Other laws of joints are JOINT_DILATANT, COULOMB, "
         "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (footings), APPUI_PLOMB, "
         "APPUI_PENDULE (bearings of isolated structures).",
-        fr="Donne à un maillage ses éléments finis et sa loi.\n"
-        "La formulation est MECANIQUE ; la loi est ELASTIQUE, suivie d'ISOTROPE (par défaut), "
-        "ORTHOTROPE, ANISOTROPE ou UNIDIRECTIONNEL ; les joints ont aussi JOINT_SDM. Les massifs "
-        "et les barres ajoutent PLASTIQUE et PARFAIT, ISOTROPE (par défaut), J2 ou CINEMATIQUE "
-        "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER ou RH_COULOMB (Mohr-Coulomb arrondi), "
-        "CAM_CLAY, "
-        "IWAN ou IWAN_PRESSION (sol cyclique), "
-        "ou FLUAGE NORTON ; les coques DKT ont les lois de von Mises avec INTEGRE N1, points dans "
-        "l'épaisseur. Les poutres "
-        "TIMO sont ELASTIQUE SECTION quand leur section est un modèle de fibres (POJS sur des "
-        "points, TRIS, QUAS) donné par MATE, avec PLASTIQUE SECTION si des fibres plastifient "
-        "(PARFAIT_UNI : le long de la fibre ; BETON_BAEL : béton sans traction ; ACIER_UNI, "
-        "BETON_UNI : acier et béton en cycles ; ou von Mises) ; les barres ont aussi ces lois. "
-        "MODAL et "
-        "STATIQUE font d'un point un mode ou une déformée statique. IMPEDANCE met un ressort et "
-        "un amortisseur en un point (POI1) ou entre deux (SEG2) : ELASTIQUE (par défaut), VOIGT "
-        "(en parallèle), REUSS (en série), COMPLEXE (fonctions de la fréquence), sur toutes les "
-        "translations (et les rotations si CPLE est donné), sur les inconnues d'une ou deux "
-        "listes de mots, ou avec MODAL ou STATIQUE sur la part de cette forme. Sans nom "
-        "d'élément, les mailles reçoivent l'élément massif de leur nom, les SEG2 et SEG3 des "
-        "barres (BARR, BAR3) dans le plan et l'espace ; POUT, TIMO, TUYA, "
-        "CERC (cerces sur des points), "
-        "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (coque de cubes) et les joints se nomment (Q4RI, "
-        "ICQ4, BBAR choisissent une "
-        "autre intégration ; POLY prend les éléments d'un maillage de polygones). "
-        "L'hypothèse est celle d'OPTI MODE.\n"
-        "La formulation CONTACT (UNILATERAL) empêche deux bords, le second donné derrière elle, "
-        "de se pénétrer : MESC (par défaut : aucun noeud du second dans le premier), SYME, FAIB "
-        "(en moyenne sur chaque maille du second), MORT (moyenne pondérée à ses noeuds). Les "
-        "lignes (SEG2) ont l'autre corps à leur droite, les surfaces (TRI3, QUA4) du côté de leur "
-        "normale. PASAPAS et RIGI prennent ces modèles. FROTTANT COULOMB au lieu d'UNILATERAL "
-        "ajoute le frottement de Coulomb (MATE : MU, COHE), FROTTANT FROCABLE lie un câble de "
-        "barres au volume maillé par GEO2 et l'y laisse glisser avec le frottement du BPEL 99 "
-        "(MATE : FF, PHIF) ; tous deux pour PASAPAS.\n"
-        "La formulation CHARGEMENT PRESSION fait un modèle de faces chargées, pour PRES et BSIG.\n"
-        "CONS nomme le constituant, DPGE donne le point qui porte le mouvement de la section "
-        "en déformation plane généralisée, LIBRE ou LIE dit si le repère de JOI1 suit.\n"
-        "Les joints s'intègrent aux points de GAUSS (par défaut) ou, par LOBATTO, aux noeuds des "
-        "faces SEG2 SEG3 TRI3 QUA4, ce qui évite les oscillations des joints très raides. Après "
-        "JOINT_SDM, CISAILLEMENT_ELASTIQUE garde le cisaillement élastique à l'ouverture, "
-        "FROTTEMENT_SYMETRIQUE rend symétrique la tangente du frottement (FROT) : même solution "
-        "en plus d'itérations. Autres lois des joints : JOINT_DILATANT, COULOMB et, en un "
-        "point, MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (fondations), APPUI_PLOMB, "
-        "APPUI_PENDULE (appuis de structures isolées).",
         syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
         "('PLASTIQUE' (LOI1) | 'FLUAGE' 'NORTON') (ELEM1 ...) "
         "('INTEGRE' N1) ('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
@@ -263,42 +195,29 @@ MODE = shared(
 
 @MODE.form(
     choice(
-        "formulation",
-        ("CONTACT",),
-        optional=False,
-        en="two sides that do not go into each other",
-        fr="deux bords qui ne se pénètrent pas",
+        "formulation", ("CONTACT",), optional=False, en="two sides that do not go into each other"
     ),
     select(
         "friction",
         {
             "FROTTANT": [
-                choice(
-                    "law",
-                    ("COULOMB", "FROCABLE"),
-                    en="Coulomb's friction, or that of a cable",
-                    fr="frottement de Coulomb, ou d'un câble",
-                )
+                choice("law", ("COULOMB", "FROCABLE"), en="Coulomb's friction, or that of a cable")
             ]
         },
         en="friction",
-        fr="frottement",
     ),
-    flag(
-        "smooth", "UNILATERAL", en="without friction (default)", fr="sans frottement (par défaut)"
-    ),
+    flag("smooth", "UNILATERAL", en="without friction (default)"),
     choice(
         "method",
         METHODS,
         default="MESC",
         en="nodes of the second side (default), of both, or means over its cells or nodes",
-        fr="noeuds du second bord (par défaut), des deux, ou moyennes par maille ou par noeud",
     ),
     *_SETTINGS,
     _WORDS,
-    arg("master", "MAILLAGE", "POINT", en="first side, or the cable", fr="premier bord, ou câble"),
-    opt("cables", "MMODEL", en="model of the cable", fr="modèle du câble"),
-    arg("slave", "MAILLAGE", en="second side, or the body", fr="second bord, ou volume"),
+    arg("master", "MAILLAGE", "POINT", en="first side, or the cable"),
+    opt("cables", "MMODEL", en="model of the cable"),
+    arg("slave", "MAILLAGE", en="second side, or the body"),
 )
 def contact(
     call: Call,
@@ -326,13 +245,12 @@ def contact(
 @MODE.form(
     *_SETTINGS,
     _WORDS,
-    arg("mesh", "MAILLAGE", "POINT", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", "POINT", en="mesh"),
     many(
         "unknowns",
         "LISTMOTS",
         kind="component",
         en="unknowns of IMPEDANCE: one list, or one for each end",
-        fr="inconnues d'IMPEDANCE : une liste, ou une par bout",
     ),
 )
 def mode(

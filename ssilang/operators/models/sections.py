@@ -21,25 +21,14 @@ if TYPE_CHECKING:
 
 
 _ENTRIES = (
-    flag("checked", "VERIF", en="a table of the fields too", fr="aussi une table des champs"),
-    many(
-        "lists",
-        "LISTREEL",
-        en="curvatures and normal force, one value a step",
-        fr="courbures et effort normal, une valeur par pas",
-    ),
-    arg("model", "MMODEL", en="section of fibres", fr="section de fibres"),
-    arg("material", "MCHAML", en="its parameters", fr="ses caractéristiques"),
-    arg(
-        "tolerance",
-        "FLOTTANT",
-        range=POSITIVE,
-        en="error allowed on the normal force, relative",
-        fr="erreur relative admise sur l'effort normal",
-    ),
+    flag("checked", "VERIF", en="a table of the fields too"),
+    many("lists", "LISTREEL", en="curvatures and normal force, one value a step"),
+    arg("model", "MMODEL", en="section of fibres"),
+    arg("material", "MCHAML", en="its parameters"),
+    arg("tolerance", "FLOTTANT", range=POSITIVE, en="error allowed on the normal force, relative"),
 )
-_IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space", "en dimension 3")
-_IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "dans le plan")
+_IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space")
+_IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
 
 
 @operator(
@@ -56,13 +45,6 @@ _IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane", "da
         "FLOT1 is the error allowed on the normal force, relative to the sum of the forces of the "
         "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
         "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
-        fr="Moments d'une section de fibres (éléments POJS, TRIS, QUAS) que l'on courbe pas à pas "
-        "depuis l'état vierge : courbures autour de l'axe local y (LREE4, en 3D seulement) et z "
-        "(LREE5), effort normal LREE6 (positif en traction), chaque liste ayant une valeur par "
-        "pas. Donne les moments autour de y (en 3D seulement) et de z, et l'allongement de la "
-        "ligne de la poutre. FLOT1 est l'erreur admise sur l'effort normal, rapportée à la somme "
-        "des forces des fibres sans leur signe. 'VERIF' ajoute une table de tables avec les champs "
-        "de chaque pas sur la section : CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
         syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
         examples=(
             "OPTI DIME 3 ELEM QUA4 ; S = (DROI 20 (-0.1 -0.05 0.) (0.1 -0.05 0.)) TRAN 1 "

@@ -28,8 +28,8 @@ def _found_in(zone: Zone, model: Model) -> bool:
     return any(same_zone(zone, other) for other in model.zones)
 
 
-_FIRST = main("first", "MMODEL", en="model", fr="modèle")
-_SECOND = arg("second", "MMODEL", en="other model", fr="autre modèle")
+_FIRST = main("first", "MMODEL", en="model")
+_SECOND = arg("second", "MMODEL", en="other model")
 
 
 @DIFF.form(
@@ -37,7 +37,6 @@ _SECOND = arg("second", "MMODEL", en="other model", fr="autre modèle")
     _SECOND,
     syntax="MOD3 = MOD1 DIFF MOD2 ;",
     en="Of models: zones of one only.",
-    fr="De modèles : zones de l'un seulement.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; T = S PLUS (2. 0.) ;"
         " A = MODE S MECANIQUE ELASTIQUE ; B = MODE T MECANIQUE ELASTIQUE ;"
@@ -50,13 +49,7 @@ def difference_of_models(first: Model, second: Model) -> Model:
     return Model((*left, *(z for z in second.zones if not _found_in(z, first))))
 
 
-@INTE.form(
-    _FIRST,
-    _SECOND,
-    syntax="MOD3 = MOD1 INTE MOD2 ;",
-    en="Of models: zones that both hold.",
-    fr="De modèles : zones communes.",
-)
+@INTE.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 INTE MOD2 ;", en="Of models: zones that both hold.")
 def intersection_of_models(first: Model, second: Model) -> Model:
     """Common zones of two models."""
     common = tuple(z for z in first.zones if _found_in(z, second))

@@ -31,14 +31,9 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
 
 @operator(
     "TAIL",
-    choice("what", ("DIAMETRE_MIN", "DIRECTION"), en="which size", fr="quelle taille"),
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    opt(
-        "given",
-        "MCHAML",
-        en="thickness or section of shells and beams",
-        fr="épaisseur ou section des coques et poutres",
-    ),
+    choice("what", ("DIAMETRE_MIN", "DIRECTION"), en="which size"),
+    arg("model", "MMODEL", en="model"),
+    opt("given", "MCHAML", en="thickness or section of shells and beams"),
     family="models",
     full_name="TAILLE",
     help=Help(
@@ -48,11 +43,6 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
         "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
         "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
         "rectangle that has the larger radius of gyration of the section.",
-        "'DIAMETRE_MIN' : la plus petite longueur de chaque élément, en son centre, "
-        "composante L : entre deux noeuds, ou d'un noeud à un côté qui ne le contient pas. Elle "
-        "borne le pas de temps des schémas explicites. Les coques et poutres ont une seconde "
-        "composante L2H = L^2 / h, à laquelle le temps des ondes de flexion est proportionnel, h "
-        "étant l'épaisseur de CARA1 ou celle du rectangle de même plus grand rayon de giration.",
         "MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
         (
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 0.3) ; "

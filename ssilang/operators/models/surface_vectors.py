@@ -17,16 +17,13 @@ _BEAMS = ("beam", "timoshenko", "pipe")
 
 @operator(
     "VSUR",
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    flag("unit", "NORM", en="of length 1", fr="de longueur 1"),
+    arg("model", "MMODEL", en="model"),
+    flag("unit", "NORM", en="of length 1"),
     family="models",
     help=Help(
         en="At the integration points of a model, the normal of its shells and the tangent of its "
         "beams, components VX VY (VZ), or VR VZ about an axis; as long as the Jacobian there, or "
         "of length 1 with 'NORM'. Other elements give nothing.",
-        fr="Aux points d'intégration d'un modèle, la normale des coques et la tangente des "
-        "poutres, composantes VX VY (VZ), ou VR VZ autour d'un axe ; de longueur le jacobien, ou 1 "
-        "avec 'NORM'. Les autres éléments ne donnent rien.",
         syntax="CHAM1 = VSUR MODL1 ('NORM') ;",
         examples=(
             "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "

@@ -35,22 +35,15 @@ _EXAMPLE = (
 )
 
 
-_WORD = arg("word", "MOT", en="word to remove", fr="mot à enlever")
+_WORD = arg("word", "MOT", en="word to remove")
 
 
 @ENLE.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
-    select(
-        "what",
-        {"FORM": [_WORD], "COMP": [_WORD]},
-        en="zones of a formulation or a behaviour",
-        fr="zones d'une formulation ou d'un comportement",
-    ),
+    main("model", "MMODEL", en="model"),
+    select("what", {"FORM": [_WORD], "COMP": [_WORD]}, en="zones of a formulation or a behaviour"),
     syntax="MODL2 = ENLE MODL1 'FORM' | 'COMP' MOT1 ;",
     en="Of a model: without the zones of a formulation (FORM) or a behaviour (COMP); the model "
     "itself if there are none.",
-    fr="D'un modèle : sans les zones d'une formulation (FORM) ou d'un comportement (COMP) ; le "
-    "modèle lui-même s'il n'y en a pas.",
     examples=(_EXAMPLE + "LIST (DIME (EXTR (ENLE MO 'COMP' 'PLASTIQUE') 'CONT')) ;",),
 )
 def without(call: Call, model: Model, what: Chosen | None) -> Model:
@@ -68,12 +61,11 @@ def without(call: Call, model: Model, what: Chosen | None) -> Model:
 
 @CHAN.form(
     said("CONS"),
-    arg("model", "MMODEL", en="model", fr="modèle"),
-    arg("constituent", "MOT", en="its new constituent", fr="son nouveau constituant"),
+    arg("model", "MMODEL", en="model"),
+    arg("constituent", "MOT", en="its new constituent"),
     of=("MMODEL",),
     syntax="MODL2 = CHAN 'CONS' MODL1 MOT1 ;",
     en="CONS changes the constituent of a model.",
-    fr="CONS change le constituant d'un modèle.",
     examples=(_EXAMPLE + "M2 = CHAN 'CONS' MO 'SOIL' ;",),
 )
 def change_constituent(call: Call, model: Model, constituent: str) -> Model:
@@ -130,26 +122,25 @@ def _chosen(call: Call, model: Model, what: Chosen) -> Model:
     return Model(kept)
 
 
-def _names(kind: str, en: str, fr: str) -> list[Entry]:
-    return [many("names", "MOT", at_least=1, kind=kind, en=en, fr=fr)]
+def _names(kind: str, en: str) -> list[Entry]:
+    return [many("names", "MOT", at_least=1, kind=kind, en=en)]
 
 
 @EXTR.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
+    main("model", "MMODEL", en="model"),
     select(
         "what",
         {
             "MAIL": [],
             "ZONE": [],
-            "FORM": _names("formulation", "formulations", "formulations"),
-            "CONS": _names("", "constituents", "constituants"),
-            "ELEM": _names("element", "elements", "éléments"),
-            "COMP": _names("law", "words of the law", "mots de la loi"),
+            "FORM": _names("formulation", "formulations"),
+            "CONS": _names("", "constituents"),
+            "ELEM": _names("element", "elements"),
+            "COMP": _names("law", "words of the law"),
             **{word: [] for word in (*_NO_NAMES, *_NAMES)},
         },
         optional=False,
         en="mesh, table of zones, zones that have some words, or names of components",
-        fr="maillage, table des zones, zones qui ont certains mots, ou noms de composantes",
     ),
     gives=by(
         "what",
@@ -169,11 +160,6 @@ def _names(kind: str, en: str, fr: str) -> list[Entry]:
     "formulation, constituent or element, or the names of the components of its stresses (CONT), "
     "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
     "(GRAD), principal stresses (CONP), internal variables of a plastic law (VARI).",
-    fr="D'un modèle : son maillage (MAIL), une table de ses zones et de leurs maillages (ZONE), "
-    "les zones d'une formulation, d'un constituant ou d'un élément, ou les noms de composantes "
-    "des contraintes (CONT), déformations (DEFO), déplacements (DEPL), forces (FORC), paramètres "
-    "(MATE, GEOM), gradients (GRAD), contraintes principales (CONP), variables internes d'une loi "
-    "plastique (VARI).",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
         "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",

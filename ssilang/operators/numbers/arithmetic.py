@@ -262,20 +262,14 @@ _FURTHER = {
     "/": "\nCHAM3 = CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;",
 }
 _TEXTS = {
-    "+": ("Sum of two objects.", "Somme de deux objets."),
-    "-": ("Difference of two objects.", "Différence de deux objets."),
+    "+": "Sum of two objects.",
+    "-": "Difference of two objects.",
     "*": (
         "Product of two objects. Of fields with three lists of names: component by component (in "
-        "cells with a factor each); of matrices of Hooke by strains, with the model: stresses.",
-        "Produit de deux objets. De champs avec trois listes de noms : composante par composante "
-        "(par éléments, avec un coefficient chacune) ; de matrices de Hooke par des déformations, "
-        "avec le modèle : contraintes.",
+        "cells with a factor each); of matrices of Hooke by strains, with the model: stresses."
     ),
-    "/": (
-        "Quotient; of two integers it is an integer, cut towards zero.",
-        "Quotient ; entre deux entiers, c'est un entier tronqué vers zéro.",
-    ),
-    "**": ("Power.", "Puissance."),
+    "/": "Quotient; of two integers it is an integer, cut towards zero.",
+    "**": "Power.",
 }
 _EXAMPLES = {
     "*": (
@@ -285,16 +279,15 @@ _EXAMPLES = {
         "LIST (MAXI (E * E (MOTS 'EPXX') (MOTS 'EPXX') (MOTS 'SQUA') (PROG 1.E4))) ;",
     ),
 }
-for _sign, (_en, _fr) in _TEXTS.items():
+for _sign, _en in _TEXTS.items():
     operator(
         _sign,
-        arg("left", en="what stands before it", fr="ce qui précède"),
-        arg("right", en="what stands behind it", fr="ce qui suit"),
+        arg("left", en="what stands before it"),
+        arg("right", en="what stands behind it"),
         gives=ANY,
         family="arithmetic",
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
-            _fr + " Les phrases vont de gauche à droite, sans priorité : 1 + 2 * 3 vaut 9.",
             f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
             (f"x = 6 {_sign} 3 ; LIST x ;", *_EXAMPLES.get(_sign, ())),
         ),

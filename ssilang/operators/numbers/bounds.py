@@ -32,9 +32,6 @@ BORN = shared(
     Help(
         en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
         "Of a field, component by component; of curves, curve by curve: those named are kept.",
-        fr="Valeurs bornées en haut ('MAXIMUM'), en bas ('MINIMUM') ou des deux côtés ('COMPRIS'). "
-        "D'un champ, composante par composante ; d'évolutions, courbe par courbe : celles qui "
-        "sont nommées sont gardées.",
         syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
         examples=(
             "LIST (BORN (PROG -1. 0.5 3.) 'COMPRIS' 0. 1.) ;",
@@ -57,14 +54,13 @@ BORN = shared(
     ),
     full_name="BORNER",
 )
-_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", fr="borne supérieure")
-_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound", fr="borne inférieure")
+_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound")
+_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound")
 _BOUND = select(
     "bound",
     {"MAXIMUM": [_HIGH], "MINIMUM": [_LOW], "COMPRIS": [_LOW, _HIGH]},
     optional=False,
     en="bounds of the values",
-    fr="bornes des valeurs",
 )
 
 
@@ -72,18 +68,16 @@ def _ends(bound: Chosen) -> tuple[float, float]:
     return bound.values.get("low", -np.inf), bound.values.get("high", np.inf)
 
 
-@BORN.form(
-    main("value", "LISTENTI", "LISTREEL", en="list", fr="liste"), _BOUND, gives=Like("value")
-)
+@BORN.form(main("value", "LISTENTI", "LISTREEL", en="list"), _BOUND, gives=Like("value"))
 def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
     return type(value)(np.clip(value.values, *_ends(bound)))
 
 
 @BORN.form(
-    main("value", "EVOLUTIO", en="curves", fr="évolutions"),
+    main("value", "EVOLUTIO", en="curves"),
     each(
         "bounds",
-        opt("curve", "ENTIER", en="number of a curve, 1 if none", fr="numéro de courbe, 1 sinon"),
+        opt("curve", "ENTIER", en="number of a curve, 1 if none"),
         _BOUND,
         at_least=1,
     ),
@@ -93,7 +87,7 @@ def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Cho
 
 
 @BORN.form(
-    main("value", "CHPOINT", "MCHAML", en="field", fr="champ"),
+    main("value", "CHPOINT", "MCHAML", en="field"),
     each(
         "bounds",
         either(
@@ -101,7 +95,7 @@ def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Cho
             group("only", _BOUND),
             group(
                 "named",
-                arg("component", "MOT", en="component", fr="composante", kind="component"),
+                arg("component", "MOT", en="component", kind="component"),
                 _BOUND,
             ),
         ),

@@ -50,8 +50,8 @@ for _sign, _compare in _ORDERS.items():
     SCALAR_RULES[_sign] = _ordered(_compare)
 
 
-_FIRST = arg("first", en="what stands before it", fr="ce qui précède")
-_SECOND = arg("second", en="what stands behind it", fr="ce qui suit")
+_FIRST = arg("first", en="what stands before it")
+_SECOND = arg("second", en="what stands behind it")
 
 
 def _no_rule(call: Call, sign: str, first: Any, second: Any) -> SsiError:
@@ -106,18 +106,12 @@ def _told(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
     return equal(sign, call, first, second, tolerance) == (sign == "EGA")
 
 
-def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
+def _register_equality(sign: str, en: str, example: str) -> None:
     operator(
         sign,
         _FIRST,
         _SECOND,
-        opt(
-            "tolerance",
-            "FLOTTANT",
-            range=NOT_NEGATIVE,
-            en="absolute tolerance",
-            fr="tolérance absolue",
-        ),
+        opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
         gives="LOGIQUE",
         family="comparisons",
         full_name=sign,
@@ -125,10 +119,6 @@ def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
             en + " The second of two numbers is converted to the type of the first; points are "
             "equal when closer than a tolerance (a tenth of their density at first); trailing "
             "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
-            fr + " Le second de deux nombres est converti au type du premier ; deux points sont "
-            "égaux s'ils sont plus proches qu'une tolérance (le dixième de leur densité par "
-            "défaut) ; les blancs finaux des mots ne comptent pas. Pour des mots, écrire EGA MOT1 "
-            "MOT2.",
             f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
             (example,),
         ),
@@ -138,13 +128,11 @@ def _register_equality(sign: str, en: str, fr: str, example: str) -> None:
 _register_equality(
     "EGA",
     "Whether two objects are equal.",
-    "Dit si deux objets sont égaux.",
     "SI (EGA 'AA' 'AA  ') ; MESS 'same' ; FINSI ;",
 )
 _register_equality(
     "NEG",
     "Whether two objects are not equal.",
-    "Dit si deux objets diffèrent.",
     "SI (3 NEG 4) ; MESS 'different' ; FINSI ;",
 )
 
@@ -155,12 +143,8 @@ def _compare_numbers(sign: str, call: Call, first: Any, second: Any) -> bool:
     return _ORDERS[sign](first, second)
 
 
-_TEXTS = {
-    "<": ("smaller", "plus petit"), ">": ("larger", "plus grand"),
-    "<EG": ("smaller or equal", "plus petit ou égal"),
-    ">EG": ("larger or equal", "plus grand ou égal"),
-}  # fmt: skip
-for _sign, (_en, _fr) in _TEXTS.items():
+_TEXTS = {"<": "smaller", ">": "larger", "<EG": "smaller or equal", ">EG": "larger or equal"}
+for _sign, _en in _TEXTS.items():
     operator(
         _sign,
         _FIRST,
@@ -169,7 +153,6 @@ for _sign, (_en, _fr) in _TEXTS.items():
         family="comparisons",
         help=Help(
             f"Whether the first number is {_en} than the second.",
-            f"Dit si le premier nombre est {_fr} au second.",
             f"LOG1 = VAL1 {_sign} VAL2 ;",
             (f"SI (1 {_sign} 2) ; MESS 'yes' ; SINON ; MESS 'no' ; FINSI ;",),
         ),

@@ -45,13 +45,7 @@ def _whole(call: Call, values: Any) -> Any:
 
 @operator(
     "ENTI",
-    choice(
-        "way",
-        tuple(_ROUNDINGS),
-        default="TRONCATURE",
-        en="cut, below, above or nearest",
-        fr="tronqué, en dessous, au-dessus ou le plus proche",
-    ),
+    choice("way", tuple(_ROUNDINGS), default="TRONCATURE", en="cut, below, above or nearest"),
     arg(
         "value",
         "ENTIER",
@@ -62,7 +56,6 @@ def _whole(call: Call, values: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
-        fr="nombres, ou mots qui les disent",
     ),
     gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
@@ -71,9 +64,6 @@ def _whole(call: Call, values: Any) -> Any:
         en="Integer of a real, of each item of a list or value of a field, or written in a word: "
         "cut ('TRONCATURE', by default), below ('INFERIEUR'), above ('SUPERIEUR'), nearest "
         "('PROCHE').",
-        fr="Entier d'un réel, de chaque élément d'une liste ou valeur d'un champ, ou écrit dans un "
-        "mot : tronqué ('TRONCATURE', par défaut), en dessous ('INFERIEUR'), au-dessus "
-        "('SUPERIEUR'), le plus proche ('PROCHE').",
         syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
         examples=("LIST (ENTI 'PROCHE' -3.5) ;", "LIST (ENTI (PROG 1.2 2.7)) ;"),
     ),
@@ -102,14 +92,12 @@ def enti(call: Call, way: str, value: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
-        fr="nombres, ou mots qui les disent",
     ),
     gives="FLOTTANT|LISTREEL",
     family="numbers",
     full_name="FLOTTANT",
     help=Help(
         en="Real of an integer, of each item of a list, or written in a word.",
-        fr="Réel d'un entier, de chaque élément d'une liste, ou écrit dans un mot.",
         syntax="OBJ2 = FLOT OBJ1 ;",
         examples=("LIST (FLOT 3) ;", "LIST (FLOT '-1.5E2') ;"),
     ),
@@ -125,13 +113,11 @@ def flot(call: Call, value: Any) -> Any:
 
 @operator(
     "VERI",
-    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", fr="ce que l'on teste"),
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested"),
     family="numbers",
     help=Help(
         en="Whether a real, or all values of a field, are numbers (neither infinite nor "
         "undefined).",
-        fr="Dit si un réel, ou toutes les valeurs d'un champ, sont des nombres (ni infinis ni "
-        "indéfinis).",
         syntax="LOG1 = VERI X1 | CHPO1 ;",
         examples=("SI (VERI 3.) ; MESS 'a number' ; FINSI ;",),
     ),

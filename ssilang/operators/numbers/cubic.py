@@ -10,16 +10,14 @@ from ssilang.language.run.call import Call
 
 @operator(
     "DEG3",
-    arg("a0", "FLOTTANT", en="constant term", fr="terme constant"),
-    arg("a1", "FLOTTANT", en="factor of X", fr="facteur de X"),
-    arg("a2", "FLOTTANT", en="factor of X**2", fr="facteur de X**2"),
-    arg("a3", "FLOTTANT", en="factor of X**3", fr="facteur de X**3"),
+    arg("a0", "FLOTTANT", en="constant term"),
+    arg("a1", "FLOTTANT", en="factor of X"),
+    arg("a2", "FLOTTANT", en="factor of X**2"),
+    arg("a3", "FLOTTANT", en="factor of X**3"),
     family="numbers",
     help=Help(
         en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "
         "real roots first, in growing order.",
-        fr="Les trois racines de A0 + A1 X + A2 X**2 + A3 X**3, chacune par ses parties réelle et "
-        "imaginaire ; les racines réelles d'abord, par ordre croissant.",
         syntax="XR1 XI1 XR2 XI2 XR3 XI3 = DEG3 A0 A1 A2 A3 ;",
         examples=("R1 I1 R2 I2 R3 I3 = DEG3 -6. 11. -6. 1. ; LIST R1 ; LIST R2 ; LIST R3 ;",),
     ),

@@ -100,35 +100,49 @@ def _sign(x: Any) -> Any:
     return np.where(x < 0, -1, 1).astype(np.asarray(x).dtype)
 
 
-_FUNCTIONS: dict[str, tuple[Function, str, str, str, str]] = {
-    "ABS": (np.abs, "Absolute value.", "Valeur absolue.", "ABS (-3)", ""),
-    "SIGN": (_sign, "Sign: 1, or -1 below zero.", "Signe : 1, ou -1 sous zéro.", "SIGN -2.5", ""),
-    "SIN": (_of_degrees(np.sin), "Sine of degrees.", "Sinus de degrés.", "SIN 30.", ""),
-    "COS": (_of_degrees(np.cos), "Cosine of degrees.", "Cosinus de degrés.", "COS 60.", ""),
-    "TAN": (_of_degrees(np.tan), "Tangent of degrees.", "Tangente de degrés.", "TAN 45.", ""),
-    "ASIN": (_degrees(_within("ASIN", np.arcsin, -1, 1, False)), "Arc sine, in degrees.",
-             "Arc sinus, en degrés.", "ASIN 0.5", ""),
-    "ACOS": (_degrees(_within("ACOS", np.arccos, -1, 1, False)), "Arc cosine, in degrees.",
-             "Arc cosinus, en degrés.", "ACOS 0.5", ""),
-    "SINH": (np.sinh, "Hyperbolic sine.", "Sinus hyperbolique.", "SINH 1.", ""),
-    "COSH": (np.cosh, "Hyperbolic cosine.", "Cosinus hyperbolique.", "COSH 1.", ""),
-    "TANH": (np.tanh, "Hyperbolic tangent.", "Tangente hyperbolique.", "TANH 1.", ""),
-    "ASIH": (np.arcsinh, "Inverse hyperbolic sine.", "Argument sinus hyperbolique.", "ASIH 1.", ""),
-    "ACOH": (_within("ACOH", np.arccosh, 1, np.inf, False), "Inverse hyperbolic cosine.",
-             "Argument cosinus hyperbolique.", "ACOH 2.", ""),
-    "ATAH": (_within("ATAH", np.arctanh, -1, 1, False), "Inverse hyperbolic tangent.",
-             "Argument tangente hyperbolique.", "ATAH 0.5", ""),
-    "EXP": (_exponential, "Exponential.", "Exponentielle.", "EXP 1.", ""),
-    "LOG": (_within("LOG", np.log, 0, np.inf, True), "Natural logarithm.",
-            "Logarithme naturel.", "LOG 10.", ""),
-    "ERF": (_erf, "Gauss's error function.", "Fonction d'erreur de Gauss.", "ERF 0.5", ""),
-    "ERFC": (_erfc, "Complementary error function.", "Fonction d'erreur complémentaire.",
-             "ERFC 0.5", ""),
-}  # fmt: skip
+_FUNCTIONS: dict[str, tuple[Function, str, str, str]] = {
+    "ABS": (np.abs, "Absolute value.", "ABS (-3)", ""),
+    "SIGN": (_sign, "Sign: 1, or -1 below zero.", "SIGN -2.5", ""),
+    "SIN": (_of_degrees(np.sin), "Sine of degrees.", "SIN 30.", ""),
+    "COS": (_of_degrees(np.cos), "Cosine of degrees.", "COS 60.", ""),
+    "TAN": (_of_degrees(np.tan), "Tangent of degrees.", "TAN 45.", ""),
+    "ASIN": (
+        _degrees(_within("ASIN", np.arcsin, -1, 1, False)),
+        "Arc sine, in degrees.",
+        "ASIN 0.5",
+        "",
+    ),
+    "ACOS": (
+        _degrees(_within("ACOS", np.arccos, -1, 1, False)),
+        "Arc cosine, in degrees.",
+        "ACOS 0.5",
+        "",
+    ),
+    "SINH": (np.sinh, "Hyperbolic sine.", "SINH 1.", ""),
+    "COSH": (np.cosh, "Hyperbolic cosine.", "COSH 1.", ""),
+    "TANH": (np.tanh, "Hyperbolic tangent.", "TANH 1.", ""),
+    "ASIH": (np.arcsinh, "Inverse hyperbolic sine.", "ASIH 1.", ""),
+    "ACOH": (
+        _within("ACOH", np.arccosh, 1, np.inf, False),
+        "Inverse hyperbolic cosine.",
+        "ACOH 2.",
+        "",
+    ),
+    "ATAH": (
+        _within("ATAH", np.arctanh, -1, 1, False),
+        "Inverse hyperbolic tangent.",
+        "ATAH 0.5",
+        "",
+    ),
+    "EXP": (_exponential, "Exponential.", "EXP 1.", ""),
+    "LOG": (_within("LOG", np.log, 0, np.inf, True), "Natural logarithm.", "LOG 10.", ""),
+    "ERF": (_erf, "Gauss's error function.", "ERF 0.5", ""),
+    "ERFC": (_erfc, "Complementary error function.", "ERFC 0.5", ""),
+}
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-_VALUE = arg("value", *OPERANDS, en="argument", fr="argument")
+_VALUE = arg("value", *OPERANDS, en="argument")
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
@@ -141,7 +155,7 @@ def _run(name: str, function: Function, value: Any) -> Any:
     return mapped(function, value)
 
 
-for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
+for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
     operator(
         _name,
         _VALUE,
@@ -149,8 +163,6 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
         family="functions",
         help=Help(
             _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
-            _fr + " D'un nombre, de chaque élément d'une liste, ordonnée d'une évolution ou valeur "
-            "d'un champ.",
             f"OBJ2 = {_name} OBJ1 ;",
             (f"LIST ({_example}) ;",),
         ),
@@ -159,13 +171,11 @@ for _name, (_function, _en, _fr, _example, _more) in _FUNCTIONS.items():
 
 @operator(
     "IFRE",
-    arg("limit", "FLOTTANT", en="upper limit, in radians", fr="borne supérieure, en radians"),
+    arg("limit", "FLOTTANT", en="upper limit, in radians"),
     family="functions",
     help=Help(
         en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
         "sin(t) / sqrt(2 pi t).",
-        fr="Intégrales de Fresnel, de 0 à une borne, de cos(t) / racine(2 pi t) et de "
-        "sin(t) / racine(2 pi t).",
         syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
         examples=("C S = IFRE 1.5 ; MESS C S ;",),
     ),
@@ -182,15 +192,13 @@ def ifre(limit: float) -> tuple[float, float]:
 
 @operator(
     "ATG",
-    arg("first", *OPERANDS, en="tangent, or numerator", fr="tangente, ou numérateur"),
-    opt("second", *OPERANDS, en="denominator", fr="dénominateur"),
+    arg("first", *OPERANDS, en="tangent, or numerator"),
+    opt("second", *OPERANDS, en="denominator"),
     gives=_REALS,
     family="functions",
     help=Help(
         en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
         "between -180 and 180.",
-        fr="Arc tangente en degrés, entre -90 et 90 ; de deux objets, celle de leur quotient, "
-        "entre -180 et 180.",
         syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
         examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
     ),

@@ -27,12 +27,11 @@ union(("LOGIQUE", "LOGIQUE"))(_both)
 
 @operator(
     "OU",
-    arg("first", "LOGIQUE", en="logical value", fr="valeur logique"),
-    arg("second", "LOGIQUE", en="another one", fr="une autre"),
+    arg("first", "LOGIQUE", en="logical value"),
+    arg("second", "LOGIQUE", en="another one"),
     family="comparisons",
     help=Help(
         en="True when one of two logical values is, or both.",
-        fr="Vrai si l'une des deux valeurs logiques l'est, ou les deux.",
         syntax="LOG3 = LOG1 OU LOG2 ;",
         examples=("SI (VRAI OU FAUX) ; MESS 'yes' ; FINSI ;",),
     ),
@@ -44,11 +43,10 @@ def ou(first: bool, second: bool) -> bool:
 
 @operator(
     "NON",
-    arg("value", "LOGIQUE", en="logical value", fr="valeur logique"),
+    arg("value", "LOGIQUE", en="logical value"),
     family="comparisons",
     help=Help(
         en="Negation of a logical value.",
-        fr="Négation d'une valeur logique.",
         syntax="LOG2 = NON LOG1 ;",
         examples=("SI (NON FAUX) ; MESS 'yes' ; FINSI ;",),
     ),
@@ -60,13 +58,12 @@ def non(value: bool) -> bool:
 
 @operator(
     "MULT",
-    arg("first", "ENTIER", en="integer", fr="entier"),
-    arg("second", "ENTIER", en="divisor", fr="diviseur"),
+    arg("first", "ENTIER", en="integer"),
+    arg("second", "ENTIER", en="divisor"),
     family="comparisons",
     full_name="MULTIPLE",
     help=Help(
         en="Whether the first integer is a multiple of the second.",
-        fr="Dit si le premier entier est un multiple du second.",
         syntax="LOG1 = MULT N1 N2 ;",
         examples=("SI (MULT 12 4) ; MESS 'yes' ; FINSI ;",),
     ),

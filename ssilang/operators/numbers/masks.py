@@ -43,9 +43,6 @@ MASQ = shared(
         en="Ones where a relation with a number, or with the values of an object of the same "
         "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
         "in cells has a component.",
-        fr="Des 1 où une relation avec un nombre, ou avec les valeurs d'un objet de même nature, "
-        "est vérifiée, des 0 ailleurs ; avec 'SOMME' leur nombre. 'EXISTE' dit où un champ par "
-        "éléments a une composante.",
         syntax="OBJ2 = OBJ1 MASQ 'SUPERIEUR' | 'EGSUPE' | 'EGALE' | 'EGINFE' | 'INFERIEUR' | "
         "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
         "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
@@ -88,29 +85,28 @@ MASQ = shared(
 )
 
 
-_EXISTE = {"EXISTE": [opt("component", "MOT", en="component", fr="composante", kind="component")]}
+_EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]}
 """What is asked of fields in cells alone."""
 
 
 def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
-    limit = arg("limit", *limits, en="value to compare with", fr="valeur de comparaison")
+    limit = arg("limit", *limits, en="value to compare with")
     return (
         select(
             "test",
             {
                 **{word: [limit] for word in _TESTS},
                 "COMPRIS": [
-                    arg("low", *limits, en="lower bound", fr="borne inférieure"),
-                    arg("high", *limits, en="upper bound", fr="borne supérieure"),
+                    arg("low", *limits, en="lower bound"),
+                    arg("high", *limits, en="upper bound"),
                 ],
                 **(_EXISTE if kind == "MCHAML" else {}),
             },
             optional=False,
             en="relation",
-            fr="relation",
         ),
-        flag("counted", "SOMM", en="number of ones", fr="nombre de uns"),
+        flag("counted", "SOMM", en="number of ones"),
     )
 
 
@@ -127,7 +123,7 @@ def _masked(value: Any, test: Chosen, counted: bool) -> Any:
 
 for _kind, _limits in _LIMITS.items():
     MASQ.form(
-        main("value", _kind, en="values to test", fr="valeurs à tester"),
+        main("value", _kind, en="values to test"),
         *_test_of(_kind, *_limits),
         gives=by("counted", {True: "ENTIER"}, _kind),
     )(_masked)

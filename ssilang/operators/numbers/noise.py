@@ -46,9 +46,6 @@ BRUI = shared(
         en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
         "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
         "a list of integers. A run repeated gives the same values; a last integer skips terms.",
-        fr="Valeurs aléatoires non corrélées : gaussiennes (moyenne, écart-type), uniformes "
-        "(moyenne, amplitude), exponentielles ; en liste, en évolution ou en champ ; Poisson en "
-        "liste d'entiers. Un calcul répété redonne les mêmes ; un dernier entier saute des termes.",
         syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
         "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
         examples=(
@@ -58,21 +55,15 @@ BRUI = shared(
     ),
     full_name="BRUIT",
 )
-_NOISE = key("noise", "BLAN", optional=False, en="white noise", fr="bruit blanc")
-_SKIP = opt(
-    "skip",
-    "ENTIER",
-    range=NOT_NEGATIVE,
-    en="terms that the generator, begun again, skips",
-    fr="termes que saute le générateur, repris au début",
-)
+_NOISE = key("noise", "BLAN", optional=False, en="white noise")
+_SKIP = opt("skip", "ENTIER", range=NOT_NEGATIVE, en="terms that the generator, begun again, skips")
 
 
 @BRUI.form(
     _NOISE,
-    choice("law", ("POIS",), optional=False, en="Poisson's law", fr="loi de Poisson"),
-    arg("mean", "ENTIER", range=NOT_NEGATIVE, en="mean", fr="moyenne"),
-    arg("count", "ENTIER", range=NOT_NEGATIVE, en="number of values", fr="nombre de valeurs"),
+    choice("law", ("POIS",), optional=False, en="Poisson's law"),
+    arg("mean", "ENTIER", range=NOT_NEGATIVE, en="mean"),
+    arg("count", "ENTIER", range=NOT_NEGATIVE, en="number of values"),
     _SKIP,
 )
 def _poisson(
@@ -83,24 +74,11 @@ def _poisson(
 
 @BRUI.form(
     _NOISE,
-    choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law", fr="loi"),
-    arg("mean", "FLOTTANT", en="mean", fr="moyenne"),
-    arg(
-        "width",
-        "FLOTTANT",
-        range=NOT_NEGATIVE,
-        en="deviation or half width",
-        fr="écart-type ou amplitude",
-    ),
-    arg(
-        "where",
-        "ENTIER",
-        "LISTREEL",
-        "MAILLAGE",
-        en="number of values, times, or mesh",
-        fr="nombre de valeurs, instants, ou maillage",
-    ),
-    choice("colour", COLOURS, en="colour of the curve", fr="couleur de l'évolution"),
+    choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law"),
+    arg("mean", "FLOTTANT", en="mean"),
+    arg("width", "FLOTTANT", range=NOT_NEGATIVE, en="deviation or half width"),
+    arg("where", "ENTIER", "LISTREEL", "MAILLAGE", en="number of values, times, or mesh"),
+    choice("colour", COLOURS, en="colour of the curve"),
     _SKIP,
     gives="LISTREEL|EVOLUTIO|CHPOINT",
 )

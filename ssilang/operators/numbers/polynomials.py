@@ -24,9 +24,6 @@ RACP = shared(
         en="Real roots of a polynomial A0 + A1 X + A2 X**2 ..., in increasing order; with "
         "'IMAGINAIRE' real and imaginary parts of all roots; with 'INTE' the first real root in "
         "an interval (the word VIDE if there is none).",
-        fr="Racines réelles d'un polynôme A0 + A1 X + A2 X**2 ..., par ordre croissant ; avec "
-        "'IMAGINAIRE' parties réelles et imaginaires de toutes ; avec 'INTE' la première racine "
-        "réelle d'un intervalle (le mot VIDE s'il n'y en a pas).",
         syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
         "X1 = RACP 'INTE' X2 X3 LREE1 ;",
         examples=(
@@ -40,9 +37,9 @@ RACP = shared(
     full_name="RACPOL",
 )
 _POLYNOMIAL = (
-    flag("bairstow", "BAIR", en="changes nothing", fr="sans effet"),
-    opt("listed", "LISTREEL", en="coefficients by power", fr="coefficients par puissance"),
-    many("numbers", "FLOTTANT", en="coefficients, else", fr="sinon les coefficients"),
+    flag("bairstow", "BAIR", en="changes nothing"),
+    opt("listed", "LISTREEL", en="coefficients by power"),
+    many("numbers", "FLOTTANT", en="coefficients, else"),
 )
 
 
@@ -56,8 +53,8 @@ def _all_roots(
 
 @RACP.form(
     said("INTE"),
-    arg("low", "FLOTTANT", en="one end of an interval", fr="une borne d'un intervalle"),
-    arg("high", "FLOTTANT", en="the other end", fr="l'autre borne"),
+    arg("low", "FLOTTANT", en="one end of an interval"),
+    arg("high", "FLOTTANT", en="the other end"),
     *_POLYNOMIAL,
     gives="FLOTTANT|MOT",
 )

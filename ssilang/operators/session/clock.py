@@ -35,12 +35,6 @@ TEMP = shared(
         "and 'TEMPS_CPU' the milliseconds since the run began ('INITIAL') and since the last call "
         "('DERNIER_APPEL'), in 'APPELS' how often each operator ran, a list of one number. "
         "Phrases of numbers alone run no operator.",
-        fr="Affiche le temps écoulé depuis le dernier appel. 'ZERO' remet à zéro ; 'HORL' et 'CPU' "
-        "rendent les temps horloge et processeur en millisecondes depuis ZERO. 'IMPR' 'APPE' "
-        "affiche le nombre d'appels de chaque opérateur depuis ZERO. 'NOEC' rend une table : dans "
-        "'TEMPS_HORLOGE' et 'TEMPS_CPU' les millisecondes depuis le début du calcul ('INITIAL') "
-        "et depuis le dernier appel ('DERNIER_APPEL'), dans 'APPELS' le nombre d'appels de chaque "
-        "opérateur, une liste d'un nombre. Les phrases de nombres n'appellent pas d'opérateur.",
         syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
         "TAB1 = TEMP 'NOEC' ;",
         examples=(
@@ -55,7 +49,7 @@ TEMP = shared(
     ),
     full_name="TEMPS",
 )
-_REST = many("rest", "*", "TEXTE", en="changes nothing", fr="sans effet")
+_REST = many("rest", "*", "TEXTE", en="changes nothing")
 
 
 def _read_clocks(session: Session) -> tuple[tuple[float, float], tuple[int, int]]:
@@ -114,7 +108,7 @@ def _garbage(session: Session) -> tuple[int, int]:
 
 @TEMP.form(
     said("IMPR"),
-    flag("counts", "APPE", en="calls of each operator", fr="appels de chaque opérateur"),
+    flag("counts", "APPE", en="calls of each operator"),
     _REST,
 )
 def _print_counts(session: Session, counts: bool, rest: tuple[Any, ...]) -> None:
@@ -126,12 +120,7 @@ def _print_counts(session: Session, counts: bool, rest: tuple[Any, ...]) -> None
 
 
 @TEMP.form(
-    choice(
-        "what",
-        ("PLAC",),
-        en="the time that has passed is printed",
-        fr="le temps écoulé est affiché",
-    ),
+    choice("what", ("PLAC",), en="the time that has passed is printed"),
     _REST,
 )
 def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> None:
@@ -148,8 +137,6 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
     help=Help(
         en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "
         "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
-        fr="Date et heure en un mot, ou une seule partie ; 'EPOCH' : secondes, pour mesurer par "
-        "différence ; 'CONVERSION' : secondes écrites en jours, heures, minutes, secondes.",
         syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
         "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
         examples=("LIST (DATE 'CONVERSION' 123456.789) ;",),

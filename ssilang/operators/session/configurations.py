@@ -24,15 +24,10 @@ class Configuration:
 
 @operator(
     "FORM",
-    opt("start", "CONFIGUR", en="coordinates to begin with", fr="coordonnées de départ"),
-    opt("field", "CHPOINT", en="displacements", fr="déplacements", unit="m"),
-    opt("model", "MMODEL", en="model of the parameters", fr="modèle des caractéristiques"),
-    opt(
-        "material",
-        "MCHAML",
-        en="parameters whose local axes follow",
-        fr="caractéristiques dont les axes locaux suivent",
-    ),
+    opt("start", "CONFIGUR", en="coordinates to begin with"),
+    opt("field", "CHPOINT", en="displacements", unit="m"),
+    opt("model", "MMODEL", en="model of the parameters"),
+    opt("material", "MCHAML", en="parameters whose local axes follow"),
     gives=by("model", {None: "CONFIGUR"}, ("CONFIGUR", "MCHAML")),
     family="mesh",
     full_name="FORME",
@@ -44,14 +39,6 @@ class Configuration:
         "nodes in that field (a rotation of any size), those of joints JOI1 whose model says LIE "
         "with the segment between the nodes: about it by the part along it of that mean, then the "
         "shortest way to where it goes (where both nodes are at one place, by the mean).",
-        fr="Déplace tous les noeuds : aux coordonnées d'une configuration si elle est donnée, "
-        "puis d'un champ de déplacements s'il est donné. Rend la configuration alors en "
-        "vigueur ; seul, il rend la configuration présente. Avec un modèle et ses "
-        "caractéristiques, rend aussi celles-ci, où les axes locaux des poutres et des tuyaux ont "
-        "tourné de la moyenne des rotations des noeuds de l'élément dans ce champ (une rotation "
-        "quelconque), ceux des joints JOI1 dont le modèle dit LIE avec le segment entre les "
-        "noeuds : autour de lui de la part de cette moyenne le long de lui, puis au plus court "
-        "vers où il va (de la moyenne, si les deux noeuds sont au même endroit).",
         syntax="(CONF2 (CAR2) =) FORM (CONF1) (CHPO1) (MODL1 CAR1) ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; C = FORM ; FORM (MANU 'CHPO' P 'UX' 2.) ; "

@@ -14,13 +14,12 @@ from ssilang.language.values import ANNULE
 
 @operator(
     "QUIT",
-    named("name", en="loop or procedure to leave", fr="boucle ou procédure à quitter"),
+    named("name", en="loop or procedure to leave"),
     gives=(),
     family="control",
     full_name="QUITTER",
     help=Help(
         en="Leaves the named loop (an outer one too) or the running procedure.",
-        fr="Quitte la boucle nommée (même extérieure) ou la procédure en cours.",
         syntax="QUIT NOM1 ;",
         examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
     ),
@@ -34,13 +33,12 @@ def quitter(session: Session, name: str) -> NoReturn:
 
 @operator(
     "ITER",
-    named("name", en="loop that goes on", fr="boucle qui continue"),
+    named("name", en="loop that goes on"),
     gives=(),
     family="control",
     full_name="ITERER",
     help=Help(
         en="Goes on with the next turn of the named loop.",
-        fr="Passe au tour suivant de la boucle nommée.",
         syntax="ITER NOM1 ;",
         examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
     ),
@@ -52,16 +50,14 @@ def iterer(name: str) -> NoReturn:
 
 @operator(
     "ASSI",
-    flag("every", "TOUS", en="not available", fr="non disponible"),
-    opt("number", "ENTIER", en="assistant, changes nothing", fr="assistant, sans effet"),
+    flag("every", "TOUS", en="not available"),
+    opt("number", "ENTIER", en="assistant, changes nothing"),
     gives=(),
     family="control",
     full_name="ASSISTANT",
     help=Help(
         en="Has an assistant carry out the phrase that follows: here one process does all, so the "
         "phrase simply runs.",
-        fr="Fait exécuter la phrase qui suit par un assistant : ici un seul processus fait tout, "
-        "la phrase s'exécute donc telle quelle.",
         syntax="OBJ1 ... = ASSI N1 PHRASE ;",
         examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
     ),
@@ -78,7 +74,6 @@ def assi(call: Call, every: bool, number: int | None) -> None:
     family="control",
     help=Help(
         en="Ends the run; with a name, ends the block that REPE opened.",
-        fr="Arrête l'exécution ; suivi d'un nom, ferme le bloc ouvert par REPE.",
         syntax="FIN ; FIN NOM1 ;",
         examples=("MESS 'last words' ; FIN ;",),
     ),
@@ -90,12 +85,11 @@ def fin() -> NoReturn:
 
 @operator(
     "COMM",
-    many("text", "*", "TEXTE", en="whatever is said", fr="ce qui est dit"),
+    many("text", "*", "TEXTE", en="whatever is said"),
     family="control",
     full_name="COMMENTAIRE",
     help=Help(
         en="A comment up to the end of the statement; a line with * in column 1 is one too.",
-        fr="Un commentaire jusqu'à la fin de l'instruction ; une ligne avec * en colonne 1 aussi.",
         syntax="COMM ... ;",
         examples=("COMM nothing happens here ;",),
     ),
@@ -128,8 +122,6 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
     help=Help(
         en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
         "optional; without type any object is taken.",
-        fr="Dans une procédure : lit d'autres arguments. NOM1*TYPE1 est obligatoire, NOM1/TYPE1 "
-        "facultatif ; sans type, tout objet convient.",
         syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
         examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
     ),
@@ -158,12 +150,11 @@ def argu(call: Call) -> None:
 
 @operator(
     "RESP",
-    many("results", en="results, in order", fr="résultats, dans l'ordre"),
+    many("results", en="results, in order"),
     family="control",
     full_name="RESPRO",
     help=Help(
         en="Inside a procedure: gives results, delivered before those of FINP.",
-        fr="Dans une procédure : rend des résultats, livrés avant ceux de FINP.",
         syntax="RESP OBJ1 OBJ2 ... ;",
         examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
     ),

@@ -93,27 +93,14 @@ def _group(call: Call) -> list[Any] | None:
 
 @operator(
     "VIDE",
-    flag("tabulated", "TABU", en="in a table", fr="dans une table"),
-    opt(
-        "places",
-        "LISTENTI",
-        "LISTREEL",
-        "LISTMOTS",
-        en="indices of the table, else 1, 2 ...",
-        fr="indices de la table, sinon 1, 2 ...",
-    ),
-    many(
-        "types",
-        en="types with sub-type and number, or an object to test",
-        fr="types avec sous-type et nombre, ou un objet à tester",
-    ),
+    flag("tabulated", "TABU", en="in a table"),
+    opt("places", "LISTENTI", "LISTREEL", "LISTMOTS", en="indices of the table, else 1, 2 ..."),
+    many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",
     help=Help(
         en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
         "indices of a list); of an object that is not a word: whether it is empty.",
-        fr="Objets vides pour commencer des réunions, plusieurs à la fois, ou dans une table "
-        "('TABULER', aux indices d'une liste) ; d'un objet autre qu'un mot : dit s'il est vide.",
         syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
         examples=(
             "L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",

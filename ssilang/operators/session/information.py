@@ -17,15 +17,12 @@ from ssilang.operators.vocabulary.pages import help_text, near_name
 
 @operator(
     "INFO",
-    arg("said", "MOT", en="operator, procedure or word", fr="opérateur, procédure ou mot"),
+    arg("said", "MOT", en="operator, procedure or word"),
     family="session",
     full_name="INFORMATION",
     help=Help(
         en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
         "element, a parameter, a component or an option; of another word, what help knows of it.",
-        fr="Affiche l'aide d'un opérateur, d'une procédure de la bibliothèque, d'une loi, d'un "
-        "élément, d'un paramètre, d'une composante ou d'une option ; d'un autre mot, ce que l'aide "
-        "en sait.",
         syntax="INFO NAME1 ;",
         examples=("INFO DENS ;", "INFO JOINT_SDM ;", "INFO 'uplift' ;"),
     ),
@@ -41,12 +38,11 @@ def info(call: Call, said: str) -> None:
 
 @operator(
     "NOTI",
-    opt("said", "MOT", en="changes nothing", fr="sans effet"),
+    opt("said", "MOT", en="changes nothing"),
     family="session",
     full_name="NOTICE",
     help=Help(
         en="Prints the list of all operators and procedures, a line each.",
-        fr="Affiche la liste des opérateurs et des procédures, une ligne chacun.",
         syntax="NOTI (MOT1) ;",
         examples=("NOTI GIBI ;",),
     ),
@@ -58,13 +54,11 @@ def noti(session: Session, said: str | None) -> None:
 
 @operator(
     "AIDE",
-    arg("said", "MOT", en="text looked for", fr="texte cherché"),
+    arg("said", "MOT", en="text looked for"),
     family="session",
     help=Help(
         en="List of the operators and procedures whose help contains a text; the list is printed "
         "if it is not empty.",
-        fr="Liste des opérateurs et procédures dont l'aide contient un texte ; la liste est "
-        "affichée si elle n'est pas vide.",
         syntax="LISMO1 = AIDE MOT1 ;",
         examples=("L1 = AIDE 'EIGEN' ; LIST (DIME L1) ;",),
     ),
@@ -90,8 +84,6 @@ SOUC = shared(
     Help(
         en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
         "that level (it only grows; 0 lowers it).",
-        fr="Indicateur de soucis : sans argument, s'il est levé ; avec un ENTIER, le porte à ce "
-        "niveau (il ne fait que croître ; 0 l'annule).",
         syntax="LOG1 = SOUC ; SOUC N1 ;",
         examples=("SOUC 2 ; LIST (SOUC) ; SOUC 0 ; LIST (SOUC) ;",),
     ),
@@ -99,7 +91,7 @@ SOUC = shared(
 )
 
 
-@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", fr="niveau, 0 pour annuler"))
+@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag"))
 def _raise_flag(session: Session, level: int) -> None:
     if level:
         session.doubt(level)

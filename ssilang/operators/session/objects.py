@@ -31,12 +31,11 @@ from ssilang.operators.lists.search import equal_items
 
 @operator(
     "TYPE",
-    arg("value", "*", "TEXTE", en="any object", fr="un objet quelconque"),
+    arg("value", "*", "TEXTE", en="any object"),
     family="objects",
     terminal=True,
     help=Help(
         en="The type of an object, as a word of 8 characters.",
-        fr="Le type d'un objet, mot de 8 caractères.",
         syntax="MOT1 = TYPE OBJ1 ;",
         examples=("SI (EGA (TYPE 3.) 'FLOTTANT') ; MESS 'a real' ; FINSI ;",),
     ),
@@ -48,15 +47,9 @@ def type_word(value: Any) -> Mot:
 
 @operator(
     "EXIS",
-    lead(
-        "value",
-        en="a name, or what is searched in",
-        fr="un nom, ou ce dans quoi l'on cherche",
-    ),
+    lead("value", en="a name, or what is searched in"),
     many(
-        "wanted",
-        en="index, component, item, name, support or words of a zone that is looked for",
-        fr="indice, composante, élément, nom, support ou mots d'une zone que l'on cherche",
+        "wanted", en="index, component, item, name, support or words of a zone that is looked for"
     ),
     family="objects",
     full_name="EXISTE",
@@ -64,10 +57,6 @@ def type_word(value: Any) -> Mot:
         en="Whether a name holds an object (a missing optional argument does not), a table has an "
         "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
         "model a zone; behind * whether the object is of a type, or the name that of a file.",
-        fr="Dit si un nom porte un objet (un argument facultatif absent n'en porte pas), si une "
-        "table a un indice, un champ une composante ou une zone, une liste un élément, un "
-        "chargement un nom (fait d'un type), un modèle une zone ; derrière * si l'objet est d'un "
-        "type, ou le nom celui d'un fichier.",
         syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
         "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
         "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
@@ -203,7 +192,6 @@ OUBL = shared(
     "objects",
     Help(
         en="Forgets a name, or an index of a table.",
-        fr="Oublie un nom, ou un indice d'une table.",
         syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
         examples=(
             "T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",
@@ -215,26 +203,25 @@ OUBL = shared(
 
 
 @OUBL.form(
-    lead("table", "TABLE", en="table that loses an index", fr="table qui perd un indice"),
-    lead("index", "*", "TEXTE", en="index to forget", fr="indice à oublier"),
+    lead("table", "TABLE", en="table that loses an index"),
+    lead("index", "*", "TEXTE", en="index to forget"),
 )
 def _forget_index(table: Table, index: Any) -> None:
     table.remove(index)
 
 
-@OUBL.form(named("name", en="name to forget", fr="nom à oublier"))
+@OUBL.form(named("name", en="name to forget"))
 def _forget_name(session: Session, name: str) -> None:
     session.frame.forget(name)
 
 
 @operator(
     "DETR",
-    many("objects", "*", "TEXTE", en="objects no longer used", fr="objets devenus inutiles"),
+    many("objects", "*", "TEXTE", en="objects no longer used"),
     family="objects",
     full_name="DETRUIRE",
     help=Help(
         en="Does nothing: memory is freed when no name holds an object any more.",
-        fr="Sans effet : la mémoire est rendue quand plus aucun nom ne porte l'objet.",
         syntax="DETR OBJ1 ;",
         examples=("L = PROG 1. ; DETR L ;",),
     ),
@@ -245,13 +232,12 @@ def detr(objects: tuple[Any, ...]) -> None:
 
 @operator(
     "MENA",
-    flag("forced", "OBLI", en="at once", fr="tout de suite"),
-    many("ignored", "*", "TEXTE", en="changes nothing", fr="sans effet"),
+    flag("forced", "OBLI", en="at once"),
+    many("ignored", "*", "TEXTE", en="changes nothing"),
     family="objects",
     full_name="MENAGE",
     help=Help(
         en="Frees memory that no object uses any more.",
-        fr="Rend la mémoire qu'aucun objet n'utilise plus.",
         syntax="MENA ('OBLI') (N1) ;",
         examples=("MENA ;",),
     ),
@@ -266,13 +252,12 @@ def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
 
 @operator(
     "NOMM",
-    lead("name", "*", "TEXTE", en="name, written or computed", fr="nom, écrit ou calculé"),
-    lead("value", "*", "TEXTE", en="object that gets it", fr="objet qui le reçoit"),
+    lead("name", "*", "TEXTE", en="name, written or computed"),
+    lead("value", "*", "TEXTE", en="object that gets it"),
     family="objects",
     full_name="NOMMER",
     help=Help(
         en="Gives an object a name that is written or computed: the content of a word counts.",
-        fr="Donne à un objet un nom écrit ou calculé : le contenu d'un mot compte.",
         syntax="NOMM NOM1 OBJ1 ;",
         examples=("REPE B 2 ; NOMM (CHAI 'L' &B) (PROG &B) ; FIN B ; LIST L2 ;",),
     ),
@@ -292,17 +277,14 @@ def nomm(call: Call, name: Any, value: Any) -> None:
 
 @operator(
     "OBJE",
-    arg("constructor", "PROCEDUR", en="method that makes it", fr="méthode qui le construit"),
-    many("arguments", en="its arguments", fr="ses arguments"),
+    arg("constructor", "PROCEDUR", en="method that makes it"),
+    many("arguments", en="its arguments"),
     gives=ANY,
     family="objects",
     full_name="OBJET",
     help=Help(
         en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
         "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
-        fr="Crée un objet et lui applique son constructeur, méthode définie par DEBM ; ce qui suit "
-        "sont les arguments du constructeur. Une méthode s'appelle par OBJ1%NOM, un élément est "
-        "%NOM à l'intérieur.",
         syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
         examples=("DEBM POSE X*ENTIER ; %VAL = X ; FINM ; O = OBJE POSE 5 ; LIST (O%VAL + 1) ;",),
     ),
@@ -318,14 +300,13 @@ def obje(call: Call) -> tuple[Any, ...]:
 
 @operator(
     "METH",
-    opt("holder", "OBJET", en="object, else the present one", fr="objet, sinon l'objet en cours"),
-    named("name", en="name of the method", fr="nom de la méthode"),
-    arg("method", "PROCEDUR", en="what it does", fr="ce qu'elle fait"),
+    opt("holder", "OBJET", en="object, else the present one"),
+    named("name", en="name of the method"),
+    arg("method", "PROCEDUR", en="what it does"),
     family="objects",
     full_name="METHODE",
     help=Help(
         en="Gives an object a method under a name.",
-        fr="Attribue à un objet une méthode sous un nom.",
         syntax="OBJ1%METHODE NOM1 METH1 ;",
         examples=(
             "DEBM NAIT ; %N = 0 ; %METHODE AJOUTE PLUSUN ; FINM ; "
@@ -344,17 +325,11 @@ def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None
 
 @operator(
     "HERI",
-    many(
-        "objects",
-        "OBJET",
-        en="heir, unless it is the present object, and whose methods it gets",
-        fr="héritier, sauf si c'est l'objet en cours, et celui dont il hérite",
-    ),
+    many("objects", "OBJET", en="heir, unless it is the present object, and whose methods it gets"),
     family="objects",
     full_name="HERITE",
     help=Help(
         en="Gives an object all the methods of another one.",
-        fr="Donne à un objet toutes les méthodes d'un autre.",
         syntax="OBJ1%HERITE OBJ2 ;",
         examples=(
             "DEBM A ; %METHODE DIT SALUT ; FINM ; DEBM SALUT ; MESS 'hello' ; FINM ; "

@@ -286,10 +286,9 @@ def _donn(call: Call, word: str) -> None:
     "OPTI",
     each(
         "settings",
-        arg("option", "MOT", en="option", fr="option", kind="option"),
-        arg("value", en="its value", fr="sa valeur"),
+        arg("option", "MOT", en="option", kind="option"),
+        arg("value", en="its value"),
         en="options, each with its value",
-        fr="options, chacune avec sa valeur",
     ),
     family="session",
     full_name="OPTION",
@@ -298,10 +297,6 @@ def _donn(call: Call, word: str) -> None:
         "not. An option keeps its value until it is set again; VALE reads it back. 'UNIT' says in "
         "which units the deck is ('SI' 'KN-M' 'MN-M' 'N-MM'): materials given behind it are "
         "looked at, and what is written says its units.",
-        fr="Fixe des options du calcul ; plusieurs peuvent se suivre dans une instruction, valeurs "
-        "entre apostrophes ou non. VALE relit la valeur courante. 'UNIT' dit les unités du jeu de "
-        "données ('SI' 'KN-M' 'MN-M' 'N-MM') : les matériaux donnés ensuite sont examinés, et ce "
-        "qui est écrit dit ses unités.",
         syntax="OPTI 'DIME' N1 'MODE' MODE1 (MODE2) 'ELEM' TYPE1 'DENS' FLOT1 'COUL' COUL1 ... ;\n"
         "OPTI 'TRAC' UNITE 'FTRA' FICHIER ; OPTI 'SORT' FICHIER ; OPTI 'SAUV' FICHIER ; "
         "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ; OPTI 'UNIT' SYSTEME ;",
@@ -375,8 +370,8 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
 
 @operator(
     "VALE",
-    lead("said", "MOT", en="option", fr="option", kind="option"),
-    flag("harmonic", "FOUR", en="the harmonic of MODE FOUR", fr="l'harmonique de MODE FOUR"),
+    lead("said", "MOT", en="option", kind="option"),
+    flag("harmonic", "FOUR", en="the harmonic of MODE FOUR"),
     gives=ANY,
     family="session",
     full_name="VALEUR",
@@ -384,8 +379,6 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     help=Help(
         en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic, 'ERMA' the "
         "largest number of the errors that did not stop the run (OPTI ERRE IGNORE), 0 without any.",
-        fr="Valeur courante d'une option d'OPTI ; 'MODE' 'FOUR' donne l'harmonique, 'ERMA' le plus "
-        "grand numéro des erreurs qui n'ont pas arrêté le calcul (OPTI ERRE IGNORE), 0 sans elles.",
         syntax="VAL1 = VALE MOT1 ; N1 = VALE 'ERMA' ;",
         examples=(
             "OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",
@@ -423,12 +416,11 @@ def _worst_error(call: Call) -> int:
 
 @operator(
     "DENS",
-    arg("size", "FLOTTANT", en="mesh size", fr="taille de maille", unit="m"),
+    arg("size", "FLOTTANT", en="mesh size", unit="m"),
     family="mesh",
     full_name="DENSITE",
     help=Help(
         en="Sets the mesh size that points made from now on carry (as OPTI DENS does).",
-        fr="Fixe la taille de maille portée par les points créés ensuite (comme OPTI DENS).",
         syntax="DENS FLOT1 ;",
         examples=("OPTI DIME 2 ; DENS 0.5 ; LIST (VALE 'DENS') ;",),
     ),

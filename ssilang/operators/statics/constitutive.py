@@ -90,22 +90,12 @@ class _Step:
 
 _TWO_STATES = (
     MODEL,
-    arg(
-        "start",
-        "MCHAML",
-        en="stresses, variables, strains and parameters at the start",
-        fr="contraintes, variables, déformations et caractéristiques initiales",
-    ),
-    arg(
-        "end",
-        "MCHAML",
-        en="strains and parameters at the end",
-        fr="déformations et caractéristiques finales",
-    ),
+    arg("start", "MCHAML", en="stresses, variables, strains and parameters at the start"),
+    arg("end", "MCHAML", en="strains and parameters at the end"),
 )
-_STRESS = arg("stress", "MCHAML", en="stresses", fr="contraintes")
-_VARIABLES = arg("variables", "MCHAML", en="internal variables", fr="variables internes")
-_MATERIAL = many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques")
+_STRESS = arg("stress", "MCHAML", en="stresses")
+_VARIABLES = arg("variables", "MCHAML", en="internal variables")
+_MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
 
 
 @operator(
@@ -118,11 +108,6 @@ _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters", fr="caracté
         "internal variables, inelastic strains, strains, parameters, joined by ET) and at the end "
         "(strains, parameters), one field with the stresses, internal variables and inelastic "
         "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
-        fr="Les lois de comportement d'un modèle sur un pas : de l'état initial (contraintes, "
-        "variables internes, déformations inélastiques, déformations, caractéristiques, réunies "
-        "par ET) et de l'état final (déformations, caractéristiques), un champ avec les "
-        "contraintes, variables internes et déformations inélastiques finales. Massifs et barres "
-        "élastiques et plastiques, joints (dont la déformation est le saut).",
         syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
         examples=(
             _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; Z = ZERO M 'DEFORMATIONS' ; "
@@ -152,17 +137,12 @@ _FLOW = (
     MODEL,
     _STRESS,
     _VARIABLES,
-    arg("strain", "MCHAML", en="step of strain", fr="incrément de déformation"),
+    arg("strain", "MCHAML", en="step of strain"),
     _MATERIAL,
-    opt("extra", "TABLE", en="gets SUCCES", fr="reçoit SUCCES"),
-    opt(
-        "accuracy",
-        "FLOTTANT",
-        en="accepted: the laws are solved to rounding",
-        fr="accepté : les lois sont résolues à l'arrondi près",
-    ),
-    flag("alone", "NOID", en="accepted, changes nothing", fr="accepté, sans effet"),
-    opt("count", "ENTIER", en="accepted, changes nothing", fr="accepté, sans effet"),
+    opt("extra", "TABLE", en="gets SUCCES"),
+    opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding"),
+    flag("alone", "NOID", en="accepted, changes nothing"),
+    opt("count", "ENTIER", en="accepted, changes nothing"),
 )
 
 
@@ -209,11 +189,6 @@ for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
             "at the start, the step of strain and the parameters, in this order, the stresses and "
             "internal variables at the end and the step of inelastic strain. Joints take the step "
             "of jump; their open points start from the largest opening.",
-            fr="Les lois de comportement sur un incrément de déformation : des contraintes et "
-            "variables internes initiales, de l'incrément de déformation et des caractéristiques, "
-            "dans cet ordre, les contraintes et variables internes finales et l'incrément de "
-            "déformation inélastique. Les joints prennent l'incrément de saut ; leurs points "
-            "ouverts partent de la plus grande ouverture.",
             syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
             examples=(
                 _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; "
@@ -255,18 +230,16 @@ _STATE = (
         arg("precision", "FLOTTANT"),
         default=1e-3,
         en="distance to the surface, a share of the stress; 1.E-3 without it",
-        fr="distance à la surface, part de la contrainte ; 1.E-3 sans elle",
     ),
     key(
         "step",
         "DT",
         arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         en="accepted: no law here has a viscosity",
-        fr="accepté : aucune loi n'a ici de viscosité",
     ),
-    opt("number", "FLOTTANT", en="the same as PREC", fr="comme PREC"),
+    opt("number", "FLOTTANT", en="the same as PREC"),
 )
-_SYMMETRIC = flag("symmetric", "SYME", en="symmetric part", fr="partie symétrique")
+_SYMMETRIC = flag("symmetric", "SYME", en="symmetric part")
 
 
 def _state_read(
@@ -322,12 +295,6 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
         "within 'PREC' (1.E-3, a share of the stress) of them; of joints by their state. 'SYME' "
         "keeps the symmetric part. 'PERT': the stiffness of a step between two states as COMP "
         "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
-        fr="Raideur tangente d'un modèle dans un état donné par les contraintes, les variables "
-        "internes et les caractéristiques, dans cet ordre : élastique à l'intérieur des surfaces, "
-        "élastoplastique aux points à 'PREC' près (1.E-3, part de la contrainte) d'elles ; des "
-        "joints selon leur état. 'SYME' garde la partie symétrique. 'PERT' : la raideur d'un pas "
-        "entre deux états comme les prend COMP, par perturbation de sa déformation (C1 fois le "
-        "pas, 1.E-3 ; au moins C2, C1 / 100).",
         syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
         "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
         examples=(
@@ -361,15 +328,8 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
         arg("share", "FLOTTANT"),
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
-        fr="part du pas dont sa déformation est perturbée, 1.E-3 sans elle",
     ),
-    key(
-        "least",
-        "C2",
-        arg("least", "FLOTTANT"),
-        en="least perturbation, C1 / 100 without it",
-        fr="plus petite perturbation, C1 / 100 sans elle",
-    ),
+    key("least", "C2", arg("least", "FLOTTANT"), en="least perturbation, C1 / 100 without it"),
     _SYMMETRIC,
 )
 def perturbed(
@@ -413,9 +373,6 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
     help=Help(
         en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
         "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
-        fr="Champ de matrices de Hooke tangentes dans un état donné par les contraintes, les "
-        "variables internes et les caractéristiques, dans cet ordre (comme KTAN les trouve) ; "
-        "RIGI et SIGM le prennent comme caractéristiques.",
         syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
         examples=(
             _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
@@ -439,9 +396,6 @@ def hota(call: Call, **state: Any) -> CellField:
         en="Yield criterion of stresses with internal variables and parameters, in this order: "
         "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
         "Drucker-Prager laws, joints.",
-        fr="Critère de plasticité de contraintes avec les variables internes et les "
-        "caractéristiques, dans cet ordre : négatif à l'intérieur, nul sur la surface, dans "
-        "l'unité des contraintes. Lois de von Mises et de Drucker-Prager, joints.",
         syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
         examples=(
             _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
@@ -472,9 +426,6 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
         en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
         "the hardening slope where a point has yielded and stands on the surface (to a precision, "
         "1.E-3), Young's modulus elsewhere.",
-        fr="Modules tangents de la contrainte équivalente par rapport à la déformation plastique "
-        "équivalente, des lois de von Mises : la pente d'écrouissage où un point a plastifié et "
-        "est sur la surface (à une précision près, 1.E-3), le module d'Young ailleurs.",
         syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
         examples=(
             _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "

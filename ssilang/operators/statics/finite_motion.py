@@ -63,13 +63,12 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
 @operator(
     "POLA",
     MODEL,
-    many("fields", "MCHAML", at_least=1, en="gradients", fr="gradients"),
+    many("fields", "MCHAML", at_least=1, en="gradients"),
     choice(
         "what",
         ("GEOM", "DEPL"),
         default="GEOM",
         en="what the field is: F (default), or F - 1 as GRAD gives it",
-        fr="nature du champ : F (par défaut), ou F - 1 tel que le donne GRAD",
     ),
     family="stress",
     full_name="POLAIRE",
@@ -77,9 +76,6 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
         en="Polar decomposition F = R U of a field of gradients: F itself ('GEOM', the default) "
         "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
         "stretch; both are fields of gradients.",
-        fr="Décomposition polaire F = R U d'un champ de gradients : F lui-même ('GEOM', par "
-        "défaut) ou F - 1 ('DEPL', ce que GRAD donne d'un déplacement). R est une rotation, U une "
-        "déformation pure symétrique ; tous deux sont des champs de gradients.",
         syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
         examples=(
             _SQUARE + "R V = POLA M (GRAD M U) 'DEPL' ; LIST (MAXI (EXCO 'UX,X' V)) ; "
@@ -107,19 +103,9 @@ def pola(
 
 _CARRIED = (
     MODEL,
-    many(
-        "fields",
-        "CHPOINT",
-        "MCHAML",
-        at_least=1,
-        en="stresses or strains, and displacements",
-        fr="contraintes ou déformations, et déplacements",
-    ),
+    many("fields", "CHPOINT", "MCHAML", at_least=1, en="stresses or strains, and displacements"),
     choice(
-        "frame",
-        ("JAUM", "UTIL"),
-        en="from or to the frame that turns with the matter; unchanged",
-        fr="depuis ou vers le repère qui tourne avec la matière ; inchangé",
+        "frame", ("JAUM", "UTIL"), en="from or to the frame that turns with the matter; unchanged"
     ),
 )
 
@@ -149,10 +135,6 @@ def _carried(
         en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
         "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
         "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
-        fr="Contraintes de Piola-Kirchhoff (seconde espèce) changées en contraintes de Cauchy, ou "
-        "déformations de Green-Lagrange en déformations d'Almansi, pour le déplacement DEP1 à "
-        "partir du maillage actuel. 'JAUM' passe du repère qui tourne avec la matière au repère "
-        "général ; 'UTIL' ne change rien.",
         syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (PICA M (SIGM 'QUAD' M A U) U))) ;",),
     ),
@@ -170,9 +152,6 @@ def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellFie
         en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
         "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
         "one that follows the matter; 'UTIL' changes nothing.",
-        fr="Contraintes de Cauchy changées en contraintes de Piola-Kirchhoff (seconde espèce), ou "
-        "déformations d'Almansi en déformations de Green-Lagrange : l'inverse de PICA. 'JAUM' "
-        "passe du repère général à celui qui tourne avec la matière ; 'UTIL' ne change rien.",
         syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (CAPI M (SIGM M A U) U))) ;",),
     ),
@@ -183,11 +162,7 @@ def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellFie
 
 
 _STRESS_AND_GRADIENT = many(
-    "fields",
-    "MCHAML",
-    at_least=1,
-    en="stresses, gradients, and parameters",
-    fr="contraintes, gradients, et caractéristiques",
+    "fields", "MCHAML", at_least=1, en="stresses, gradients, and parameters"
 )
 
 
@@ -200,9 +175,6 @@ _STRESS_AND_GRADIENT = many(
         en="Trace of the product of a field of stresses and a field of gradients, in continuous "
         "elements; in bars, beams and flat shells that of the forces along the line or surface "
         "(EFFX; N11 N22 N12), per length or surface.",
-        fr="Trace du produit d'un champ de contraintes et d'un champ de gradients, dans les "
-        "éléments massifs ; dans les barres, poutres et coques planes celle des efforts le long de "
-        "la ligne ou de la surface (EFFX ; N11 N22 N12), par unité de longueur ou de surface.",
         syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
         examples=(_SQUARE + "LIST (INTG M (WORK M (SIGM M A U) (GRAD M U))) ;",),
     ),
@@ -247,10 +219,6 @@ def _stress_and_gradient(
         "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
         "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
         "N11 N22 N12).",
-        fr="Forces nodales de contraintes S sur les gradients d'un déplacement u : leur travail "
-        "dans v est l'intégrale de S_ij du_k/dx_i dv_k/dx_j, comme BSIG pour la partie quadratique "
-        "de la déformation. Dans les barres, poutres et coques planes S sont les efforts le long "
-        "de la ligne ou de la surface (EFFX ; N11 N22 N12).",
         syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
         examples=(_SQUARE + "LIST (MAXI (FOFI M (SIGM M A U) (GRAD M U))) ;",),
     ),
@@ -273,11 +241,10 @@ def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
 
 @operator(
     "TAGR",
-    arg("gradient", "MCHAML", en="gradients", fr="gradients"),
+    arg("gradient", "MCHAML", en="gradients"),
     family="stress",
     help=Help(
         en="Transposed field of gradients: UX,Y and UY,X change places.",
-        fr="Champ de gradients transposé : UX,Y et UY,X sont échangés.",
         syntax="GRAD1 = TAGR GRAD2 ;",
         examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (TAGR (GRAD M U)))) ;",),
     ),

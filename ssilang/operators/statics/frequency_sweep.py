@@ -31,11 +31,10 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 @operator(
     "ZFRE",
-    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
+    arg("table", "TABLE", en="table of PASAPAS"),
     family="statics",
     help=Help(
         en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
-        fr="Balayage en fréquence de la table de PASAPAS, procédure à appeler.",
         syntax="ZFRE TAB1 ;",
         examples=(
             (

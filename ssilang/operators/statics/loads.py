@@ -51,9 +51,7 @@ FORCES = ("FX", "FY", "FZ", "FR", "FT")
 MOMENTS = ("MX", "MY", "MZ", "MT", "MR")
 
 
-_PLACE = arg(
-    "place", "MAILLAGE", "POINT", en="nodes that share it", fr="noeuds qui se la partagent"
-)
+_PLACE = arg("place", "MAILLAGE", "POINT", en="nodes that share it")
 
 
 def _shared(call: Call, values: Mapping[str, float], place: Mesh | Point) -> NodeField:
@@ -73,7 +71,7 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
 
 @operator(
     "FORC",
-    arg("vector", "POINT", en="force", fr="force", unit="N"),
+    arg("vector", "POINT", en="force", unit="N"),
     _PLACE,
     family="load",
     full_name="FORCE",
@@ -81,9 +79,6 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
         en="Nodal field of a force, shared equally by the nodes of a place: a vector (its "
         "coordinates are the components, given before the place) or named components FX FY FZ "
         "(FR FZ FT in axisymmetry).",
-        fr="Champ par points d'une force, répartie également sur les noeuds d'un lieu : un "
-        "vecteur (ses coordonnées sont les composantes, donné avant le lieu) ou des composantes "
-        "nommées FX FY FZ (FR FZ FT en axisymétrie).",
         syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",
@@ -109,7 +104,6 @@ def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
         optional=False,
         repeated=True,
         en="components",
-        fr="composantes",
     ),
     _PLACE,
 )
@@ -118,7 +112,7 @@ def named_forces(call: Call, values: list[tuple[str, float]], place: Mesh | Poin
     return _shared(call, dict(values), place)
 
 
-@forc.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"))
+@forc.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
 def unit_forces(call: Call, table: Table) -> None:
     """FORCE in each entry of a table LIAISONS_STATIQUES: one, at its point."""
     nodes = workspace(call.session).nodes
@@ -134,15 +128,13 @@ def unit_forces(call: Call, table: Table) -> None:
 
 @operator(
     "MOME",
-    arg("vector", "POINT", en="moment, in space", fr="moment, en dimension 3", unit="N m"),
+    arg("vector", "POINT", en="moment, in space", unit="N m"),
     _PLACE,
     family="load",
     full_name="MOMENT",
     help=Help(
         en="Nodal field of a moment, shared equally by the nodes of a place: a vector in space, "
         "or named components MX MY MZ (MT in axisymmetry).",
-        fr="Champ par points d'un moment, réparti également sur les noeuds d'un lieu : un "
-        "vecteur dans l'espace, ou des composantes nommées MX MY MZ (MT en axisymétrie).",
         syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
         examples=(
             "OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",
@@ -166,7 +158,6 @@ def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
         optional=False,
         repeated=True,
         en="components",
-        fr="composantes",
     ),
     _PLACE,
 )
@@ -181,39 +172,23 @@ _PRESSURE = arg(
     "MCHAML",
     "FLOTTANT",
     en="pressure, by its number or as a field",
-    fr="pression, par sa valeur ou en champ",
     unit="Pa",
 )
-_OF_SHELLS = many(
-    "fields",
-    "MCHAML",
-    en="parameters of shells: accepted, change nothing",
-    fr="caractéristiques de coques : acceptées, sans effet",
-)
-_FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
+_OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: accepted, change nothing")
+_FACES = opt("faces", "MAILLAGE", en="sides")
 
 
 @operator(
     "PRES",
     MODEL,
-    choice(
-        "kind",
-        ("MASS", "POUT"),
-        en="on sides of continuous elements, the default",
-        fr="sur des faces de massifs, par défaut",
-    ),
+    choice("kind", ("MASS", "POUT"), en="on sides of continuous elements, the default"),
     either(
         "load",
         group("plain", _PRESSURE, _FACES),
         group(
             "named",
-            arg(
-                "name",
-                "MOT",
-                en="name of the component, for a model CHARGEMENT",
-                fr="nom de la composante, pour un modèle CHARGEMENT",
-            ),
-            arg("value", "FLOTTANT", "MCHAML", en="pressure", fr="pression", unit="Pa"),
+            arg("name", "MOT", en="name of the component, for a model CHARGEMENT"),
+            arg("value", "FLOTTANT", "MCHAML", en="pressure", unit="Pa"),
             _FACES,
         ),
     ),
@@ -228,15 +203,6 @@ _FACES = opt("faces", "MAILLAGE", en="sides", fr="faces")
         "the face of the first four nodes ('INTERNE') or of the last four ('EXTERNE'). In pipes "
         "('TUYA') the parameter PRES pushes on closed ends. With a model CHARGEMENT PRESSION: the "
         "field of pressure, whose forces BSIG gives along the sides' own normals.",
-        fr="Forces nodales d'une pression sur des faces d'éléments massifs, dirigée vers "
-        "l'intérieur quand elle est positive. La pression est un nombre sur un maillage de "
-        "faces, un champ par points à une composante (sur les faces extérieures du modèle dont "
-        "tous les noeuds ont une valeur), ou un champ par éléments sur des faces. Sur les coques "
-        "('COQU') elle pousse selon la normale ('NORM'), du côté que montre un vecteur ou de celui "
-        "d'un point ('POIN'). Sur les coques de cubes ('SHB8') elle pousse sur la face des quatre "
-        "premiers noeuds ('INTERNE') ou des quatre derniers ('EXTERNE'). Dans les tuyaux ('TUYA') "
-        "le paramètre PRES pousse sur les bouts fermés. Avec un modèle CHARGEMENT PRESSION : le "
-        "champ de pression, dont BSIG donne les forces selon les normales propres des faces.",
         syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
         "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 | 'POIN' P1 (CAR1) ;\n"
         "FOR1 = PRES 'SHB8' MODL1 | VAL1 | CHPO1 'INTERNE' | 'EXTERNE' ;\n"
@@ -294,17 +260,9 @@ def _on_faces(
     said("COQU"),
     MODEL,
     _PRESSURE,
-    flag("normal", "NORM", en="along the normal", fr="selon la normale"),
-    opt(
-        "along", "POINT", en="vector on the side it pushes to", fr="vecteur du côté où elle pousse"
-    ),
-    key(
-        "towards",
-        "POIN",
-        arg("point", "POINT"),
-        en="point on the side it pushes to",
-        fr="point du côté où elle pousse",
-    ),
+    flag("normal", "NORM", en="along the normal"),
+    opt("along", "POINT", en="vector on the side it pushes to"),
+    key("towards", "POIN", arg("point", "POINT"), en="point on the side it pushes to"),
     _OF_SHELLS,
 )
 def shell_pressure(
@@ -325,12 +283,7 @@ def shell_pressure(
     said("SHB8"),
     MODEL,
     _PRESSURE,
-    choice(
-        "side",
-        ("INTE", "EXTE"),
-        en="face of the first four nodes, or of the last four",
-        fr="face des quatre premiers noeuds, ou des quatre derniers",
-    ),
+    choice("side", ("INTE", "EXTE"), en="face of the first four nodes, or of the last four"),
 )
 def brick_pressure(
     call: Call, model: Model, value: NodeField | CellField | float, side: str | None
@@ -342,7 +295,7 @@ def brick_pressure(
 @pres.form(
     said("TUYA"),
     MODEL,
-    many("material", "MCHAML", at_least=1, en="parameters", fr="caractéristiques"),
+    many("material", "MCHAML", at_least=1, en="parameters"),
 )
 def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeField:
     """Pressure on the closed ends of pipes."""
@@ -394,16 +347,8 @@ def _brick_faces(call: Call, model: Model, side: str | None) -> Mesh | None:
     return Mesh(model.mesh.nodes, tuple(blocks))
 
 
-_DENSITY = arg(
-    "density",
-    "CHPOINT",
-    "POINT",
-    en="force per area or length, as a vector or a field",
-    fr="force par unité de surface ou de longueur, vecteur ou champ",
-)
-_THICKNESS = many(
-    "fields", "MCHAML", en="thickness in plane stress", fr="épaisseur en contraintes planes"
-)
+_DENSITY = arg("density", "CHPOINT", "POINT", en="force per area or length, as a vector or a field")
+_THICKNESS = many("fields", "MCHAML", en="thickness in plane stress")
 
 
 def _values(density: NodeField | Point) -> NodeField | FloatArray:
@@ -413,12 +358,7 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
 @operator(
     "FSUR",
     MODEL,
-    choice(
-        "kind",
-        ("MASS", "TUYA"),
-        en="on sides of continuous elements, the default",
-        fr="sur des faces de massifs, par défaut",
-    ),
+    choice("kind", ("MASS", "TUYA"), en="on sides of continuous elements, the default"),
     _DENSITY,
     _FACES,
     _THICKNESS,
@@ -428,11 +368,6 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
         "length of beams and bars ('POUT'; with 'PROJ' per length projected on the plane normal "
         "to a vector). The density is a vector or a nodal field FX FY FZ (with moments MX MY MZ "
         "along beams). CAR1 gives the thickness DIM3 in plane stress.",
-        fr="Forces nodales d'une force par unité de surface sur des faces de massifs ('MASS'), "
-        "ou de longueur de poutres et barres ('POUT' ; avec 'PROJ' par unité de longueur "
-        "projetée sur le plan normal à un vecteur). La densité est un vecteur ou un champ par "
-        "points FX FY FZ (avec des moments MX MY MZ sur les poutres). CAR1 donne l'épaisseur "
-        "DIM3 en contraintes planes.",
         syntax="FOR1 = FSUR 'MASS' MODL1 | VEC1 GEO1 | CHPO1 (CAR1) ;\n"
         "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 (CAR1) ;\n"
         "FOR1 = FSUR 'POUT' MODL1 | VEC1 | CHPO1 ('PROJ' VEC2) ;",
@@ -482,13 +417,7 @@ def shell_forces(
     said("POUT"),
     MODEL,
     _DENSITY,
-    key(
-        "normal",
-        "PROJ",
-        arg("normal", "POINT"),
-        en="vector normal to the plane of projection",
-        fr="vecteur normal au plan de projection",
-    ),
+    key("normal", "PROJ", arg("normal", "POINT"), en="vector normal to the plane of projection"),
 )
 def line_forces(model: Model, density: NodeField | Point, normal: Point | None) -> NodeField:
     """Forces along beams and bars."""
@@ -503,7 +432,6 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
         "CHPOINT",
         "MCHAML",
         en="force per volume",
-        fr="force par unité de volume",
         unit="N/m3",
     ),
     _THICKNESS,
@@ -512,9 +440,6 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
         en="Nodal forces of a force per volume in continuous elements: nodal field or field in "
         "cells with components FX FY FZ (weight, centrifugal force ...). CAR1 gives the "
         "thickness DIM3 in plane stress.",
-        fr="Forces nodales d'une force par unité de volume dans des massifs : champ par points "
-        "ou par éléments de composantes FX FY FZ (poids, force centrifuge ...). CAR1 donne "
-        "l'épaisseur DIM3 en contraintes planes.",
         syntax="FOR1 = CNEQ MODL1 | CHPO1 | CHAM1 (CAR1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "

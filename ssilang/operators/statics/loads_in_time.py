@@ -57,30 +57,20 @@ _STEPPED = (
     "PASAPAS T ; LIST ({found} (T . DEPLACEMENTS . 1) AVEC (MOTS UY)) ;"
 )
 
-_NAME = opt("name", "MOT", en="name, of 4 characters", fr="nom, de 4 caractères")
-_LINK = choice(
-    "link",
-    ("LIE", "LIBR"),
-    en="follows the matter or not: the same here",
-    fr="lié à la matière ou non : sans effet ici",
-)
-_MOVES = choice("moves", ("TRAN", "ROTA"), en="moving: not available", fr="mobile : non disponible")
+_NAME = opt("name", "MOT", en="name, of 4 characters")
+_LINK = choice("link", ("LIE", "LIBR"), en="follows the matter or not: the same here")
+_MOVES = choice("moves", ("TRAN", "ROTA"), en="moving: not available")
 _PATH = group(  # behind the name, which may be this word
     "path",
-    choice("path", ("TRAJ",), en="moving: not available", fr="mobile : non disponible"),
+    choice("path", ("TRAJ",), en="moving: not available"),
 )
 
 
 @operator(
     "CHAR",
     _NAME,
-    arg("held", *_HELD, en="field, or what is loaded", fr="champ, ou objet chargé"),
-    opt(
-        "curve",
-        "EVOLUTIO",
-        en="factor in time, 1 without it",
-        fr="facteur en temps, 1 sans elle",
-    ),
+    arg("held", *_HELD, en="field, or what is loaded"),
+    opt("curve", "EVOLUTIO", en="factor in time, 1 without it"),
     _LINK,
     _MOVES,
     _PATH,
@@ -91,10 +81,6 @@ _PATH = group(  # behind the name, which may be this word
         "of listed times (a table of times and a table of fields, indexed 0 1 2 ...), under a name "
         "of 4 characters such as MECA (forces), DIMP (imposed displacements), T, PRES. Loadings "
         "join by ET.",
-        fr="Chargement : un champ multiplié par une évolution en temps (constant sans évolution), "
-        "ou un champ à chacun de temps donnés (une table de temps et une table de champs, indicées "
-        "0 1 2 ...), sous un nom de 4 caractères comme MECA (forces), DIMP (déplacements imposés), "
-        "T, PRES. Les chargements se réunissent par ET.",
         syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
         "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
         examples=(
@@ -163,8 +149,8 @@ def _check_numbers(call: Call, curve: Curve) -> None:
 
 @char.form(
     _NAME,
-    arg("times", "TABLE", en="times, from 0 on", fr="temps, à partir de 0"),
-    arg("fields", "TABLE", en="a field for each", fr="un champ pour chacun"),
+    arg("times", "TABLE", en="times, from 0 on"),
+    arg("fields", "TABLE", en="a field for each"),
     _LINK,
     _MOVES,
     _PATH,
@@ -202,14 +188,13 @@ def char_in_steps(
 
 @char.form(
     _NAME,
-    arg("times", "LISTREEL", en="times", fr="temps", unit="s"),
-    arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each", fr="un objet pour chacun"),
+    arg("times", "LISTREEL", en="times", unit="s"),
+    arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each"),
     _LINK,
     _MOVES,
     _PATH,
     syntax="CHAR1 = CHAR (MOT1) LREE1 LOBJ1 ;",
     en="The same by a list of times and a list of objects (ENUM, SUIT).",
-    fr="De même par une liste de temps et une liste d'objets (ENUM, SUIT).",
     examples=(
         "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
         "LIST (TIRE (CHAR 'MECA' (PROG 0. 2.) L) 1. 'MECA') ;",
@@ -274,25 +259,21 @@ def part_at(part: LoadPart, time: float) -> Any:
     return _sum(_scaled(before, 1.0 - share), part.steps[k][1], share)
 
 
-_LOAD = arg("load", "CHARGEME", en="loading", fr="chargement")
-_TIME = arg("time", "FLOTTANT", en="time", fr="instant", unit="s")
+_LOAD = arg("load", "CHARGEME", en="loading")
+_TIME = arg("time", "FLOTTANT", en="time", unit="s")
 
 
 @operator(
     "TIRE",
     _LOAD,
     _TIME,
-    opt(
-        "name", "MOT", en="name of the parts, all without it", fr="nom des parties, toutes sans lui"
-    ),
+    opt("name", "MOT", en="name of the parts, all without it"),
     family="loads",
     full_name="TIRER",
     gives="|".join(_HELD),
     help=Help(
         en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
         "names ('TABL').",
-        fr="Valeur d'un chargement à un instant : la somme de toutes ses parties, celles d'un nom, "
-        "ou une table indicée par les noms ('TABL').",
         syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
         examples=(
             _EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",
@@ -341,9 +322,9 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
 # ---- parts --------------------------------------------------------------------------------------
 
 
-_MAIN = main("load", "CHARGEME", en="loading", fr="chargement")
-_NUMBER = opt("place", "ENTIER", default=1, en="number of the part", fr="numéro de la partie")
-_PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
+_MAIN = main("load", "CHARGEME", en="loading")
+_NUMBER = opt("place", "ENTIER", default=1, en="number of the part")
+_PART = arg("name", "MOT", en="name of parts")
 
 
 @EXTR.form(
@@ -364,8 +345,6 @@ _PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
         unless=lambda load: {p.name for p in getattr(load, "parts", ())},
         en="a part, its field, its curve, its times or objects, all names, the parts that follow "
         "the matter or not",
-        fr="une partie, son champ, son évolution, ses temps ou objets, tous les noms, les parties "
-        "liées ou libres",
     ),
     gives=by(
         "what",
@@ -384,8 +363,6 @@ _PART = arg("name", "MOT", en="name of parts", fr="nom des parties")
     "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
     en="Of a loading: a part by number or name, its field, its curve, its times and objects "
     "('LREE', 'LOBJ'), the names of all parts.",
-    fr="D'un chargement : une partie par numéro ou nom, son champ, son évolution, ses temps et "
-    "objets ('LREE', 'LOBJ'), les noms.",
     examples=(
         _EXAMPLE + "LIST (EXTR C 'COMP') ;",
         "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
@@ -425,7 +402,7 @@ def extr_load(call: Call, load: Load, what: Chosen) -> Any:
 @EXTR.form(
     _MAIN,
     _PART,
-    flag("tables", "TABL", en="as times and fields", fr="en temps et champs"),
+    flag("tables", "TABL", en="as times and fields"),
     gives=by("tables", {True: ("TABLE", "TABLE")}, "CHARGEME"),
 )
 def extr_named(call: Call, load: Load, name: str, tables: bool) -> Load | tuple[Table, Table]:
@@ -434,7 +411,7 @@ def extr_named(call: Call, load: Load, name: str, tables: bool) -> Load | tuple[
     return _tables(parts[0]) if tables else Load(parts)
 
 
-@EXTR.form(_MAIN, arg("names", "LISTMOTS", en="names of parts", fr="noms des parties"))
+@EXTR.form(_MAIN, arg("names", "LISTMOTS", en="names of parts"))
 def extr_names(call: Call, load: Load, names: ListMots) -> Load:
     """The parts of some names."""
     return Load(_named(call, load, [str(w) for w in names.values]))
@@ -463,7 +440,6 @@ def _tables(part: LoadPart) -> tuple[Table, Table]:
     of=("CHARGEME",),
     syntax="CHAR2 = CHAN 'TABL' CHAR1 MOT1 ;",
     en="TABL gives the parts of a loading that have a name as fields at listed times.",
-    fr="TABL met les parties d'un chargement qui portent un nom sous forme de champs à des temps.",
 )
 def in_steps(call: Call, load: Load, name: str) -> Load:
     """Parts of a name as fields at listed times."""
@@ -488,7 +464,7 @@ def _times(part: LoadPart) -> list[float]:
     return [] if curve is None else [float(t) for t in curve.parts[0].abscissas]
 
 
-@DIME.form(_MAIN, en="Of a loading: its number of parts.", fr="D'un chargement : ses parties.")
+@DIME.form(_MAIN, en="Of a loading: its number of parts.")
 def count_parts(load: Load) -> int:
     """Number of parts."""
     return len(load.parts)
@@ -499,7 +475,6 @@ def count_parts(load: Load) -> int:
     _PART,
     syntax="CHAR2 = ENLE CHAR1 MOT1 ;",
     en="Of a loading: without the parts of a name.",
-    fr="D'un chargement : sans les parties d'un nom.",
 )
 def without_parts(call: Call, load: Load, name: str) -> Load:
     """A loading without the parts of a name."""

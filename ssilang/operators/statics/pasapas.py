@@ -68,11 +68,10 @@ if TYPE_CHECKING:
 
 @operator(
     "ZPAS",
-    arg("table", "TABLE", en="table of PASAPAS", fr="table de PASAPAS"),
+    arg("table", "TABLE", en="table of PASAPAS"),
     family="statics",
     help=Help(
         en="Load steps of the table of PASAPAS, which is the procedure to call.",
-        fr="Pas de charge de la table de PASAPAS, procédure à appeler.",
         syntax="ZPAS TAB1 ;",
     ),
 )

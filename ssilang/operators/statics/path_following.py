@@ -110,16 +110,15 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 
 @operator(
     "ZPIL",
-    arg("table", "TABLE", en="table of PILOINDI", fr="table de PILOINDI"),
-    arg("start", "CHPOINT", en="displacement", fr="déplacement", unit="m"),
-    arg("du", "CHPOINT", en="step so far", fr="incrément courant", unit="m"),
-    arg("rest", "CHPOINT", en="step by the residual", fr="incrément du résidu", unit="m"),
-    arg("unit", "CHPOINT", en="step by the load", fr="incrément de la charge", unit="m"),
-    arg("asked", "FLOTTANT", en="strain asked for", fr="déformation demandée"),
+    arg("table", "TABLE", en="table of PILOINDI"),
+    arg("start", "CHPOINT", en="displacement", unit="m"),
+    arg("du", "CHPOINT", en="step so far", unit="m"),
+    arg("rest", "CHPOINT", en="step by the residual", unit="m"),
+    arg("unit", "CHPOINT", en="step by the load", unit="m"),
+    arg("asked", "FLOTTANT", en="strain asked for"),
     family="statics",
     help=Help(
         en="Equation of strains behind PILOINDI, which is the procedure to call.",
-        fr="Équation des déformations de PILOINDI, procédure à appeler.",
         syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
     ),
 )

@@ -25,56 +25,24 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import solver_of, workspace
 
 _NAMED = 3  # bodies that warnings name
-_MATRIX = arg("matrix", "RIGIDITE", en="matrix", fr="matrice")
+_MATRIX = arg("matrix", "RIGIDITE", en="matrix")
 _WORDS = (
-    flag(
-        "project",
-        "NOID",
-        en="leave out the part of the loads that drives a free motion",
-        fr="ôte du chargement la part qui excite un mouvement libre",
-    ),
-    flag(
-        "warned",
-        "SOUC",
-        en="leave it out too, with a warning",
-        fr="l'ôte aussi, avec un avertissement",
-    ),
-    flag(
-        "bilateral",
-        "NOUNIL",
-        en="unilateral conditions are equalities",
-        fr="les conditions unilatérales sont des égalités",
-    ),
-    flag(
-        "stabilise",
-        "STAB",
-        en="add to the diagonal what makes the matrix positive",
-        fr="ajoute à la diagonale de quoi rendre la matrice positive",
-    ),
-    flag("plain", "NOSTAB", en="accepted: the default", fr="accepté : par défaut"),
-    key(
-        "passes",
-        "ELIM",
-        arg("passes", "ENTIER"),
-        en="0 keeps all conditions in a saddle point",
-        fr="0 garde toutes les conditions dans un point-selle",
-    ),
+    flag("project", "NOID", en="leave out the part of the loads that drives a free motion"),
+    flag("warned", "SOUC", en="leave it out too, with a warning"),
+    flag("bilateral", "NOUNIL", en="unilateral conditions are equalities"),
+    flag("stabilise", "STAB", en="add to the diagonal what makes the matrix positive"),
+    flag("plain", "NOSTAB", en="accepted: the default"),
+    key("passes", "ELIM", arg("passes", "ENTIER"), en="0 keeps all conditions in a saddle point"),
     key(
         "first",
         "INIB",
-        arg("conditions", "RIGIDITE", en="conditions", fr="conditions"),
-        arg("active", "LISTENTI", en="active ones", fr="actives"),
+        arg("conditions", "RIGIDITE", en="conditions"),
+        arg("active", "LISTENTI", en="active ones"),
         en="first guess of the active conditions: accepted, found without it",
-        fr="première estimation des conditions actives : acceptée, trouvée sans elle",
     ),
 )
-_PRECISION = opt(
-    "precision",
-    "FLOTTANT",
-    en="accepted: the solution is refined to rounding anyway",
-    fr="accepté : la solution est de toute façon affinée à l'arrondi près",
-)
-_LOADS = many("loads", "CHPOINT", at_least=1, en="second members", fr="seconds membres")
+_PRECISION = opt("precision", "FLOTTANT", en="accepted: the solution is refined to rounding anyway")
+_LOADS = many("loads", "CHPOINT", at_least=1, en="second members")
 
 
 def _options(call: Call, words: Mapping[str, Any]) -> SolveOptions:
@@ -189,15 +157,6 @@ RESO = operator(
         "'SOUC' too with a warning; 'NOUNIL' takes unilateral conditions for equalities; 'STAB' "
         "adds to the diagonal what makes the matrix positive; 'ELIM' 0 keeps all conditions in a "
         "saddle point; 'ENSE' also gives the number of free motions and the nodes that pin them.",
-        "Résout K u = F avec les conditions que contient la matrice : égalités exactes, 'MINI' et "
-        "'MAXI' par ensembles actifs. Les forces FX, FY, MZ ... et les valeurs imposées par DEPI "
-        "s'ajoutent au second membre ; la solution contient UX, UY, RZ ... et les multiplicateurs "
-        "LX (K u + C^T LX = F). Une solution par second membre ; un LISTCHPO donne un LISTCHPO. "
-        "Un mouvement libre excité est une erreur qui le nomme. 'NOID' retire cette part du "
-        "chargement, 'SOUC' aussi avec un avertissement ; 'NOUNIL' prend les conditions "
-        "unilatérales pour des égalités ; 'STAB' ajoute à la diagonale de quoi rendre la matrice "
-        "positive ; 'ELIM' 0 garde toutes les conditions dans un point-selle ; 'ENSE' donne "
-        "aussi le nombre de mouvements libres et les nœuds qui les fixent.",
         "CHPO1 (CHPO2 ...) = RESO RIG1 CHPO3 (CHPO4 ...) ('NOID') ('NOUNIL') ('STAB') ('SOUC') "
         "('ELIM' N1) ;\n"
         "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
@@ -248,7 +207,7 @@ def with_motions(
     return (*fields, len(motions), nodes)
 
 
-@RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members", fr="seconds membres"), *_WORDS)
+@RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members"), *_WORDS)
 def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
     """One solution for each second member of a list."""
     fields: list[Any] = loads.values
@@ -257,7 +216,7 @@ def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> Li
 
 @RESO.form(
     _MATRIX,
-    arg("table", "TABLE", en="table LIAISONS_STATIQUES", fr="table LIAISONS_STATIQUES"),
+    arg("table", "TABLE", en="table LIAISONS_STATIQUES"),
     *_WORDS,
 )
 def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
@@ -311,13 +270,7 @@ def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
 operator(
     "REAC",
     _MATRIX,
-    arg(
-        "solution",
-        "CHPOINT",
-        "TABLE",
-        en="solution, or table of shapes",
-        fr="solution, ou table de déformées",
-    ),
+    arg("solution", "CHPOINT", "TABLE", en="solution, or table of shapes"),
     family="solve",
     full_name="REACTION",
     gives=Like("solution"),
@@ -327,12 +280,6 @@ operator(
         "at the nodes that they share, such as the master of a rigid body: the force of one BLOQ "
         "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
         "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
-        "Forces que les conditions d'une matrice exercent sur le corps, - C^T LX, d'après une "
-        "solution de RESO, DYNAMIC ou PASAPAS avec ses multiplicateurs. Toutes les conditions de "
-        "RIG1 comptent et s'ajoutent aux noeuds qu'elles partagent, comme le maître d'un corps "
-        "rigide : la force d'un seul BLOQ ou RELA s'obtient en donnant celui-là seul à REAC, tel "
-        "qu'il était pour la solution. Une table de modes ou de déformées statiques est complétée "
-        "par REACTION_MODALE ou REACTION.",
         "CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
         (
             "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
@@ -358,8 +305,6 @@ operator(
     help=Help(
         "Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
         "zero if it is stable.",
-        "Nombre de valeurs propres négatives d'une matrice sur les mouvements que permettent ses "
-        "conditions : zéro si elle est stable.",
         "N1 = DIAG RIG1 ;",
         ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (DIAG (APPU 'UX' -3. P1)) ;",),
     ),

@@ -30,8 +30,8 @@ PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""
 
 
-MODEL = arg("model", "MMODEL", en="model", fr="modèle")
-NO_ERROR = flag("silent", "NOER", en="accepted, changes nothing", fr="accepté, sans effet")
+MODEL = arg("model", "MMODEL", en="model")
+NO_ERROR = flag("silent", "NOER", en="accepted, changes nothing")
 Fields = tuple[NodeField | CellField, ...]
 
 
@@ -82,7 +82,6 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
         "MCHAML",
         at_least=1,
         en="displacements, and parameters or Hooke matrices",
-        fr="déplacements, et caractéristiques ou matrices de Hooke",
     ),
     NO_ERROR,
     choice(
@@ -90,7 +89,6 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
         ("LINE", "QUAD"),
         default="LINE",
         en="strains of first order (default), or of second order too",
-        fr="déformations du premier ordre (par défaut), ou aussi du second",
     ),
     family="stress",
     full_name="SIGMA",
@@ -99,10 +97,6 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
         "SMXY ... in continuous elements (global axes), EFFX in bars, EFFX EFFY ... MOMZ in beams "
         "(local axes), SMSN SMN in joints. 'QUAD' adds the strains of second order. Hooke "
         "matrices may stand for the parameters.",
-        fr="Contraintes élastiques d'un champ de déplacements, aux points de 'STRESSES' : SMXX "
-        "SMYY SMZZ SMXY ... dans les massifs (repère général), EFFX dans les barres, EFFX EFFY "
-        "... MOMZ dans les poutres (repère local), SMSN SMN dans les joints. 'QUAD' ajoute les "
-        "déformations du second ordre. Des matrices de Hooke peuvent remplacer les paramètres.",
         syntax="SIG1 = SIGM ('NOER') ('LINE' | 'QUAD') MODL1 MAT1 (CAR1) DEP1 ;",
         examples=(_BAR + "LIST (MAXI (SIGM M A U)) ;",),
     ),
@@ -118,12 +112,7 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
     "EPSI",
     MODEL,
     many(
-        "fields",
-        "CHPOINT",
-        "MCHAML",
-        at_least=1,
-        en="displacements and parameters, or gradients",
-        fr="déplacements et caractéristiques, ou gradients",
+        "fields", "CHPOINT", "MCHAML", at_least=1, en="displacements and parameters, or gradients"
     ),
     NO_ERROR,
     choice(
@@ -131,14 +120,12 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
         ("LINE", "QUAD", "TRUE", "JAUM", "UTIL"),
         default="LINE",
         en="first order (default), or of second order too; the other measures are not available",
-        fr="premier ordre (par défaut), ou aussi second ; les autres ne sont pas disponibles",
     ),
     choice(
         "gradient",
         ("GEOM", "DEPL"),
         default="GEOM",
         en="what a field of gradients is: F (default), or F - 1 as GRAD gives it",
-        fr="nature d'un champ de gradients : F (par défaut), ou F - 1 tel que le donne GRAD",
     ),
     family="stress",
     full_name="EPSILON",
@@ -147,11 +134,6 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
         "in continuous elements (shears are engineering strains), EPSS in bars, EPS GXY ... CZ in "
         "beams, jumps DRSN DRN in joints. 'QUAD' adds the terms of second order. With a field of "
         "gradients F ('GEOM') or F - 1 ('DEPL') instead: the strain ln(F^T F) / 2.",
-        fr="Déformations d'un champ de déplacements, aux points de 'STRESSES' : EPXX EPYY EPZZ "
-        "GAXY ... dans les massifs (GAXY est la distorsion), EPSS dans les barres, EPS GXY ... CZ "
-        "dans les poutres, sauts DRSN DRN dans les joints. 'QUAD' ajoute les termes du second "
-        "ordre. Avec un champ de gradients F ('GEOM') ou F - 1 ('DEPL') : la déformation "
-        "ln(F^T F) / 2.",
         syntax="EPS1 = EPSI ('LINE' | 'QUAD') MODL1 DEP1 (CAR1) ('NOER') ;\n"
         "EPS1 = EPSI MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
         examples=(_BAR + "LIST (MAXI (EPSI M U)) ;",),
@@ -187,13 +169,7 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
 @operator(
     "BSIG",
     MODEL,
-    many(
-        "fields",
-        "MCHAML",
-        at_least=1,
-        en="stresses, or pressure, and parameters",
-        fr="contraintes, ou pression, et caractéristiques",
-    ),
+    many("fields", "MCHAML", at_least=1, en="stresses, or pressure, and parameters"),
     NO_ERROR,
     family="stress",
     full_name="BSIGMA",
@@ -202,11 +178,6 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
         "model CHARGEMENT PRESSION, the forces of a field of pressure along the sides' normals. "
         "The small springs by which RIGI holds the rotation of shells about their normal (1.E-5 of "
         "the bending stiffness) have no stress: their moments are missing here.",
-        fr="Forces nodales en équilibre avec un champ de contraintes : l'intégrale de B^T sigma ; "
-        "sur un modèle CHARGEMENT PRESSION, les forces d'un champ de pression selon les normales "
-        "des faces. Les petits ressorts par lesquels RIGI tient la rotation des coques autour de "
-        "leur normale (1.E-5 de la raideur de flexion) n'ont pas de contrainte : leurs moments "
-        "manquent ici.",
         syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
         examples=(_BAR + "F = BSIG M (SIGM M A U) ; LIST (EXTR F 'FX' Q) ;",),
     ),
@@ -223,19 +194,11 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
 @operator(
     "ELAS",
     MODEL,
-    many(
-        "fields",
-        "MCHAML",
-        at_least=1,
-        en="stresses or strains, and parameters",
-        fr="contraintes ou déformations, et caractéristiques",
-    ),
+    many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
     family="stress",
     full_name="ELASTICITE",
     help=Help(
         en="Elastic stresses of strains, or strains of stresses, whichever the first field holds.",
-        fr="Contraintes élastiques de déformations, ou déformations de contraintes, selon ce que "
-        "contient le premier champ.",
         syntax="CHAM2 = ELAS MODL1 CHAM1 MAT1 (CAR1) ;",
         examples=(_BAR + "LIST (MAXI (ELAS M (EPSI M U) A)) ;",),
     ),
@@ -261,7 +224,6 @@ _THERMAL = many(
     "MCHAML",
     at_least=1,
     en="parameters, and the temperature, last of the fields in cells",
-    fr="caractéristiques, et la température, dernier des champs par éléments",
 )
 
 
@@ -286,11 +248,6 @@ def _state(model: Model, field: CellField) -> str:
         "On shells TINF T TSUP are those of the lower skin, the middle and the upper skin (the "
         "normal's side): a parabola across the thickness, of which thin shells take the mean "
         "(TINF + 4 T + TSUP) / 6 and the curvature ALPH (TSUP - TINF) / EPAI.",
-        fr="Déformations thermiques ALPH (T - TALP) d'une température T (champ par points ou par "
-        "éléments). Sur les coques TINF T TSUP sont celles de la peau inférieure, du milieu et de "
-        "la peau supérieure (du côté de la normale) : une parabole dans l'épaisseur, dont les "
-        "coques minces prennent la moyenne (TINF + 4 T + TSUP) / 6 et la courbure "
-        "ALPH (TSUP - TINF) / EPAI.",
         syntax="EPS1 = EPTH MODL1 MAT1 | CHPO1 | CHAM1 ;",
         examples=(
             _BAR + "B = A ET (MATE M 'ALPH' 1.E-5) ; T = MANU 'CHPO' L 1 'T' 100. ; "
@@ -335,8 +292,6 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
     help=Help(
         en="Stresses D ALPH (T - TALP) of the thermal strains of a temperature T: to be taken off "
         "the stresses of SIGM; BSIG of them gives the thermal load.",
-        fr="Contraintes D ALPH (T - TALP) des déformations thermiques d'une température T : à "
-        "soustraire des contraintes de SIGM ; leur BSIG est le chargement thermique.",
         syntax="SIG1 = THET MODL1 MAT1 | CHPO1 | CHAM1 ;",
         examples=(
             _BAR + "B = A ET (MATE M 'ALPH' 1.E-5) ; T = MANU 'CHPO' L 1 'T' 100. ; "

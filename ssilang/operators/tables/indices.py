@@ -30,8 +30,6 @@ TABL = shared(
     Help(
         en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
         "table, under a further name.",
-        fr="Une nouvelle table ; un mot devient son sous-type (indice SOUSTYPE). Suivi d'une "
-        "table : cette même table, sous un autre nom.",
         syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
         examples=(
             "T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",
@@ -42,12 +40,12 @@ TABL = shared(
 )
 
 
-@TABL.form(arg("table", "TABLE", en="table that gets a further name", fr="table à renommer"))
+@TABL.form(arg("table", "TABLE", en="table that gets a further name"))
 def _same(table: Table) -> Table:
     return table
 
 
-@TABL.form(opt("subtype", "MOT", default="", en="sub-type", fr="sous-type"))
+@TABL.form(opt("subtype", "MOT", default="", en="sub-type"))
 def _new(subtype: str) -> Table:
     return Table(str(subtype))
 
@@ -58,8 +56,6 @@ INDE = shared(
     Help(
         en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
         "of the named objects of that type, by name.",
-        fr="Table (1 à n) des indices d'une table ; avec un mot de type comme *MAILLAGE, table des "
-        "objets nommés de ce type, indicée par leur nom.",
         syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
         examples=(
             "T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",
@@ -70,7 +66,7 @@ INDE = shared(
 )
 
 
-@INDE.form(arg("table", "TABLE", en="table whose indices are wanted", fr="table à parcourir"))
+@INDE.form(arg("table", "TABLE", en="table whose indices are wanted"))
 def _indices(table: Table) -> Table:
     made = Table()
     for place, (index, _) in enumerate(table.items(), start=1):
@@ -79,8 +75,8 @@ def _indices(table: Table) -> Table:
 
 
 @INDE.form(
-    flag("star", "*", en="stands before a type word", fr="précède un mot de type"),
-    arg("said", "MOT", en="type word", fr="mot de type"),
+    flag("star", "*", en="stands before a type word"),
+    arg("said", "MOT", en="type word"),
 )
 def _named(call: Call, star: bool, said: str) -> Table:
     kind = str(said).strip().lstrip("*").upper()[:8]
@@ -97,9 +93,8 @@ def _named(call: Call, star: bool, said: str) -> Table:
 
 
 @DIME.form(
-    main("table", "TABLE", en="table", fr="table"),
+    main("table", "TABLE", en="table"),
     en="Of a table: its number of indices.",
-    fr="D'une table : son nombre d'indices.",
     examples=("T = TABL ; T . 1 = 2. ; LIST (DIME T) ;",),
 )
 def _size(table: Table) -> int:
@@ -107,11 +102,10 @@ def _size(table: Table) -> int:
 
 
 @ENLE.form(
-    main("table", "TABLE", en="table", fr="table"),
-    arg("index", "*", "TEXTE", en="index to leave out", fr="indice à omettre"),
+    main("table", "TABLE", en="table"),
+    arg("index", "*", "TEXTE", en="index to leave out"),
     syntax="TAB2 = ENLE TAB1 OBJ1 ;",
     en="Of a table: a new table without an index.",
-    fr="D'une table : une nouvelle table sans un indice.",
     examples=("T = TABL ; T . 1 = 5 ; T . 2 = 6 ; LIST (DIME (ENLE T 1)) ;",),
 )
 def _without(call: Call, table: Table, index: Any) -> Table:
@@ -131,10 +125,9 @@ def copied(table: Table) -> Table:
 
 
 @COPI.form(
-    main("table", "TABLE", en="table", fr="table"),
+    main("table", "TABLE", en="table"),
     syntax="TAB2 = COPI TAB1 ;",
     en="Of a table: a new table with the same values; what it gets is its own.",
-    fr="D'une table : une nouvelle table aux mêmes valeurs ; ce qu'on y met n'est qu'à elle.",
     examples=("T = TABL ; U = COPI T ; U . 1 = 2 ; LIST (DIME T) ;",),
 )
 def _copy(table: Table) -> Table:
@@ -175,12 +168,11 @@ for _kind in ("ENTIER", "FLOTTANT"):
 
 @operator(
     "OTER",
-    arg("table", "TABLE", en="table", fr="table"),
-    arg("index", en="index to remove", fr="indice à supprimer"),
+    arg("table", "TABLE", en="table"),
+    arg("index", en="index to remove"),
     family="tables",
     help=Help(
         en="Removes an index from a table, in place.",
-        fr="Supprime un indice d'une table, sur place.",
         syntax="OTER TAB1 OBJ1 ;",
         examples=("T = TABL ; T . 1 = 2. ; OTER T 1 ; LIST (DIME T) ;",),
     ),

@@ -14,14 +14,12 @@ from ssilang.operators.dispatch import united
 
 @operator(
     "ETG",
-    arg("table", "TABLE", en="objects at 1, 2 ...", fr="objets en 1, 2 ..."),
+    arg("table", "TABLE", en="objects at 1, 2 ..."),
     gives=ANY,
     family="objects",
     help=Help(
         en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
         "...: PART makes such tables. A mesh gets the cells in the order of the table.",
-        fr="Réunion (ET) des objets que contient une table de sous-type 'ESCLAVE' aux indices 1, 2 "
-        "... : PART en fait. Un maillage reçoit les éléments dans l'ordre de la table.",
         syntax="OBJ2 = ETG TAB1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 9 (0. 0.) (1. 0.) ; T = PART 'ARLE' L 3 ; "

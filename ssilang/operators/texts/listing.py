@@ -314,10 +314,6 @@ LIST = shared(
         "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
         "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
         "behind a procedure: the line, or the first and the last line.",
-        fr="Imprime le contenu d'un objet ('RESUME' : moins) ; sans objet, les noms connus ; "
-        "*TYPE, ceux d'un type. Un entier derrière une liste de nombres : valeurs par ligne (10 "
-        "réels, 20 entiers) ; derrière une table : profondeur d'impression de ses sous-tables (10 "
-        "au plus) ; derrière une procédure : la ligne, ou la première et la dernière ligne.",
         syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
         examples=(
             "LIST (PROG 1. 2. 3.) ;",
@@ -333,15 +329,15 @@ LIST = shared(
 )
 
 
-@LIST.form(lead("value", "TEXTE", en="a text, as it stands", fr="un texte, tel quel"))
+@LIST.form(lead("value", "TEXTE", en="a text, as it stands"))
 def _list_text(session: Session, value: Texte) -> None:
     """A text is shown, not put in its place."""
     session.print(described(value, session.told))
 
 
 @LIST.form(
-    key("star", "*", optional=False, en="all objects of a type", fr="les objets d'un type"),
-    named("kind", en="type word", fr="mot de type"),
+    key("star", "*", optional=False, en="all objects of a type"),
+    named("kind", en="type word"),
 )
 def _list_names(call: Call, star: bool, kind: str) -> None:
     wanted = kind[:8]
@@ -353,20 +349,15 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
 
 
 @LIST.form(
-    flag("brief", "RESU", en="less of it", fr="en résumé"),
-    arg("value", "*", "TEXTE", en="what is printed", fr="ce qui est imprimé"),
-    many(
-        "numbers",
-        "ENTIER",
-        en="values in a line, depth of tables, or first and last line",
-        fr="valeurs par ligne, profondeur des tables, ou première et dernière ligne",
-    ),
+    flag("brief", "RESU", en="less of it"),
+    arg("value", "*", "TEXTE", en="what is printed"),
+    many("numbers", "ENTIER", en="values in a line, depth of tables, or first and last line"),
 )
 def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
     session.print(described(value, session.told, brief, numbers))
 
 
-@LIST.form(lead("value", "*", "TEXTE", en="what is printed", fr="ce qui est imprimé"))
+@LIST.form(lead("value", "*", "TEXTE", en="what is printed"))
 def _list_word(session: Session, value: Any) -> None:
     """A word that is spelt like the keyword, alone."""
     session.print(described(value, session.told))

@@ -21,7 +21,6 @@ from ssilang.operators.workspace import workspace
     full_name="MESSAGE",
     help=Help(
         en="Prints words and numbers on one line, written as CHAI writes them.",
-        fr="Écrit des mots et des nombres sur une ligne, comme CHAI les écrit.",
         syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
         examples=("X = 2. ; MESS 'x = ' X ;", "MESS 'count' 12*20 ;"),
     ),
@@ -83,9 +82,6 @@ ERRE = shared(
         en="Reports an error and stops the run: a text, or the number of a message with the "
         "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
         "goes on.",
-        fr="Signale une erreur et arrête le calcul : un texte, ou le numéro d'un message avec les "
-        "objets qui le complètent. ERRE 0 ne signale rien ; un numéro négatif écrit le message et "
-        "continue.",
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
         examples=(
             "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
@@ -98,14 +94,13 @@ ERRE = shared(
 
 
 @ERRE.form(
-    arg("number", "ENTIER", en="number of the message", fr="numéro du message"),
+    arg("number", "ENTIER", en="number of the message"),
     key(
         "values",
         "AVEC",
         many("values", "MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL"),
         default=(),
         en="what completes the message",
-        fr="ce qui complète le message",
     ),
 )
 def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
@@ -120,7 +115,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
 
 
 @ERRE.form(
-    arg("text", "MOT", en="what is wrong", fr="ce qui ne va pas"),
+    arg("text", "MOT", en="what is wrong"),
     many(
         "values",
         "MOT",
@@ -128,7 +123,6 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         "FLOTTANT",
         "LOGIQUE",
         en="what completes a sentence of the library",
-        fr="ce qui complète une phrase de la bibliothèque",
     ),
 )
 def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
@@ -140,12 +134,11 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
 
 @operator(
     "SAUT",
-    opt("count", "ENTIER", default=1, en="number of lines", fr="nombre de lignes"),
-    choice("what", ("LIGN", "PAGE"), en="lines, or a page", fr="lignes, ou page"),
+    opt("count", "ENTIER", default=1, en="number of lines"),
+    choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
     help=Help(
         en="Prints blank lines ('PAGE': one).",
-        fr="Saute des lignes ('PAGE' : une seule).",
         syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
         examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
     ),
@@ -165,7 +158,6 @@ def saut(call: Call, count: int, what: str | None) -> None:
     full_name="TITRE",
     help=Help(
         en="Sets the title of the pictures and curves made from now on.",
-        fr="Fixe le titre des dessins et évolutions faits ensuite.",
         syntax="TITR OBJ1 (OBJ2 ...) ;",
         examples=("TITR 'Settlement of the footing' ;",),
     ),

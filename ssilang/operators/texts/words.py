@@ -29,7 +29,6 @@ TEXT = (
         arg("form", "MOT"),
         repeated=True,
         en="Fortran format of the numbers that follow",
-        fr="format Fortran des nombres qui suivent",
     ),
     many(
         "items",
@@ -38,7 +37,6 @@ TEXT = (
         "FLOTTANT",
         "LOGIQUE",
         en="what is written, each with a column if one is given",
-        fr="ce qui est écrit, chacun avec une colonne si elle est donnée",
     ),
 )
 """What `read_text` reads."""
@@ -149,9 +147,6 @@ def filling(values: Sequence[Any]) -> dict[str, object]:
         "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too by an I format. "
         "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
         "end of what is written already.",
-        fr="Assemble des mots et des nombres en un mot, sans blancs entre eux. Les réels suivent "
-        "le dernier FORMAT (à la Fortran, d'abord (1PE12.5)). Derrière un élément, *N met sa fin "
-        "en colonne N, /N son début ; <N et >N comptent depuis la fin de ce qui est déjà écrit.",
         syntax="MOT1 = CHAI ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
         examples=(
             "N = 3 ; M = CHAI 'case ' N ; MESS M ;",
@@ -167,13 +162,12 @@ def chai(call: Call) -> Mot:
 
 @operator(
     "MOT",
-    arg("text", "PROCEDUR", "MOT", en="a word, bare or quoted", fr="un mot, nu ou non"),
+    arg("text", "PROCEDUR", "MOT", en="a word, bare or quoted"),
     gives="MOT|PROCEDUR",
     family="words",
     terminal=True,
     help=Help(
         en="A word, also when it is the name of an operator or a procedure.",
-        fr="Un mot, même si c'est le nom d'un opérateur ou d'une procédure.",
         syntax="MOT1 = MOT MOT2 ;",
         examples=("M = MOT 'LIST' ; LIST M ;",),
     ),
@@ -185,11 +179,10 @@ def mot(text: Mot | Procedure) -> Any:
 
 @CHAN.form(
     said("MAJU", "MINU"),
-    arg("text", "MOT", "LISTMOTS", en="words to change", fr="mots à changer"),
+    arg("text", "MOT", "LISTMOTS", en="words to change"),
     gives=Like("text"),
     syntax="MOT2 = CHAN 'MAJU' | 'MINU' MOT1 ;",
     en="MAJU and MINU change the case of a word.",
-    fr="MAJU et MINU changent la casse d'un mot.",
     examples=("MESS (CHAN 'MAJU' 'abc') ;",),
 )
 def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
@@ -200,22 +193,20 @@ def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
 
 
 @EXTR.form(
-    main("text", "MOT", en="word", fr="mot"),
-    arg("places", "LISTENTI", en="places of its characters", fr="rangs de ses caractères"),
+    main("text", "MOT", en="word"),
+    arg("places", "LISTENTI", en="places of its characters"),
 )
 def _letters(call: Call, text: str, places: ListEnti) -> Mot:
     return Mot("".join(_letter(call, text, int(i)) for i in places.values))
 
 
 @EXTR.form(
-    main("text", "MOT", en="word", fr="mot"),
-    arg("first", "ENTIER", en="first character", fr="premier caractère"),
-    opt("last", "ENTIER", en="last character, the end by default", fr="dernier, la fin sinon"),
+    main("text", "MOT", en="word"),
+    arg("first", "ENTIER", en="first character"),
+    opt("last", "ENTIER", en="last character, the end by default"),
     syntax="MOT2 = EXTR MOT1 N1 (N2) ; MOT2 = EXTR MOT1 LISTENTI1 ; TAB1 = EXTR 'TYPE1' ;",
     en="Of a word: characters N1 to N2 (to the end without N2). With a type word alone: table of "
     "all named objects of that type.",
-    fr="D'un mot : les caractères N1 à N2 (jusqu'à la fin sans N2). Avec un mot de type seul : "
-    "table de tous les objets nommés de ce type.",
     examples=("MESS (EXTR 'abcdef' 2 4) ;",),
 )
 def _extract_word(call: Call, text: str, first: int, last: int | None) -> Mot:
@@ -238,7 +229,7 @@ def _letter(call: Call, word: str, i: int) -> str:
     return word[i - 1]
 
 
-@EXTR.form(main("kind", "MOT", en="type word", fr="mot de type"))
+@EXTR.form(main("kind", "MOT", en="type word"))
 def _named(call: Call, kind: str) -> Table:
     wanted = kind.strip().lstrip("*").upper()
     if wanted not in known_types():
@@ -254,9 +245,8 @@ def _named(call: Call, kind: str) -> Table:
 
 
 @DIME.form(
-    main("text", "MOT", en="word", fr="mot"),
+    main("text", "MOT", en="word"),
     en="Of a word: its number of characters.",
-    fr="D'un mot : son nombre de caractères.",
     examples=("LIST (DIME 'abc') ;",),
 )
 def _length(text: str) -> int:

@@ -39,7 +39,7 @@ from ssilang.language.values import ListEnti, ListMots, ListReel
 @pytest.fixture
 def declare():
     """Makes an operator ZZZZ for one test; what its forms were given is printed."""
-    made = shared("ZZZZ", "test", Help("", ""))
+    made = shared("ZZZZ", "test", Help(""))
 
     def add(*entries, **options):
         def show(**values):
@@ -208,7 +208,7 @@ def test_the_words_of_all_forms_of_a_type_are_told(declare):
 
 
 def test_a_form_may_want_a_state_of_the_session(declare):
-    declare(arg("x", "ENTIER"), when=When(lambda session: False, "in space", "en dimension 3"))
+    declare(arg("x", "ENTIER"), when=When(lambda session: False, "in space"))
     code, output = run("A = ZZZZ 3 ;")
     assert code == 1
     assert "in space" in output

@@ -23,7 +23,7 @@ from ssilang.language.run.forms_ran import FormsRan
 
 @pytest.fixture
 def declared():
-    made = shared("ZTRY", "test", Help("", ""))
+    made = shared("ZTRY", "test", Help(""))
 
     @made.form(
         select("how", {"ONCE": (), "DEEP": (select("in", {"LEFT": (), "RIGH": ()}),)}, False)

@@ -27,7 +27,7 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 @operator(
     "ZCOL",
-    arg("table", "TABLE", en="layers, motion and depths", fr="couches, mouvement et profondeurs"),
+    arg("table", "TABLE", en="layers, motion and depths"),
     family="dynamics",
     help=Help(
         en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
@@ -35,12 +35,6 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
         "damping right at F1 and F2, cut-off FC, acceleration GAMMAO at depth CONTROLE (0.; below "
         "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
         "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
-        fr="Champ libre d'un sol stratifié sous des ondes verticales, pour DECONV et DECONV3D : "
-        "couches depuis le haut (listes EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), "
-        "amortissement de Rayleigh exact à F1 et F2, coupure FC, accélération GAMMAO à la "
-        "profondeur CONTROLE (0. ; négative : à l'affleurement de la base). Aux profondeurs "
-        "PROFONDEURS : évolutions ACCE, VITE, CONT (contrainte selon l'axe montant), liste DEFO "
-        "(déformation maximale) ; PAS est le pas.",
         syntax="TAB2 = ZCOL TAB1 ;",
         examples=(
             "T = TABL ; T . 'EPAISSEUR' = PROG 10. ; T . 'MASSE_VOLUMIQUE' = PROG 2000. ;"

@@ -36,13 +36,11 @@ _COLUMN = (
 
 @operator(
     "ZDRM",
-    arg("table", "TABLE", en="table of @DRM", fr="table de @DRM"),
+    arg("table", "TABLE", en="table of @DRM"),
     family="dynamics",
     help=Help(
         en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
         "it takes.",
-        fr="Chargement de la réduction de domaine sur une couche d'éléments, pour @DRM, dont il "
-        "prend la table.",
         syntax="CHAR1 = ZDRM TAB1 ;",
         examples=(
             _COLUMN + "T . 'INTERIEUR' = S ELEM 'CONTENANT' (POIN S 'PROC' (0.5 0.)) ;"
@@ -68,13 +66,11 @@ def zdrm(call: Call, table: Table) -> Load:
 
 @operator(
     "ZBOR",
-    arg("table", "TABLE", en="table of @BORDS", fr="table de @BORDS"),
+    arg("table", "TABLE", en="table of @BORDS"),
     family="dynamics",
     help=Help(
         en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
         "whose table it takes.",
-        fr="Chargement du sol au-delà des bords d'un maillage et de leurs amortisseurs, pour "
-        "@BORDS, dont il prend la table.",
         syntax="CHAR1 = ZBOR TAB1 ;",
         examples=(
             _COLUMN + "T . 'FRONTIERE' = COTE 2 S ; T . 'AMORTISSEURS' = AMOR M (COTE 2 S) A ;"

@@ -33,13 +33,11 @@ _IMPOSSIBLE = 0.1
 
 @operator(
     "ZBAS",
-    arg("table", "TABLE", en="table of @PASSAGE", fr="table de @PASSAGE"),
+    arg("table", "TABLE", en="table of @PASSAGE"),
     family="dynamics",
     help=Help(
         en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it "
         "takes.",
-        fr="Ce qu'une base rigide fait d'ondes qui passent et diffèrent, pour @PASSAGE, dont il "
-        "prend la table.",
         syntax="TAB2 = ZBAS TAB1 ;",
         examples=(
             "T = TABL ; T . 'FORME' = 'BANDE' ; T . 'DEMI_LARGEUR' = 10. ; T . 'YOUNG' = 2.E8 ;"

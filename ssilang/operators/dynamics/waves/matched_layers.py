@@ -13,11 +13,10 @@ FEWEST = 4
 
 @operator(
     "ZPML",
-    arg("table", "TABLE", en="table of @PML", fr="table de @PML"),
+    arg("table", "TABLE", en="table of @PML"),
     family="dynamics",
     help=Help(
         en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
-        fr="Matrices d'une couche parfaitement adaptée, pour @PML, dont il prend la table.",
         syntax="TAB2 = ZPML TAB1 ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 2 (DROI 6 (0. 0.) (6. 0.)) (0. -2.) ;"

@@ -26,12 +26,10 @@ DRIFT = 0.02
 
 @operator(
     "ZOPL",
-    arg("table", "TABLE", en="table of @ONDE", fr="table de @ONDE"),
+    arg("table", "TABLE", en="table of @ONDE"),
     family="dynamics",
     help=Help(
         en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
-        fr="Mouvement d'un demi-espace stratifié sous une onde plane, pour @ONDE, dont il prend "
-        "la table.",
         syntax="TAB2 = ZOPL TAB1 ;",
         examples=(
             "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (20. -10.) ; T = TABL ;"

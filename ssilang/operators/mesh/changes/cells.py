@@ -85,23 +85,16 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
     return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
 
 
-_NUMBERS = opt(
-    "numbers",
-    "LISTENTI",
-    en="numbers of the points of each cell, in a mesh of points",
-    fr="numéros des points de chaque élément, dans un maillage de points",
-)
+_NUMBERS = opt("numbers", "LISTENTI", en="numbers of the points of each cell, in a mesh of points")
 
 
 @CHAN.form(
     said(*CELL_TYPES),
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     _NUMBERS,
     syntax="GEO2 = CHAN (TYPE) GEO1 (LENTI1) ;",
     en="A cell type: the mesh made of such cells (the type of OPTI ELEM when none is said). From "
     "points, a list of numbers gives the connectivity.",
-    fr="Un type d'élément : le maillage formé de tels éléments (par défaut celui d'OPTI ELEM). A "
-    "partir de points, une liste de numéros donne la connectivité.",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
         " LIST (NBEL (CHAN 'POI1' S)) ; LIST (NBEL (CHAN 'TRI3' S)) ;",
@@ -112,7 +105,7 @@ def change_type(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     return changed(mesh, word) if numbers is None else _by_hand(mesh, word, numbers.values)
 
 
-@CHAN.form(main("mesh", "MAILLAGE", en="mesh", fr="maillage"), _NUMBERS)
+@CHAN.form(main("mesh", "MAILLAGE", en="mesh"), _NUMBERS)
 def change_to_current(session: Session, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     """Mesh of the cell type of OPTI ELEM."""
     target = workspace(session).element
@@ -132,16 +125,12 @@ _WHOLE = {
 
 @CHAN.form(
     said(*_WHOLE),
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
     en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
     "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
     "faces and cells, that linear types then take apart (TRI7 into 6 TRI3 or 3 QUA4, CU27 into 8 "
     "CUB8).",
-    fr="'LIGN' : toutes les arêtes des éléments, une fois chacune ; 'SURF' : toutes les faces ; "
-    "'LINE', 'QUAD' : éléments linéaires ou quadratiques à la place des autres ; 'QUAF' : éléments "
-    "complets, à noeuds au milieu des faces et des éléments, que les types linéaires découpent "
-    "ensuite (TRI7 en 6 TRI3 ou 3 QUA4, CU27 en 8 CUB8).",
     examples=(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
         " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",
@@ -154,23 +143,10 @@ def change_whole(word: str, mesh: Mesh) -> Mesh:
 
 @MANU.form(
     said(*CELL_TYPES),
-    many(
-        "given",
-        "POINT",
-        "MAILLAGE",
-        at_least=1,
-        en="points, cell after cell",
-        fr="points, élément après élément",
-    ),
-    choice(
-        "colour",
-        COLOURS,
-        en="colour, that of OPTI COUL by default",
-        fr="couleur, par défaut celle d'OPTI COUL",
-    ),
+    many("given", "POINT", "MAILLAGE", at_least=1, en="points, cell after cell"),
+    choice("colour", COLOURS, en="colour, that of OPTI COUL by default"),
     syntax="GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1) ;",
     en="A cell type: cells of that type on points, or on the points of a mesh.",
-    fr="Un type d'élément : éléments de ce type sur des points, ou sur ceux d'un maillage.",
     examples=("OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ROUG ; LIST (MESU T) ;",),
 )
 def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:

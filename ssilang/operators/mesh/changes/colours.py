@@ -25,15 +25,12 @@ _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cel
 
 @operator(
     "AFCO",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     family="mesh",
     help=Help(
         en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
         "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
         "QUA9, white the others.",
-        fr="Le même maillage, coloré par type d'élément : bleu SEG2 TRI3 CUB8 TET4, rouge QUA4 "
-        "PRI6 PYR5, rose SEG3 TRI6 CU20 TE10, vert QUA8 PR15 PY13, jaune TRI7 QUA9, blanc les "
-        "autres.",
         syntax="GEO1 = AFCO GEO2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; "
@@ -52,20 +49,17 @@ def afco(mesh: Mesh) -> Mesh:
 
 
 @COUL.form(
-    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    main("mesh", "MAILLAGE", en="mesh"),
     either(
         "colour",
-        group("number", arg("number", "ENTIER", en="its number", fr="son numéro")),
-        group("name", arg("name", "MOT", en="its name", fr="son nom", kind="colour")),
+        group("number", arg("number", "ENTIER", en="its number")),
+        group("name", arg("name", "MOT", en="its name", kind="colour")),
         optional=True,
         en="colour, that of OPTI COUL by default",
-        fr="couleur, par défaut celle d'OPTI COUL",
     ),
     syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
     en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
     "none is said).",
-    fr="D'un maillage : les mêmes éléments dans une autre couleur, par nom ou numéro (celle "
-    "d'OPTI COUL par défaut).",
     examples=("OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) COUL ROUG ;",),
 )
 def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:

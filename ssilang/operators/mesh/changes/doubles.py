@@ -20,14 +20,8 @@ def _ids(item: Mesh | Point) -> IntArray:
 
 @operator(
     "ELIM",
-    arg("first", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
-    opt(
-        "second",
-        "MAILLAGE",
-        "POINT",
-        en="mesh whose nodes are merged with those of the first",
-        fr="maillage dont les noeuds sont fusionnés avec ceux du premier",
-    ),
+    arg("first", "MAILLAGE", "POINT", en="mesh, or point"),
+    opt("second", "MAILLAGE", "POINT", en="mesh whose nodes are merged with those of the first"),
     DISTANCE,
     family="mesh",
     full_name="ELIMINATION",
@@ -35,9 +29,6 @@ def _ids(item: Mesh | Point) -> IntArray:
         en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
         "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
         "the other.",
-        fr="Fusionne les noeuds d'un maillage plus proches qu'une distance (le dixième de la "
-        "densité par défaut), dans tous les objets qui les portent ; avec deux maillages, "
-        "seulement des noeuds de l'un avec des noeuds de l'autre.",
         syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 2 (1. 0.) (2. 0.)) ;"
@@ -61,15 +52,13 @@ def elim(
 
 @operator(
     "REGE",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    flag("check", "VERI", en="warn of what is left", fr="avertir de ce qui reste"),
+    arg("mesh", "MAILLAGE", en="mesh"),
+    flag("check", "VERI", en="warn of what is left"),
     family="mesh",
     full_name="REGENERER",
     help=Help(
         en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
         "by PRI6 ... 'VERI' warns when some are left.",
-        fr="Eléments dont des noeuds sont confondus après ELIM remplacés par de plus simples : "
-        "QUA4 par TRI3, CUB8 par PRI6 ... 'VERI' avertit s'il en reste.",
         syntax="GEO1 = REGE GEO2 ('VERI') ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) ROTA 4 90. (1E-4 0.) ;"
@@ -88,16 +77,13 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
 
 @operator(
     "DEDO",
-    arg("surface", "MAILLAGE", en="surface", fr="surface"),
-    arg("line", "MAILLAGE", en="line of its edges", fr="ligne de ses arêtes"),
+    arg("surface", "MAILLAGE", en="surface"),
+    arg("line", "MAILLAGE", en="line of its edges"),
     family="mesh",
     full_name="DEDOUBLER",
     help=Help(
         en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
         "tip inside the surface. Gives the new surface and the line on the new nodes.",
-        fr="Ouvre une surface le long d'une ligne de ses arêtes : les noeuds de la ligne sont "
-        "dédoublés, sauf une pointe intérieure. Rend la nouvelle surface et la ligne sur les "
-        "nouveaux noeuds.",
         syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (1. 0.) ;"

@@ -23,35 +23,25 @@ def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, 
 
 
 _PART = flag(
-    "part",
-    "PART",
-    en="cells that face each other without fitting are left out, not refused",
-    fr="les éléments en face qui ne se correspondent pas sont laissés, pas refusés",
+    "part", "PART", en="cells that face each other without fitting are left out, not refused"
 )
 _EN = (
     "A joint is made for each cell of the first mesh and the cell of the second that faces it "
     "within a distance (a tenth of the density by default); its first half is the first mesh's. "
-)
-_FR = (
-    "Un joint est créé pour chaque élément du premier maillage et l'élément du second qui lui fait "
-    "face à une distance près (le dixième de la densité par défaut) ; sa première moitié est celle "
-    "du premier. "
 )
 
 
 @operator(
     "RACC",
     DISTANCE,
-    arg("first", "MAILLAGE", en="line", fr="ligne"),
-    arg("second", "MAILLAGE", en="line that faces it", fr="ligne en face"),
+    arg("first", "MAILLAGE", en="line"),
+    arg("second", "MAILLAGE", en="line that faces it"),
     _PART,
     family="mesh",
     full_name="RACCORD",
     help=Help(
         en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
         "first line sees the joint on the right.",
-        fr="Ligne d'éléments de joint (RAC2, RAC3) entre deux lignes. " + _FR + "Un observateur "
-        "qui parcourt la première ligne voit le joint à sa droite.",
         syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ;"
@@ -69,8 +59,8 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
 @operator(
     "LIAI",
     DISTANCE,
-    arg("first", "MAILLAGE", en="surface", fr="surface"),
-    arg("second", "MAILLAGE", en="surface that faces it", fr="surface en face"),
+    arg("first", "MAILLAGE", en="surface"),
+    arg("second", "MAILLAGE", en="surface that faces it"),
     _PART,
     family="mesh",
     full_name="LIAISON",
@@ -78,9 +68,6 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
         en="Surface of joint cells (LIA3, LIA4, LIA6, LIA8) between two surfaces. "
         + _EN
         + "The normal of the first surface goes from the second to the first (opening).",
-        fr="Surface d'éléments de joint (LIA3, LIA4, LIA6, LIA8) entre deux surfaces. "
-        + _FR
-        + "La normale de la première surface va de la seconde à la première (ouverture).",
         syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
         examples=(
             "OPTI DIME 3 ELEM QUA4 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; A = L TRAN 2 (0. 1. 0.) ;"
@@ -97,15 +84,12 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
 
 @operator(
     "GENJ",
-    arg("mesh", "MAILLAGE", en="surfaces or volumes", fr="surfaces ou volumes"),
+    arg("mesh", "MAILLAGE", en="surfaces or volumes"),
     DISTANCE,
     family="mesh",
     help=Help(
         en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
         "of coincident edges of surfaces, or faces of volumes, within a distance.",
-        fr="Eléments de joint entre les parties d'un maillage qui se touchent sans partager leurs "
-        "noeuds : sur chaque paire d'arêtes de surfaces, ou de faces de volumes, confondues à une "
-        "distance près.",
         syntax="GEO2 = GENJ GEO1 FLOT1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
@@ -122,15 +106,13 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
 
 @operator(
     "TASS",
-    many("meshes", "MAILLAGE", en="meshes", fr="maillages"),
-    flag("keep", "NOOP", en="accepted, without effect", fr="accepté, sans effet"),
+    many("meshes", "MAILLAGE", en="meshes"),
+    flag("keep", "NOOP", en="accepted, without effect"),
     family="mesh",
     full_name="TASSER",
     help=Help(
         en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
         "nodes in the order of these numbers, as POI1.",
-        fr="Les noeuds gardent leurs numéros : les inconnues sont renumérotées à la résolution. "
-        "Rend les noeuds dans l'ordre de ces numéros, en POI1.",
         syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;\n"

@@ -22,10 +22,9 @@ from ssilang.operators.workspace import workspace
 
 
 @INVE.form(
-    main("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    main("mesh", "MAILLAGE", en="mesh"),
     syntax="GEO2 = INVE GEO1 ;",
     en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
-    fr="D'un maillage : éléments retournés ; ceux des lignes aussi dans l'ordre inverse.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = INVE (DROI 2 (0. 0.) (1. 0.)) ;"
         " LIST (COOR 1 (L POIN 'INIT')) ;",
@@ -42,10 +41,9 @@ def inverted(mesh: Mesh) -> Mesh:
         "towards",
         ("DIRECTION", "POINT"),
         en="normals go in a direction, the default, or towards a point",
-        fr="les normales vont dans une direction, par défaut, ou vers un point",
     ),
-    arg("mesh", "MAILLAGE", en="cells", fr="éléments"),
-    opt("target", "POINT", en="direction, or point", fr="direction, ou point"),
+    arg("mesh", "MAILLAGE", en="cells"),
+    opt("target", "POINT", en="direction, or point"),
     family="mesh",
     full_name="ORIENTER",
     help=Help(
@@ -53,11 +51,6 @@ def inverted(mesh: Mesh) -> Mesh:
         "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
         "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
         "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
-        fr="Eléments décrits de sorte que leur jacobien soit positif (lignes en 1D, surfaces en "
-        "2D, volumes en 3D) ; avec une direction ou vers un 'POINT', éléments de surface dans "
-        "l'espace retournés pour que leurs normales aillent dans ce sens, et cubes à 8 noeuds "
-        "(coques SHB8) pour qu'ils aillent de leurs quatre premiers noeuds aux quatre derniers, "
-        "FACE 1 et FACE 2 du résultat.",
         syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
@@ -76,13 +69,11 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
 
 @operator(
     "VERS",
-    arg("mesh", "MAILLAGE", en="lines or surfaces", fr="lignes ou surfaces"),
+    arg("mesh", "MAILLAGE", en="lines or surfaces"),
     family="mesh",
     full_name="VERSENS",
     help=Help(
         en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
-        fr="Le même maillage, ou une erreur si deux éléments jointifs sont décrits en sens "
-        "opposés.",
         syntax="GEO2 = VERS GEO1 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = VERS (DROI 4 (0. 0.) (1. 0.)) ;",),
     ),
@@ -93,10 +84,9 @@ def vers(mesh: Mesh) -> Mesh:
 
 
 @ORDO.form(
-    main("mesh", "MAILLAGE", en="lines or points", fr="lignes ou points"),
+    main("mesh", "MAILLAGE", en="lines or points"),
     syntax="MAIL2 = ORDO MAIL1 ;",
     en="Of a mesh: lines put end to end, points by distance from the first one.",
-    fr="D'un maillage : lignes mises bout à bout, points par distance au premier.",
 )
 def ordered(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""

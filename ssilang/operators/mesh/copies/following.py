@@ -21,29 +21,17 @@ from ssilang.operators.mesh.copies.maps import rotation_matrix
 from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.workspace import workspace
 
-_EVEN = flag(
-    "even",
-    "REGU",
-    en="inner nodes then go to the mean of their neighbours",
-    fr="les noeuds intérieurs vont ensuite au milieu de leurs voisins",
-)
-_BEFORE = arg("before", "MAILLAGE", en="mesh before", fr="maillage avant")
-_AFTER = arg(
-    "after",
-    "MAILLAGE",
-    en="mesh after, of the same structure",
-    fr="maillage après, de même structure",
-)
-_OBJECTS = many(
-    "objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy", fr="objets à copier"
-)
+_EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
+_BEFORE = arg("before", "MAILLAGE", en="mesh before")
+_AFTER = arg("after", "MAILLAGE", en="mesh after, of the same structure")
+_OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy")
 
 
 @operator(
     "DEDU",
-    arg("mesh", "MAILLAGE", en="linear surfaces or volumes", fr="surfaces ou volumes linéaires"),
-    arg("masters", "MAILLAGE", en="its master nodes", fr="ses noeuds maîtres"),
-    arg("goal", "MAILLAGE", en="what these become", fr="ce qu'ils deviennent"),
+    arg("mesh", "MAILLAGE", en="linear surfaces or volumes"),
+    arg("masters", "MAILLAGE", en="its master nodes"),
+    arg("goal", "MAILLAGE", en="what these become"),
     _EVEN,
     family="mesh",
     full_name="DEDUIRE",
@@ -54,12 +42,6 @@ _OBJECTS = many(
         "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
         "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
         "by the angle.",
-        fr="Copie d'un maillage de surfaces ou volumes linéaires dont les noeuds maîtres GEO2 sont "
-        "devenus ceux de GEO3, de même structure ; les autres suivent harmoniquement. 'REGU' : "
-        "puis chaque noeud intérieur va au milieu de ses voisins. Un déplacement de certains "
-        "noeuds est étendu à tous de même. 'TRAN' : copies d'objets par la transformation qui mène "
-        "d'un maillage à un autre de même structure ; 'ROTA' : de même, vecteurs et tenseurs des "
-        "champs tournant de l'angle.",
         syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
@@ -95,12 +77,11 @@ def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
 
 
 @dedu.form(
-    arg("mesh", "MAILLAGE", en="linear surfaces or volumes", fr="surfaces ou volumes linéaires"),
+    arg("mesh", "MAILLAGE", en="linear surfaces or volumes"),
     arg(
         "field",
         "CHPOINT",
         en="displacements of some of its nodes",
-        fr="déplacements de certains de ses noeuds",
         unit="m",
     ),
     _EVEN,
@@ -128,7 +109,6 @@ def through_map(objects: Sequence[Any], before: Mesh, after: Mesh) -> tuple[Any,
         "angle",
         "FLOTTANT",
         en="angle by which vectors turn",
-        fr="angle dont tournent les vecteurs",
         unit="degree",
     ),
     _OBJECTS,

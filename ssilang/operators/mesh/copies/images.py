@@ -188,14 +188,7 @@ def _shifted(
 
 
 def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
-    return many(
-        "objects",
-        *types,
-        leaving=leaving,
-        left=left,
-        en="objects to copy",
-        fr="objets à copier",
-    )
+    return many("objects", *types, leaving=leaving, left=left, en="objects to copy")
 
 
 _SHIFTED = (
@@ -205,7 +198,6 @@ _SHIFTED = (
         "POINT",
         "CHPOINT",
         en="vector, or displacements",
-        fr="vecteur, ou déplacements",
         unit="m",
     ),
 )
@@ -221,10 +213,6 @@ _SHIFTED = (
         "UZ); nodes that several objects share are copied once. As many results as objects. A "
         "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
         "as points do that are made.",
-        fr="Copies d'objets translatés d'un vecteur ou d'un champ de déplacements (UX UY UZ ou UR "
-        "UZ) ; les noeuds communs ne sont copiés qu'une fois. Autant de résultats que d'objets. "
-        "Une matrice ne se translate que d'un vecteur. Un point translaté d'un vecteur prend la "
-        "densité en vigueur, comme tout point créé.",
         syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",
@@ -248,9 +236,6 @@ def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
         en="Copies of objects moved against a vector or a field of displacements; between two "
         "meshes of the same structure, the field of displacements that takes the second to the "
         "first.",
-        fr="Copies d'objets translatés de l'opposé d'un vecteur ou d'un champ de déplacements ; "
-        "entre deux maillages de même structure, le champ de déplacements qui mène du second au "
-        "premier.",
         syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",
@@ -268,8 +253,8 @@ def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
 
 
 @moin.form(
-    arg("after", "MAILLAGE", en="mesh after the motion", fr="maillage après le mouvement"),
-    arg("before", "MAILLAGE", en="mesh before it", fr="maillage avant lui"),
+    arg("after", "MAILLAGE", en="mesh after the motion"),
+    arg("before", "MAILLAGE", en="mesh before it"),
 )
 def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
     """The displacements between two meshes."""
@@ -287,7 +272,7 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
     "TOUR",
     _objects(1, "POINT"),
     ANGLE,
-    arg("centre", "POINT", en="centre", fr="centre"),
+    arg("centre", "POINT", en="centre"),
     gives=Like("objects"),
     when=IN_PLANE,
     family="mesh",
@@ -295,8 +280,6 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
     help=Help(
         en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
         "Vectors in nodal fields and stresses and strains in cell fields turn too.",
-        fr="Copies d'objets tournés d'un angle en degrés autour d'un point (2D) ou d'un axe (3D). "
-        "Les vecteurs des champs par points, contraintes et déformations tournent aussi.",
         syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",
@@ -312,8 +295,8 @@ def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tup
 @tour.form(
     _objects(2, "POINT"),
     ANGLE,
-    arg("first", "POINT", en="point of the axis", fr="point de l'axe"),
-    arg("second", "POINT", en="other point of the axis", fr="autre point de l'axe"),
+    arg("first", "POINT", en="point of the axis"),
+    arg("second", "POINT", en="other point of the axis"),
     gives=Like("objects"),
     when=IN_SPACE,
 )
@@ -341,8 +324,6 @@ def _turned(
     full_name="SYMETRIE",
     help=Help(
         en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
-        fr="Copies de points, maillages ou champs par points symétriques par rapport à un point, "
-        "une droite ou un plan.",
         syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
         examples=(
             "OPTI DIME 2 ; P = 1. 2. ; Q = P SYME 'DROIT' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;",
@@ -387,7 +368,6 @@ def mirrored_about_plane(
     full_name="HOMOTHETIE",
     help=Help(
         en="Copies of objects scaled by a ratio about a point.",
-        fr="Copies d'objets par homothétie de rapport et de centre donnés.",
         syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
         examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P HOMO 3. (0. 0.) ; LIST (COOR 2 Q) ;",),
     ),
@@ -409,8 +389,6 @@ def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tupl
     help=Help(
         en="Copies of objects stretched by a ratio along the direction of two points, the first of "
         "which stays in place.",
-        fr="Copies d'objets par affinité de rapport donné suivant la direction de deux points, le "
-        "premier restant en place.",
         syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
         examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P AFFI 3. (0. 0.) (0. 1.) ; LIST (COOR 2 Q) ;",),
     ),
@@ -432,9 +410,6 @@ def affi(
     help=Help(
         en="Copies of objects projected along a vector ('CYLI', the default) or from a point "
         "('CONI') on a plane, sphere, cylinder, cone or torus; in 2D on a line or a circle.",
-        fr="Copies d'objets projetés suivant un vecteur ('CYLI', par défaut) ou depuis un point "
-        "('CONI') sur un plan, une sphère, un cylindre, un cône ou un tore ; en 2D sur une droite "
-        "ou un cercle.",
         syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
         "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
         "'DROI' P1 P2 | 'CERC' C1 P1 ;",
@@ -491,12 +466,10 @@ def projected_along(
 @proj.form(
     RAYS[0],
     _objects(1, "MAILLAGE"),
-    arg("goal", "MAILLAGE", en="mesh on which they go", fr="maillage d'arrivée"),
+    arg("goal", "MAILLAGE", en="mesh on which they go"),
     gives=Like("objects"),
     syntax="GEO1 ... = GEO2 ... PROJ 'CYLI' VEC1 | 'CONI' SOMM1  GEO3 ;",
     en="On a mesh: the nearest point of its skin, surfaces or lines, taken as flat facets.",
-    fr="Sur un maillage : le point le plus proche de sa peau, de ses surfaces ou de ses lignes, "
-    "prises comme des facettes planes.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 1.) ;\n"
         "Q = (1. 5.) PROJ 'CYLI' (0. 1.) L ; LIST (COOR 2 Q) ;",

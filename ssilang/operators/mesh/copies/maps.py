@@ -21,24 +21,19 @@ from ssilang.kernel.mesh.surfaces.analytic import (
 )
 from ssilang.language.registry import Argument, Chosen, arg, group, key, select
 
-RATIO = arg("ratio", "FLOTTANT", en="ratio", fr="rapport")
-FIXED = arg("fixed", "POINT", en="point that stays", fr="point fixe")
-DIRECTION = arg(
-    "towards",
-    "POINT",
-    en="other point of the direction",
-    fr="autre point de la direction",
-)
-ANGLE = arg("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+RATIO = arg("ratio", "FLOTTANT", en="ratio")
+FIXED = arg("fixed", "POINT", en="point that stays")
+DIRECTION = arg("towards", "POINT", en="other point of the direction")
+ANGLE = arg("angle", "FLOTTANT", en="angle", unit="degree")
 
-_POINT = arg("point", "POINT", en="point there", fr="point de cet objet")
-_SECOND = arg("second", "POINT", en="second point", fr="deuxième point")
-_THIRD = arg("third", "POINT", en="third point", fr="troisième point")
-_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
-_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
-_OTHER = arg("other", "POINT", en="other point of the axis", fr="autre point de l'axe")
-_APEX = arg("apex", "POINT", en="apex", fr="sommet")
-_SMALL = arg("small", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+_POINT = arg("point", "POINT", en="point there")
+_SECOND = arg("second", "POINT", en="second point")
+_THIRD = arg("third", "POINT", en="third point")
+_CENTRE = arg("centre", "POINT", en="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis")
+_OTHER = arg("other", "POINT", en="other point of the axis")
+_APEX = arg("apex", "POINT", en="apex")
+_SMALL = arg("small", "POINT", en="centre of a small circle")
 
 SHAPES: Mapping[str, tuple[Argument, ...]] = {
     "DROIT": (_POINT, _SECOND),
@@ -74,13 +69,7 @@ MIRRORS: Mapping[str, tuple[Argument, ...]] = {
 
 _SURFACE = group(
     "surface",
-    select(
-        "shape",
-        SHAPES,
-        optional=False,
-        en="line or surface on which it goes",
-        fr="ligne ou surface d'arrivée",
-    ),
+    select("shape", SHAPES, optional=False, en="line or surface on which it goes"),
 )
 RAYS = (
     group(
@@ -91,14 +80,13 @@ RAYS = (
             arg("point", "POINT"),
             optional=False,
             en="along a vector, or from a point",
-            fr="suivant un vecteur, ou depuis un point",
         ),
     ),
     _SURFACE,
 )
 """A projection that says how its rays go."""
 
-VECTOR = (arg("vector", "POINT", en="direction", fr="direction"), _SURFACE)
+VECTOR = (arg("vector", "POINT", en="direction"), _SURFACE)
 """A projection along a vector."""
 
 

@@ -46,7 +46,7 @@ _MIRRORS: Mapping[str, Callable[..., PointMap]] = {
     "DROIT": mirror_line,
     "PLAN": mirror_plane,
 }
-_MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved", fr="ce qui est déplacé")
+_MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved")
 
 
 def _ids(moved: Mesh | Point) -> IntArray:
@@ -75,7 +75,6 @@ def displacements(field: NodeField, ids: IntArray) -> FloatArray:
         "POINT",
         "CHPOINT",
         en="vector, or displacements",
-        fr="vecteur, ou déplacements",
         unit="m",
     ),
     family="mesh",
@@ -87,12 +86,6 @@ def displacements(field: NodeField, ids: IntArray) -> FloatArray:
         "operators of those names; 'COOR' to cylindrical coordinates and back; 'MILI' middle nodes "
         "onto the mediator planes of their edges; 'DEDU' the affine map between two sets of "
         "points.",
-        fr="Déplace sur place les noeuds d'un maillage ou un point : tous les objets qui les "
-        "portent suivent. 'PLUS' et 'MOIN' un vecteur ou un champ de déplacements ; 'TOUR' un "
-        "angle (ou un champ d'angles) en degrés autour d'un point ou d'un axe ; 'HOMO', 'AFFI', "
-        "'SYME', 'PROJ' comme les opérateurs de ces noms ; 'COOR' en coordonnées cylindriques et "
-        "retour ; 'MILI' noeuds milieux sur les plans médiateurs ; 'DEDU' l'application affine "
-        "entre deux ensembles de points.",
         syntax="DEPL GEO1 'PLUS'|'MOIN' VEC1|CHPO1 ;\n"
         "DEPL GEO1 'TOUR' ANGL1|CHPO1 POIN1 (POIN2) ;\n"
         "DEPL GEO1 'HOMO' RAPP1 POIN1 ; DEPL GEO1 'AFFI' RAPP1 POIN1 POIN2 ;\n"
@@ -172,7 +165,6 @@ def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
         "CHPOINT",
         "FLOTTANT",
         en="angle, or one for each node",
-        fr="angle, ou un par noeud",
         unit="degree",
     ),
     AXIS,
@@ -210,15 +202,9 @@ def stretched(moved: Mesh | Point, ratio: float, fixed: Point, towards: Point) -
 
 @depl.form(
     said("SYME"),
-    choice(
-        "about",
-        tuple(MIRRORS),
-        optional=False,
-        en="what is mirrored about",
-        fr="ce par rapport à quoi on prend le symétrique",
-    ),
+    choice("about", tuple(MIRRORS), optional=False, en="what is mirrored about"),
     _MOVED,
-    many("points", "POINT", en="its points", fr="ses points"),
+    many("points", "POINT", en="its points"),
 )
 def mirrored(call: Call, about: str, moved: Mesh | Point, points: Sequence[Point]) -> None:
     """Mirror about a point, a line or a plane."""
@@ -251,18 +237,13 @@ def projected_along(moved: Mesh | Point, vector: Point, surface: Chosen) -> None
 @depl.form(
     said("COOR"),
     choice(
-        "coordinates",
-        ("CYLI", "CART"),
-        optional=False,
-        en="to cylindrical coordinates, or back",
-        fr="vers des coordonnées cylindriques, ou retour",
+        "coordinates", ("CYLI", "CART"), optional=False, en="to cylindrical coordinates, or back"
     ),
     _MOVED,
     many(
         "points",
         "POINT",
         en="origin (in space another point of the axis) and a point of angle 0, with 'CYLI'",
-        fr="origine (en dimension 3 un autre point de l'axe) et un point d'angle 0, avec 'CYLI'",
     ),
 )
 def changed_coordinates(
@@ -292,15 +273,8 @@ def straightened(moved: Mesh | Point) -> None:
 @depl.form(
     said("DEDU"),
     _MOVED,
-    arg(
-        "by",
-        "MAILLAGE",
-        "CHPOINT",
-        "POINT",
-        en="points before, or displacements of some",
-        fr="points avant, ou déplacements de certains",
-    ),
-    opt("goal", "MAILLAGE", "POINT", en="points after", fr="points après"),
+    arg("by", "MAILLAGE", "CHPOINT", "POINT", en="points before, or displacements of some"),
+    opt("goal", "MAILLAGE", "POINT", en="points after"),
 )
 def deduced(
     call: Call,

@@ -28,7 +28,6 @@ from ssilang.operators.mesh.lines.ends import (
     END,
     SIZES,
     SIZES_EN,
-    SIZES_FR,
     START,
     Sizes,
     axis_of,
@@ -49,11 +48,10 @@ from ssilang.operators.workspace import workspace
         ("CENTR", "PASS"),
         default="CENTR",
         en="the second point is the centre, the default, or lies on the arc",
-        fr="le deuxième point est le centre, par défaut, ou est sur l'arc",
     ),
     COUNT,
     START,
-    arg("middle", "POINT", en="centre, or point of the arc", fr="centre, ou point de l'arc"),
+    arg("middle", "POINT", en="centre, or point of the arc"),
     END,
     SIZES,
     family="mesh",
@@ -63,9 +61,6 @@ from ssilang.operators.workspace import workspace
         en="Circular arc: around a centre (the shorter arc, the default), through three points "
         "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
         "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
-        fr="Arc de cercle : de centre donné (l'arc le plus court, par défaut), par trois points "
-        "('PASS'), ou par rotation d'un point d'un angle en degrés autour d'un point (2D) ou d'un "
-        "axe (3D) ('ROTA' ; 'ELIM' ferme un tour complet sur son premier point). " + SIZES_FR,
         syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
@@ -97,12 +92,7 @@ def cerc(
     ANGLE,
     START,
     AXIS,
-    flag(
-        "closed",
-        "ELIM",
-        en="a whole turn ends on its first point",
-        fr="un tour complet finit sur son premier point",
-    ),
+    flag("closed", "ELIM", en="a whole turn ends on its first point"),
     SIZES,
 )
 def turned_point(
@@ -132,13 +122,12 @@ def turned_point(
     "CER3",
     COUNT,
     START,
-    arg("middle", "POINT", en="point of the arc", fr="point de l'arc"),
+    arg("middle", "POINT", en="point of the arc"),
     END,
     SIZES,
     family="mesh",
     help=Help(
         en="Circular arc through three points. " + SIZES_EN,
-        fr="Arc de cercle passant par trois points. " + SIZES_FR,
         syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
     ),
@@ -159,15 +148,13 @@ def cer3(
     "PARC",
     COUNT,
     START,
-    arg("centre", "POINT", en="centre", fr="centre"),
+    arg("centre", "POINT", en="centre"),
     END,
     SIZES,
     family="mesh",
     help=Help(
         en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
         "the circle and are tangent to it. " + SIZES_EN,
-        fr="L'arc de cercle le plus court autour d'un centre en arcs de parabole, SEG3 dont les "
-        "extrémités sont sur le cercle et lui sont tangentes. " + SIZES_FR,
         syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ; L = PARC 2 (1. 0.) (0. 0.) (0. 1.) ; LIST (COOR 1 L) ;",),
     ),

@@ -12,23 +12,16 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "CONG",
-    arg("first", "MAILLAGE", en="first line", fr="première ligne"),
-    opt(
-        "count",
-        "ENTIER",
-        en="number of elements; by the mesh sizes without it",
-        fr="nombre d'éléments ; selon les densités sans lui",
-    ),
-    opt("radius", "FLOTTANT", range=POSITIVE, en="radius", fr="rayon", unit="m"),
-    arg("second", "MAILLAGE", en="line that follows", fr="ligne qui suit"),
-    flag("double", "DOUBLE", en="two arcs: not available", fr="deux arcs : non disponible"),
+    arg("first", "MAILLAGE", en="first line"),
+    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it"),
+    opt("radius", "FLOTTANT", range=POSITIVE, en="radius", unit="m"),
+    arg("second", "MAILLAGE", en="line that follows"),
+    flag("double", "DOUBLE", en="two arcs: not available"),
     family="mesh",
     full_name="CONGE",
     help=Help(
         en="Rounds the corner between two lines, the second following the first, by an arc of a "
         "given radius. Gives the first line cut short, the arc and the second line cut short.",
-        fr="Arrondit le coin entre deux lignes qui se suivent par un arc de rayon donné. Rend la "
-        "première ligne raccourcie, le congé et la seconde raccourcie.",
         syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 1. 0. ; L = DROI 5 (0. 0.) P ; M = DROI 5 P (1. 1.) ;"

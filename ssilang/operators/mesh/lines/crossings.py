@@ -32,9 +32,9 @@ from ssilang.operators.mesh.lines.ends import (
 )
 from ssilang.operators.workspace import workspace
 
-_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
-_AXIS = arg("axis", "POINT", en="point of the axis", fr="point de l'axe")
-_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+_CENTRE = arg("centre", "POINT", en="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis")
+_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle")
 
 # word -> surface through the start of the curve (a plane through both its ends)
 _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
@@ -50,10 +50,10 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     select(
         "surfaces",
         {
-            "PLAN": [arg("point", "POINT", en="point of the plane", fr="point du plan")],
+            "PLAN": [arg("point", "POINT", en="point of the plane")],
             "SPHE": [_CENTRE],
-            "CYLI": [arg("first", "POINT", en=_AXIS.en, fr=_AXIS.fr), _AXIS],
-            "CONI": [arg("apex", "POINT", en="apex", fr="sommet"), _AXIS],
+            "CYLI": [arg("first", "POINT", en=_AXIS.en), _AXIS],
+            "CONI": [arg("apex", "POINT", en="apex"), _AXIS],
             "TORI": [
                 _CENTRE,
                 _AXIS,
@@ -63,9 +63,8 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         optional=False,
         repeated=True,
         en="the two surfaces that cross, both through the start",
-        fr="les deux surfaces qui se croisent, passant par le départ",
     ),
-    main("start", "POINT", "MAILLAGE", en=START.en, fr=START.fr),
+    main("start", "POINT", "MAILLAGE", en=START.en),
     COUNT,
     SIZES,
     key(
@@ -73,7 +72,6 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         "LONG",
         arg("length", "FLOTTANT", unit="m"),
         en="length of the curve, then the end only shows the way",
-        fr="longueur de la courbe, l'arrivée ne montrant alors que le sens",
     ),
     END,
     syntax="LIG1 = POIN1 | LIG2 INTE (N1) ('DINI' D1) ('DFIN' D2) ('LONG' X1) 'PLAN' P1 | "
@@ -83,11 +81,6 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
     "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
     "end, towards POIN2.",
-    fr="Avec deux surfaces simples : la courbe où elles se croisent, par le plus court chemin de "
-    "POIN1 à POIN2. Les surfaces passent par POIN1 : un plan (aussi par POIN2), une sphère par son "
-    "centre, un cylindre par son axe, un cône par son sommet et un point de son axe, un tore par "
-    "son centre, un point de son axe et le centre d'un petit cercle. 'LONG' impose la longueur au "
-    "lieu de l'extrémité, vers POIN2.",
     examples=(
         "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
         " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",

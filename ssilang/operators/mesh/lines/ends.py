@@ -30,47 +30,28 @@ SIZES_EN = (
     "without N1 the sizes decide. DINI and DFIN replace the sizes that the ends carry. A line in "
     "place of an end point is continued; a line alone is closed."
 )
-SIZES_FR = (
-    "N1 > 0 : N1 éléments égaux ; N1 < 0 : N1 éléments gradués selon les densités ; sans N1 les "
-    "densités décident. DINI et DFIN remplacent les densités des extrémités. Une ligne à la place "
-    "d'une extrémité est prolongée ; une ligne seule est fermée."
-)
 
 
 COUNT = opt(
     "count",
     "ENTIER",
     en="number of elements, graded by the mesh sizes if negative; without it these decide",
-    fr="nombre d'éléments, gradués selon les densités s'il est négatif ; sans lui elles décident",
 )
-ANGLE = opt("angle", "FLOTTANT", en="angle", fr="angle", unit="degree")
+ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree")
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
     arg("size", "FLOTTANT", unit="m"),
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there",
-    fr="densité au départ, à l'arrivée, à la place de celle qui y est",
 )
 Sizes = Sequence[tuple[str, float]]
-START = arg(
-    "start", "POINT", "MAILLAGE", en="start, or a line to go on", fr="départ, ou ligne à prolonger"
-)
+START = arg("start", "POINT", "MAILLAGE", en="start, or a line to go on")
 END = opt(
-    "end",
-    "POINT",
-    "MAILLAGE",
-    en="end, or a line to reach; without it the line START is closed",
-    fr="arrivée, ou ligne à rejoindre ; sans elle la ligne START est fermée",
+    "end", "POINT", "MAILLAGE", en="end, or a line to reach; without it the line START is closed"
 )
 
-AXIS = many(
-    "axis",
-    "POINT",
-    at_least=1,
-    en="centre, or in space two points of the axis",
-    fr="centre, ou en dimension 3 deux points de l'axe",
-)
+AXIS = many("axis", "POINT", at_least=1, en="centre, or in space two points of the axis")
 
 
 @dataclass(frozen=True)

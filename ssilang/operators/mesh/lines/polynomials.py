@@ -16,7 +16,6 @@ from ssilang.operators.mesh.lines.ends import (
     END,
     SIZES,
     SIZES_EN,
-    SIZES_FR,
     START,
     Ends,
     Sizes,
@@ -33,12 +32,7 @@ from ssilang.operators.workspace import workspace
     "PARA",
     COUNT,
     START,
-    arg(
-        "middle",
-        "POINT",
-        en="where the tangents of both ends meet",
-        fr="intersection des tangentes aux extrémités",
-    ),
+    arg("middle", "POINT", en="where the tangents of both ends meet"),
     END,
     SIZES,
     family="mesh",
@@ -46,8 +40,6 @@ from ssilang.operators.workspace import workspace
     help=Help(
         en="Arc of parabola between two points, the middle point being where the end tangents "
         "meet. " + SIZES_EN,
-        fr="Arc de parabole entre deux points, le point du milieu étant l'intersection des "
-        "tangentes aux extrémités. " + SIZES_FR,
         syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = PARA 8 (0. 0.) (1. 2.) (2. 0.) ;",),
     ),
@@ -69,17 +61,15 @@ def para(
     "CUBP",
     COUNT,
     START,
-    arg("first", "POINT", en="first inner point", fr="premier point interne"),
-    arg("second", "POINT", en="second inner point", fr="deuxième point interne"),
+    arg("first", "POINT", en="first inner point"),
+    arg("second", "POINT", en="second inner point"),
     END,
-    flag("uniform", "UNIF", en="nodes even in length", fr="noeuds réguliers en longueur"),
+    flag("uniform", "UNIF", en="nodes even in length"),
     SIZES,
     family="mesh",
     help=Help(
         en="Cubic through four points; 'UNIF' spaces nodes by length, else by the parameter that "
         "is 1/3 and 2/3 at the inner points. " + SIZES_EN,
-        fr="Cubique passant par quatre points ; 'UNIF' répartit les noeuds selon l'abscisse "
-        "curviligne, sinon selon le paramètre valant 1/3 et 2/3 aux points internes. " + SIZES_FR,
         syntax="LIG1 = CUBP (N1) POIN1 POIN2 POIN3 POIN4 ('UNIF') ('DINI' D1) ('DFIN' D2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBP 9 (0. 0.) (1. 1.) (2. -1.) (3. 0.) ;",),
     ),
@@ -106,14 +96,13 @@ def cubp(
     "CUBT",
     COUNT,
     START,
-    arg("first", "POINT", en="tangent at the start", fr="tangente au départ"),
-    arg("second", "POINT", en="tangent at the end", fr="tangente à l'arrivée"),
+    arg("first", "POINT", en="tangent at the start"),
+    arg("second", "POINT", en="tangent at the end"),
     END,
     SIZES,
     family="mesh",
     help=Help(
         en="Cubic between two points, tangent to a vector at each. " + SIZES_EN,
-        fr="Cubique entre deux points, tangente à un vecteur en chacun. " + SIZES_FR,
         syntax="LIG1 = CUBT (N1) POIN1 VECT1 VECT2 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBT 9 (0. 0.) (1. 1.) (1. -1.) (3. 0.) ;",),
     ),
@@ -144,14 +133,12 @@ def cubt(
         "PINI",
         arg("point", "POINT", "MAILLAGE"),
         en="existing point at the start, or a line to go on",
-        fr="point existant au départ, ou ligne à prolonger",
     ),
     key(
         "after",
         "PFIN",
         arg("point", "POINT", "MAILLAGE"),
         en="existing point at the end, or a line to reach",
-        fr="point existant à l'arrivée, ou ligne à rejoindre",
     ),
     key(
         "limits",
@@ -160,19 +147,15 @@ def cubt(
         arg("u2", "FLOTTANT"),
         default=(0.0, 1.0),
         en="U at the start and at the end",
-        fr="U au départ et à l'arrivée",
     ),
-    flag("regular", "REGULIER", en="nodes even in length", fr="noeuds réguliers en longueur"),
-    many("points", "POINT", at_least=1, en="P0 P1 P2 ...", fr="P0 P1 P2 ..."),
+    flag("regular", "REGULIER", en="nodes even in length"),
+    many("points", "POINT", at_least=1, en="P0 P1 P2 ..."),
     family="mesh",
     full_name="COURBE",
     help=Help(
         en="Polynomial curve P(U) = P0 + U P1 + U**2 P2 + ..., U from 0 to 1 or between the values "
         "behind 'PARA'. 'REGU' spaces nodes by length. 'PINI' and 'PFIN' give an existing point "
         "(or a line to continue) where the curve starts or ends.",
-        fr="Courbe polynomiale P(U) = P0 + U P1 + U**2 P2 + ..., U de 0 à 1 ou entre les bornes "
-        "données derrière 'PARA'. 'REGU' répartit les noeuds selon l'abscisse curviligne. 'PINI' "
-        "et 'PFIN' donnent un point existant (ou une ligne à prolonger) aux extrémités.",
         syntax="LIG1 = COUR (N1) ('DINI' D1) ('DFIN' D2) ('PINI' OBJ1) ('PFIN' OBJ2) POIN0 POIN1 "
         "(POIN2 ...) ('PARA' U1 U2) ('REGU') ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; L = COUR 8 (0. 0.) (1. 0.) (0. 1.) ;",),

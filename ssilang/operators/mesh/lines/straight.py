@@ -20,7 +20,6 @@ from ssilang.operators.mesh.lines.ends import (
     END,
     SIZES,
     SIZES_EN,
-    SIZES_FR,
     START,
     Sizes,
     chosen_family,
@@ -45,7 +44,6 @@ from ssilang.operators.workspace import workspace
     aliases=("D",),
     help=Help(
         en="Straight line between two points. " + SIZES_EN,
-        fr="Segment de droite entre deux points. " + SIZES_FR,
         syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (NBEL L) ;",
@@ -72,14 +70,9 @@ def droi(
     said("ROTA"),
     COUNT,
     ANGLE,
-    arg("centre", "POINT", "MAILLAGE", en="centre, a point", fr="centre, un point"),
+    arg("centre", "POINT", "MAILLAGE", en="centre, a point"),
     START,
-    opt(
-        "normal",
-        "POINT",
-        en="normal to the plane of the arc, in space",
-        fr="normale au plan de l'arc, en dimension 3",
-    ),
+    opt("normal", "POINT", en="normal to the plane of the arc, in space"),
     SIZES,
     family="mesh",
     full_name="LIGNE",
@@ -87,9 +80,6 @@ def droi(
         en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
         "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
         + SIZES_EN,
-        fr="Arc ('ROTA') d'un point (ou de la fin d'une ligne) autour d'un centre, avec la normale "
-        "à son plan en 3D, d'un angle en degrés ; ou segment ('TRAN') d'un point selon un vecteur. "
-        + SIZES_FR,
         syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
         "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
         examples=(
@@ -130,7 +120,7 @@ def lign(
     said("TRAN"),
     COUNT,
     START,
-    arg("vector", "POINT", en="vector to the end", fr="vecteur vers l'arrivée"),
+    arg("vector", "POINT", en="vector to the end"),
     SIZES,
 )
 def segment(
@@ -154,33 +144,19 @@ def segment(
 
 @operator(
     "QUEL",
-    choice(
-        "cell_type",
-        ("SEG2", "SEG3"),
-        en="type of the cells, that of OPTI ELEM by default",
-        fr="type des éléments, par défaut celui d'OPTI ELEM",
-    ),
+    choice("cell_type", ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"),
     many(
         "lists",
         "LISTREEL",
         en="first coordinates, second ones ...",
-        fr="premières coordonnées, deuxièmes ...",
         unit="m",
     ),
-    many(
-        "points",
-        "POINT",
-        "MAILLAGE",
-        en="points, or meshes whose points follow one another",
-        fr="points, ou maillages dont les points se suivent",
-    ),
+    many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
     family="mesh",
     full_name="QUELCONQUE",
     help=Help(
         en="Broken line through points, in order: given one by one, as a mesh of points, or by "
         "lists of coordinates. With SEG3 every other point is the middle of an element.",
-        fr="Ligne brisée passant par des points dans l'ordre : donnés un à un, par un maillage de "
-        "points ou par des listes de coordonnées. Avec SEG3 un point sur deux est un milieu.",
         syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
         examples=(
             "OPTI DIME 2 ; L = QUEL 'SEG2' (0. 0.) (1. 1.) (2. 0.) ;",

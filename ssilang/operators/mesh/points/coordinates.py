@@ -19,15 +19,12 @@ from ssilang.operators.dispatch import COOR
 from ssilang.operators.workspace import workspace
 
 _AXIS = arg(
-    "axis",
-    "ENTIER",
-    en="number of the coordinate; the dimension + 1 stands for the density",
-    fr="numéro de la coordonnée ; la dimension + 1 désigne la densité",
+    "axis", "ENTIER", en="number of the coordinate; the dimension + 1 stands for the density"
 )
-_POINT = main("support", "POINT", en="point", fr="point")
-_MESH = main("support", "MAILLAGE", en="mesh", fr="maillage")
-_NODE_FIELD = main("support", "CHPOINT", en="field at nodes", fr="champ par points")
-_MODEL = main("support", "MMODEL", en="model", fr="modèle")
+_POINT = main("support", "POINT", en="point")
+_MESH = main("support", "MAILLAGE", en="mesh")
+_NODE_FIELD = main("support", "CHPOINT", en="field at nodes")
+_MODEL = main("support", "MMODEL", en="model")
 
 Support = Point | Mesh | NodeField | Model
 
@@ -37,7 +34,6 @@ Support = Point | Mesh | NodeField | Model
     _AXIS,
     syntax="CHAM1 ... = COOR (N1) MODL1 ;",
     en="Of a model: cell fields at nodes.",
-    fr="D'un modèle : champs par éléments aux noeuds.",
     gives="MCHAML",
 )
 @COOR.form(_NODE_FIELD, _AXIS, gives="CHPOINT")
@@ -47,8 +43,6 @@ Support = Point | Mesh | NodeField | Model
     syntax="CHPO1 ... = COOR (N1) GEO1 ('CURV') ;",
     en="Of a mesh or a nodal field: nodal fields of component SCAL; 'CURV': the length along a "
     "line from its start.",
-    fr="D'un maillage ou d'un champ par points : champs par points de composante SCAL ; 'CURV' : "
-    "abscisse curviligne d'une ligne.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; LIST (MAXI X) ;",
     ),
@@ -59,7 +53,6 @@ Support = Point | Mesh | NodeField | Model
     _AXIS,
     syntax="X1 (Y1 (Z1)) = COOR (N1) POIN1 ;",
     en="Of a point: one coordinate (number DIME + 1 is the density), or all of them.",
-    fr="D'un point : une coordonnée (la DIME + 1 ième est la densité), ou toutes.",
     examples=("OPTI DIME 2 ; X Y = COOR (1. 2.) ; LIST Y ;",),
     gives="FLOTTANT",
 )
@@ -85,8 +78,8 @@ def all_coordinates(
 
 @COOR.form(
     said("CURV"),
-    arg("line", "MAILLAGE", en="line", fr="ligne"),
-    opt("axis", "ENTIER", en="accepted, without effect", fr="accepté, sans effet"),
+    arg("line", "MAILLAGE", en="line"),
+    opt("axis", "ENTIER", en="accepted, without effect"),
 )
 def curvilinear_coordinate(line: Mesh, axis: int | None) -> NodeField:
     """Length along a line."""

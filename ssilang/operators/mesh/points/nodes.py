@@ -15,12 +15,11 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "NOEU",
-    arg("point", "POINT", en="point", fr="point"),
+    arg("point", "POINT", en="point"),
     family="mesh",
     full_name="NOEUD",
     help=Help(
         en="The point with a node number, or the node number of a point.",
-        fr="Le point d'un numéro de noeud, ou le numéro de noeud d'un point.",
         syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; Q = NOEU (NOEU P) ; LIST (COOR 1 Q) ;",),
     ),
@@ -30,7 +29,7 @@ def noeu(point: Point) -> int:
     return point.node + 1
 
 
-@noeu.form(arg("number", "ENTIER", en="number of a node", fr="numéro d'un noeud"))
+@noeu.form(arg("number", "ENTIER", en="number of a node"))
 def numbered(session: Session, call: Call, number: int) -> Point:
     """The point of a node."""
     nodes = workspace(session).nodes
@@ -41,13 +40,12 @@ def numbered(session: Session, call: Call, number: int) -> Point:
 
 @operator(
     "CONF",
-    arg("first", "POINT", en="point that goes", fr="point qui disparaît"),
-    arg("second", "POINT", en="point that it becomes", fr="point qu'il devient"),
+    arg("first", "POINT", en="point that goes"),
+    arg("second", "POINT", en="point that it becomes"),
     family="mesh",
     full_name="CONFONDRE",
     help=Help(
         en="Makes the first point the same node as the second, wherever it is.",
-        fr="Confond le premier point avec le second, où qu'il soit.",
         syntax="CONF POIN1 POIN2 ;",
         examples=("OPTI DIME 2 ; P = 1. 0. ; Q = 2. 0. ; CONF P Q ; LIST (COOR 1 P) ;",),
     ),
@@ -60,13 +58,11 @@ def conf(first: Point, second: Point) -> None:
 
 @operator(
     "BARY",
-    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
+    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
     full_name="BARYCENTRE",
     help=Help(
         en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
-        fr="Position moyenne des noeuds d'un maillage ou, avec 'ELEM', des noeuds de chaque "
-        "élément.",
         syntax="POIN1 = BARY GEO1 ('ELEM') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",
@@ -88,7 +84,7 @@ def bary(session: Session, mesh: Mesh | Point) -> Point:
     return Point(ws.nodes, int(ws.nodes.add(centre[None], ws.density)[0]))
 
 
-@bary.form(said("ELEM"), arg("mesh", "MAILLAGE", en="cells", fr="éléments"))
+@bary.form(said("ELEM"), arg("mesh", "MAILLAGE", en="cells"))
 def centres_of_cells(session: Session, mesh: Mesh) -> Mesh:
     """Mean position of each cell's nodes."""
     ws = workspace(session)

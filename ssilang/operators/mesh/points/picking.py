@@ -44,7 +44,7 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
-_LIMIT = arg("limit", "FLOTTANT", en="value", fr="valeur")
+_LIMIT = arg("limit", "FLOTTANT", en="value")
 EXTREMES = select(
     "what",
     {
@@ -52,22 +52,20 @@ EXTREMES = select(
         "MINI": (),
         **dict.fromkeys(_COMPARISONS, (_LIMIT,)),
         "COMPRIS": (
-            arg("low", "FLOTTANT", en="one limit", fr="une limite"),
-            arg("high", "FLOTTANT", en="other limit", fr="autre limite"),
+            arg("low", "FLOTTANT", en="one limit"),
+            arg("high", "FLOTTANT", en="other limit"),
         ),
     },
     optional=False,
     en="largest or smallest values, or how they compare",
-    fr="valeurs extrêmes, ou ce qu'elles vérifient",
 )
-ABSOLUTE = flag("absolute", "ABS", en="of absolute values", fr="en valeur absolue")
+ABSOLUTE = flag("absolute", "ABS", en="of absolute values")
 NAMED = key(
     "named",
     ("AVEC", "SANS"),
     arg("names", "LISTMOTS", kind="component"),
     repeated=True,
     en="only these components, or all but these",
-    fr="ces composantes seulement, ou toutes sauf elles",
 )
 Named = Sequence[tuple[str, ListMots]]
 
@@ -81,19 +79,14 @@ def chosen_components(names: Iterable[str], named: Named) -> list[str]:
     return left
 
 
-_MESH = main("mesh", "MAILLAGE", en="mesh to pick from", fr="maillage où choisir")
+_MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
 
 
 @operator(
     "POIN",
     _MESH,
-    arg(
-        "number",
-        "ENTIER",
-        en="number of a point, or in the cell",
-        fr="numéro d'un point, ou dans l'élément",
-    ),
-    opt("cell", "ENTIER", en="number of the cell", fr="numéro de l'élément"),
+    arg("number", "ENTIER", en="number of a point, or in the cell"),
+    opt("cell", "ENTIER", en="number of the cell"),
     family="mesh",
     full_name="POINT",
     help=Help(
@@ -103,12 +96,6 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from", fr="maillage où choisi
         "density by default). From a field: where values are largest, smallest or compare with "
         "given ones (none: an empty mesh, and SOUC is raised). "
         "From numbers or lists of coordinates: makes a point or a mesh of points.",
-        fr="Désigne des points. D'un maillage : par numéro (de point, ou d'élément SEG2), par "
-        "numéro dans un élément, 'INIT' et 'FINA' d'une ligne, 'JONC' (jonctions), 'PROC' (le plus "
-        "proche d'un point), tous ceux d'une droite, d'un plan, cylindre, cône, sphère ou tore à "
-        "une distance près (le dixième de la densité par défaut). D'un champ : là où les valeurs "
-        "sont extrêmes ou vérifient une comparaison (aucune : un maillage vide, et SOUC est levé). "
-        "De nombres ou listes : crée point ou points.",
         syntax="POIN1 = GEO1 POIN N1 | I1 I2 | 'INIT' | 'FINA' | 'JONC' | 'PROC' P1 | "
         "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
         "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
@@ -204,10 +191,9 @@ def junctions_of(session: Session, mesh: Mesh) -> Mesh:
 @poin.form(
     select(
         "near",
-        {"PROC": [arg("point", "POINT", en="point", fr="point")]},
+        {"PROC": [arg("point", "POINT", en="point")]},
         optional=False,
         en="the nearest to a point",
-        fr="le plus proche d'un point",
     ),
     _MESH,
 )
@@ -222,7 +208,6 @@ def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
         {w: points for w, points in SHAPES.items() if w not in ("CERC", "CONI", "TORI")},
         optional=False,
         en="points on a line or a surface",
-        fr="points d'une droite ou d'une surface",
     ),
     _MESH,
     DISTANCE,
@@ -238,9 +223,7 @@ def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None
     return poi1(ws.nodes, ids[near])
 
 
-@poin.form(
-    main("field", "CHPOINT", en="field at nodes", fr="champ par points"), EXTREMES, ABSOLUTE, NAMED
-)
+@poin.form(main("field", "CHPOINT", en="field at nodes"), EXTREMES, ABSOLUTE, NAMED)
 def of_field(
     session: Session, field: NodeField, what: Chosen, absolute: bool, named: Named
 ) -> Mesh:
@@ -255,7 +238,7 @@ def of_field(
 
 
 @poin.form(
-    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    main("field", "MCHAML", en="field in cells"),
     EXTREMES,
     ABSOLUTE,
     NAMED,
@@ -289,13 +272,12 @@ def of_cell_field(
 
 
 @poin.form(
-    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", fr="coordonnées", unit="m"),
+    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m"),
     key(
         "density",
         "DENS",
         arg("density", "FLOTTANT", unit="m"),
         en="mesh size there, that of OPTI DENS by default",
-        fr="taille de maille en ce point, par défaut celle d'OPTI DENS",
     ),
 )
 def made(session: Session, coordinates: Sequence[float], density: float | None) -> Point:
@@ -311,7 +293,6 @@ def made(session: Session, coordinates: Sequence[float], density: float | None) 
         "LISTREEL",
         at_least=1,
         en="first coordinates, second ones ...",
-        fr="premières coordonnées, deuxièmes ...",
         unit="m",
     ),
     key(
@@ -319,7 +300,6 @@ def made(session: Session, coordinates: Sequence[float], density: float | None) 
         "DENS",
         arg("density", "FLOTTANT", "LISTREEL", unit="m"),
         en="mesh size there, that of OPTI DENS by default",
-        fr="taille de maille en ces points, par défaut celle d'OPTI DENS",
     ),
 )
 def made_of_lists(

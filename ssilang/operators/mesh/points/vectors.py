@@ -38,11 +38,10 @@ for _number in ("ENTIER", "FLOTTANT"):
 
 
 @PSCA.form(
-    main("first", "POINT", en="vector", fr="vecteur"),
-    arg("second", "POINT", en="vector", fr="vecteur"),
+    main("first", "POINT", en="vector"),
+    arg("second", "POINT", en="vector"),
     syntax="FLOT1 = VEC1 PSCA VEC2 ;",
     en="Of two points: their scalar product as vectors.",
-    fr="De deux points : leur produit scalaire en tant que vecteurs.",
     examples=("OPTI DIME 2 ; X = (1. 2.) PSCA (3. 4.) ; LIST X ;",),
 )
 def scalar_product(first: Point, second: Point) -> float:
@@ -51,11 +50,10 @@ def scalar_product(first: Point, second: Point) -> float:
 
 
 @PVEC.form(
-    main("first", "POINT", en="vector", fr="vecteur"),
-    arg("second", "POINT", en="vector", fr="vecteur"),
+    main("first", "POINT", en="vector"),
+    arg("second", "POINT", en="vector"),
     syntax="VEC3 = VEC1 PVEC (VEC2) ;",
     en="Of points: the vector product in 3D; in 2D the vector turned by a quarter turn.",
-    fr="De points : le produit vectoriel en 3D ; en 2D le vecteur tourné d'un quart de tour.",
     examples=("OPTI DIME 2 ; V = PVEC (1. 2.) ; LIST (COOR 1 V) ;",),
     when=IN_SPACE,
 )
@@ -64,7 +62,7 @@ def vector_product(first: Point, second: Point) -> Point:
     return _made(first, np.cross(first.coordinates, second.coordinates))
 
 
-@PVEC.form(main("first", "POINT", en="vector", fr="vecteur"), when=IN_PLANE)
+@PVEC.form(main("first", "POINT", en="vector"), when=IN_PLANE)
 def quarter_turn(first: Point) -> Point:
     """A vector turned by a quarter turn."""
     return _made(first, np.cross([0.0, 0.0, 1.0], first.coordinates))
@@ -72,14 +70,13 @@ def quarter_turn(first: Point) -> Point:
 
 @operator(
     "PMIX",
-    arg("first", "POINT", en="vector", fr="vecteur"),
-    arg("second", "POINT", en="vector", fr="vecteur"),
-    opt("third", "POINT", en="vector, in space", fr="vecteur, en dimension 3"),
+    arg("first", "POINT", en="vector"),
+    arg("second", "POINT", en="vector"),
+    opt("third", "POINT", en="vector, in space"),
     family="mesh",
     full_name="PMIXTE",
     help=Help(
         en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
-        fr="Produit mixte : déterminant de deux vecteurs en 2D, de trois en 3D.",
         syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
         examples=("OPTI DIME 2 ; X = PMIX (1. 2.) (3. 4.) ; LIST X ;",),
     ),
@@ -96,11 +93,10 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
 
 @operator(
     "NORM",
-    arg("vector", "POINT", en="vector", fr="vecteur"),
+    arg("vector", "POINT", en="vector"),
     family="mesh",
     help=Help(
         en="Length of a point as a vector.",
-        fr="Norme d'un point en tant que vecteur.",
         syntax="FLOT1 = NORM VEC1 ;",
         examples=("OPTI DIME 2 ; X = NORM (3. 4.) ; LIST X ;",),
     ),

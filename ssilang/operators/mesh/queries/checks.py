@@ -17,15 +17,12 @@ _CHECKS = (
 
 @operator(
     "VERM",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     family="mesh",
     help=Help(
         en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
         "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
         "names MESH1 MESH2 ..., NODE1 ...",
-        fr="Vérifie un maillage et dit ce qui ne va pas : éléments aux mêmes noeuds, éléments "
-        "linéaires accolés à des éléments quadratiques, faces triangulaires sur des faces "
-        "quadrangulaires. Éléments et noeuds trouvés sont nommés MESH1 MESH2 ..., NODE1 ...",
         syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ;",
@@ -41,11 +38,9 @@ def verm(session: Session, mesh: Mesh) -> None:
 
 @verm.form(
     said("CORR"),
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     en="'CORR' also gives the mesh with one cell left where several stand on the same nodes; "
     "what else is found is for the script to mend.",
-    fr="'CORR' rend de plus le maillage où un seul élément reste là où plusieurs ont les mêmes "
-    "noeuds ; le reste est à corriger dans le jeu de données.",
 )
 def corrected(session: Session, mesh: Mesh) -> Mesh:
     """Check a mesh, and take doubled cells out of it."""

@@ -17,12 +17,11 @@ from ssilang.language.values import ListEnti, ListMots
 
 @operator(
     "NBEL",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
-    opt("types", "LISTMOTS", en="types of cells", fr="types d'éléments", kind="element"),
+    arg("mesh", "MAILLAGE", en="mesh"),
+    opt("types", "LISTMOTS", en="types of cells", kind="element"),
     family="mesh",
     help=Help(
         en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
-        fr="Nombre d'éléments d'un maillage ; avec une liste de types, la liste de leurs nombres.",
         syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBEL (DROI 4 (0. 0.) (1. 0.))) ;",),
     ),
@@ -37,11 +36,10 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
 
 @operator(
     "NBNO",
-    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point"),
+    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
     help=Help(
         en="Number of nodes of a mesh.",
-        fr="Nombre de noeuds d'un maillage.",
         syntax="N1 = NBNO GEO1 ;",
         examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBNO (DROI 4 (0. 0.) (1. 0.))) ;",),
     ),
@@ -53,21 +51,15 @@ def nbno(mesh: Mesh | Point) -> int:
 
 @operator(
     "MESU",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     choice(
-        "what",
-        ("LONG", "SURF", "VOLU"),
-        en="length, area, volume; by default as the cells are",
-        fr="longueur, aire, volume ; par défaut selon les éléments",
+        "what", ("LONG", "SURF", "VOLU"), en="length, area, volume; by default as the cells are"
     ),
     family="mesh",
     full_name="MESURE",
     help=Help(
         en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
         "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
-        fr="Longueur, aire ou volume d'un maillage ; 'SURF' d'une ligne fermée : l'aire intérieure "
-        "; 'VOLU' d'une surface fermée : le volume intérieur ; 'DENS' : champ des tailles de "
-        "maille.",
         syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",
@@ -87,7 +79,7 @@ def mesu(mesh: Mesh, what: str | None) -> float:
     raise MeshError("operators.mesh.no-such-measure", what=what, dimension=mesh.dimension)
 
 
-@mesu.form(said("DENS"), arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))
+@mesu.form(said("DENS"), arg("mesh", "MAILLAGE", en="mesh"))
 def sizes(mesh: Mesh) -> NodeField:
     """Field of mesh sizes."""
     ids, values = node_sizes(mesh)

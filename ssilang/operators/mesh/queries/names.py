@@ -12,14 +12,12 @@ from ssilang.language.values import ListMots
 
 @operator(
     "REFE",
-    arg("small", "MAILLAGE", en="mesh", fr="maillage"),
-    arg("large", "MAILLAGE", en="mesh that may hold it", fr="maillage qui peut le contenir"),
+    arg("small", "MAILLAGE", en="mesh"),
+    arg("large", "MAILLAGE", en="mesh that may hold it"),
     family="mesh",
     help=Help(
         en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
         "nodes of the first belong to the second.",
-        fr="Noms des maillages dont tous les noeuds sont dans un maillage ; ou, avec deux "
-        "maillages, si tous les noeuds du premier sont dans le second.",
         syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L1 = DROI 2 A (1. 0.) ; L2 = DROI 2 A (0. 1.) ; "
@@ -32,7 +30,7 @@ def refe(small: Mesh, large: Mesh) -> bool:
     return _inside(small, large)
 
 
-@refe.form(arg("mesh", "MAILLAGE", en="mesh", fr="maillage"))
+@refe.form(arg("mesh", "MAILLAGE", en="mesh"))
 def names_within(session: Session, mesh: Mesh) -> ListMots:
     """Names of the meshes within a mesh."""
     frame = session.frame

@@ -31,9 +31,8 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         optional=False,
         repeated=True,
         en="flatness of QUA4, aspect ratio, skewness of TRI3 and TET4",
-        fr="planéité des QUA4, rapport de forme, dissymétrie des TRI3 et TET4",
     ),
-    arg("mesh", "MAILLAGE", en="cells", fr="éléments"),
+    arg("mesh", "MAILLAGE", en="cells"),
     family="mesh",
     full_name="INDICATEUR",
     help=Help(
@@ -46,15 +45,6 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
         "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
         "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
-        fr="Champ par éléments d'indicateurs de leur forme. 'PLAN' des quadrangles : 100 pour un "
-        "élément plan, moins selon l'angle de ses deux normales (0 à 180 degrés). 'ASPE' des TRI3 "
-        "et TET4 : plus grande arête sur plus petite hauteur, 1 pour un élément équilatéral. "
-        "'SKEW' des TRI3 et TET4 : part manquante de la mesure de l'élément équilatéral de même "
-        "sphère circonscrite, de 0 à 1. 'TOPO' : qualité des TRI3 ou TET4, de 0 (sans mesure) à 1 "
-        "(équilatéral, d'arêtes de la longueur voulue si METR1 la donne : un nombre, la longueur, "
-        "ou un champ aux noeuds de métriques G, ou G11 G21 G22 (G31 G32 G33), en longueur^-2) : "
-        "rapport moyen de l'élément fois le plus petit de s et 1/s, s étant la moyenne quadratique "
-        "des arêtes sur la longueur voulue. 'LISTREEL' donne une liste.",
         syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
         "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
         examples=(
@@ -75,15 +65,14 @@ def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
 
 @indi.form(
     said("TOPO"),
-    arg("mesh", "MAILLAGE", en="triangles or tetrahedra", fr="triangles ou tétraèdres"),
+    arg("mesh", "MAILLAGE", en="triangles or tetrahedra"),
     opt(
         "metric",
         "FLOTTANT",
         "CHPOINT",
         en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
-        fr="longueur voulue, ou métrique G (G11 G21 G22 ...) en longueur^-2",
     ),
-    flag("listed", "LISTREEL", en="a list is given", fr="une liste est rendue"),
+    flag("listed", "LISTREEL", en="a list is given"),
 )
 def topological(
     call: Call, mesh: Mesh, metric: float | NodeField | None, listed: bool

@@ -31,23 +31,19 @@ def _whole_lines(mesh: Mesh) -> Mesh:
 
 @operator(
     "CONT",
-    arg("mesh", "MAILLAGE", en="surface", fr="surface"),
+    arg("mesh", "MAILLAGE", en="surface"),
     choice(
         "which",
         ("EXTE", "INTE", "TOUT"),
         default="EXTE",
         en="edges of one cell, of three or more, or both",
-        fr="arêtes d'un élément, de trois ou plus, ou les deux",
     ),
-    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    flag("allowed", "NOID", en="the result may be empty"),
     family="mesh",
     full_name="CONTOUR",
     help=Help(
         en="Contour of a surface: edges of one cell only ('EXTE', the default), of three or more "
         "('INTE'), or both ('TOUT'). The lines are put end to end. 'NOID' allows an empty result.",
-        fr="Contour d'une surface : arêtes d'un seul élément ('EXTE', par défaut), de trois ou "
-        "plus ('INTE'), ou les deux ('TOUT'). Les lignes sont mises bout à bout. 'NOID' permet un "
-        "résultat vide.",
         syntax="GEO1 = CONT ('NOID') ('EXTE'|'INTE'|'TOUT') GEO2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
@@ -69,24 +65,15 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
 
 @operator(
     "ENVE",
-    arg("mesh", "MAILLAGE", en="volume, or surface", fr="volume, ou surface"),
-    flag(
-        "inwards",
-        "ORIE",
-        en="faces described inwards in any case",
-        fr="faces toujours décrites vers l'intérieur",
-    ),
-    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    arg("mesh", "MAILLAGE", en="volume, or surface"),
+    flag("inwards", "ORIE", en="faces described inwards in any case"),
+    flag("allowed", "NOID", en="the result may be empty"),
     family="mesh",
     full_name="ENVELOPPE",
     help=Help(
         en="Skin of a volume: the faces of one cell only, described inwards where the volume's "
         "cells are in the direct sense ('ORIE': in any case). Of a surface, whose cells are their "
         "own faces: the cells that stand there once. 'NOID' allows an empty result.",
-        fr="Enveloppe d'un volume : les faces d'un seul élément, décrites vers l'intérieur là "
-        "où les éléments du volume sont de sens direct ('ORIE' : toujours). D'une surface, dont "
-        "les éléments sont leurs propres faces : les éléments qui n'y sont qu'une fois. 'NOID' "
-        "permet un résultat vide.",
         syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
         examples=(
             "OPTI DIME 3 ELEM QUA4 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
@@ -110,14 +97,13 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
 
 @operator(
     "ARET",
-    arg("mesh", "MAILLAGE", en="surface or volume", fr="surface ou volume"),
+    arg("mesh", "MAILLAGE", en="surface or volume"),
     opt(
         "angle",
         "FLOTTANT",
         range=between(0.0, 180.0),
         default=20.0,
         en="turn of the skin from which on an edge is sharp",
-        fr="angle de la peau à partir duquel une arête est vive",
         unit="degree",
     ),
     family="mesh",
@@ -125,8 +111,6 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     help=Help(
         en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or the angle that "
         "is given, or ends.",
-        fr="Arêtes vives, en SEG2 : là où la peau tourne de plus de 20 degrés, ou de l'angle "
-        "donné, ou finit.",
         syntax="GEO1 = ARET GEO2 (FLOT1) ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"

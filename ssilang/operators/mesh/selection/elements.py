@@ -49,22 +49,12 @@ from ssilang.operators.mesh.points.picking import (
     picked,
 )
 
-_MESH = main("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir")
-_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
+_MESH = main("mesh", "MAILLAGE", en="cells to pick from")
+_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 _FILTERS = key(
-    "filters",
-    (TIE, *CELL_TYPES, "POLY", *COLOURS),
-    repeated=True,
-    en="type or colour of the cells",
-    fr="type ou couleur des éléments",
+    "filters", (TIE, *CELL_TYPES, "POLY", *COLOURS), repeated=True, en="type or colour of the cells"
 )
-_NUMBERS = opt(
-    "which",
-    "ENTIER",
-    "LISTENTI",
-    en="number, or numbers, among those",
-    fr="numéro, ou numéros, parmi ceux-là",
-)
+_NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those")
 
 
 @operator(
@@ -82,13 +72,6 @@ _NUMBERS = opt(
         "way. 'TYPE' and 'COUL' alone list the cell "
         "types and colours. From a cell field: cells whose values are extreme or compare. 'NOVE' "
         "allows an empty result.",
-        fr="Choisit des éléments : par type, par couleur, par numéro ou liste de numéros parmi "
-        "ceux-ci ; 'CONT' l'élément contenant un point ('TOUS' : tous) ; 'APPU' ceux qui "
-        "s'appuient sur des points ('STRI' par tous leurs noeuds, par défaut, 'LARG' par un au "
-        "moins) ; 'COMP' la partie d'une ligne entre deux points, décrite du premier au second ; "
-        "d'un réseau comme celui d'ARET le plus court chemin. "
-        "'TYPE' et 'COUL' seuls listent types et couleurs. D'un champ par éléments : éléments de "
-        "valeurs extrêmes ou vérifiant une comparaison. 'NOVE' permet un résultat vide.",
         syntax="GEO1 = GEO2 ELEM (TYPE) (COUL1) (N1|LENTI1) | 'COUL' I1 | 'CONT' P1 ('TOUS') "
         "('NOVE') | 'APPU' ('STRI'|'LARG') GEO3 ('NOVE') | 'COMP' P1 P2 ;\n"
         "LMOTS1 = GEO2 ELEM 'TYPE'|'COUL' ;\n"
@@ -132,12 +115,11 @@ def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti |
         "colour",
         {
             "COUL": [
-                opt("number", "ENTIER", en="number of a colour", fr="numéro d'une couleur"),
+                opt("number", "ENTIER", en="number of a colour"),
             ]
         },
         optional=False,
         en="cells of a colour; without number the colours that there are",
-        fr="éléments d'une couleur ; sans numéro les couleurs présentes",
     ),
     _MESH,
     _FILTERS,
@@ -170,8 +152,8 @@ def types(mesh: Mesh) -> ListMots:
 @elem.form(
     said("COMPRIS"),
     _MESH,
-    arg("first", "POINT", en="where the part begins", fr="début de la partie"),
-    arg("second", "POINT", en="where it ends", fr="fin de la partie"),
+    arg("first", "POINT", en="where the part begins"),
+    arg("second", "POINT", en="where it ends"),
     of=("MAILLAGE",),
 )
 def between(mesh: Mesh, first: Point, second: Point) -> Mesh:
@@ -187,13 +169,12 @@ def between(mesh: Mesh, first: Point, second: Point) -> Mesh:
 @elem.form(
     select(
         "holding",
-        {"CONTENANT": [arg("point", "POINT", en="point", fr="point")]},
+        {"CONTENANT": [arg("point", "POINT", en="point")]},
         optional=False,
         en="cell that holds a point",
-        fr="élément qui contient un point",
     ),
     _MESH,
-    flag("every", "TOUS", en="all cells that hold it", fr="tous les éléments qui le contiennent"),
+    flag("every", "TOUS", en="all cells that hold it"),
     _ALLOWED,
 )
 def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Mesh:
@@ -214,18 +195,16 @@ def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Me
                     ("STRICTEMENT", "LARGEMENT"),
                     default="STRICTEMENT",
                     en="by all nodes, the default, or by one at least",
-                    fr="par tous les noeuds, par défaut, ou par un au moins",
                 ),
                 _ALLOWED,
-                many("support", "MAILLAGE", "POINT", behind=True, en="points", fr="points"),
+                many("support", "MAILLAGE", "POINT", behind=True, en="points"),
             ]
         },
         optional=False,
         en="cells that rest on points",
-        fr="éléments qui s'appuient sur des points",
     ),
-    opt("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir"),
-    many("more", "MAILLAGE", "POINT", en="further points", fr="autres points"),
+    opt("mesh", "MAILLAGE", en="cells to pick from"),
+    many("more", "MAILLAGE", "POINT", en="further points"),
     gives="MAILLAGE",
 )
 def resting_on_points(
@@ -319,14 +298,13 @@ def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> 
 
 @elem.form(
     EXTREMES,
-    main("field", "MCHAML", en="field in cells", fr="champ par éléments"),
+    main("field", "MCHAML", en="field in cells"),
     ABSOLUTE,
     choice(
         "how",
         ("LARG", "STRI"),
         default="LARG",
         en="one value of the cell fits, the default, or all do",
-        fr="une valeur de l'élément convient, par défaut, ou toutes",
     ),
     NAMED,
     of=("MCHAML",),

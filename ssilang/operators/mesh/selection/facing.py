@@ -19,23 +19,14 @@ _NONE = np.empty(0, dtype=np.int64)
 @operator(
     "VISA",
     DISTANCE,
-    arg("first", "MAILLAGE", en="mesh", fr="maillage"),
-    opt(
-        "second",
-        "MAILLAGE",
-        en="mesh whose nodes may face them; without it the first itself",
-        fr="maillage dont les noeuds peuvent leur faire face ; sans lui le premier même",
-    ),
+    arg("first", "MAILLAGE", en="mesh"),
+    opt("second", "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"),
     family="mesh",
     full_name="VISAVIS",
     help=Help(
         en="Nodes of a mesh that have a node of a second one at their place, and these nodes, as "
         "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
         "same within the distance given, else within a tenth of the density in force.",
-        fr="Noeuds d'un maillage qui ont un noeud d'un second au même endroit, et ces noeuds, en "
-        "deux maillages de POI1 dans le même ordre ; d'un seul maillage, ses noeuds doubles. Les "
-        "endroits sont les mêmes à la distance donnée près, sinon au dixième de la densité "
-        "courante.",
         syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ; "

@@ -22,20 +22,13 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "DEDA",
-    arg("point", "POINT", en="point", fr="point"),
-    arg(
-        "mesh",
-        "MAILLAGE",
-        en="closed line or closed surface",
-        fr="ligne fermée ou surface fermée",
-    ),
-    opt("tolerance", "FLOTTANT", en="accepted, without effect", fr="accepté, sans effet"),
+    arg("point", "POINT", en="point"),
+    arg("mesh", "MAILLAGE", en="closed line or closed surface"),
+    opt("tolerance", "FLOTTANT", en="accepted, without effect"),
     family="mesh",
     help=Help(
         en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
         "(3D); of a surface in 2D the contour is taken.",
-        fr="Dit si un point est à l'intérieur d'une ligne fermée de SEG2 (2D) ou d'une surface "
-        "fermée de TRI3 (3D) ; d'une surface en 2D on prend le contour.",
         syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
@@ -57,27 +50,20 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
 
 @operator(
     "INCL",
-    flag("volume", "VOLU", en="inside volume cells", fr="dans des éléments volumiques"),
-    arg("mesh", "MAILLAGE", en="cells to pick from", fr="éléments où choisir"),
-    arg(
-        "outer",
-        "MAILLAGE",
-        en="closed line, surface with such a contour, or volume cells",
-        fr="ligne fermée, surface de tel contour, ou éléments volumiques",
-    ),
+    flag("volume", "VOLU", en="inside volume cells"),
+    arg("mesh", "MAILLAGE", en="cells to pick from"),
+    arg("outer", "MAILLAGE", en="closed line, surface with such a contour, or volume cells"),
     choice(
         "how",
         ("STRI", "LARG", "BARY"),
         en="nodes on the border do not count, or do; or centres decide",
-        fr="les noeuds du bord ne comptent pas, ou comptent ; ou les centres décident",
     ),
-    flag("allowed", "NOID", en="the result may be empty", fr="le résultat peut être vide"),
+    flag("allowed", "NOID", en="the result may be empty"),
     opt(
         "margin",
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="with 'VOLU' how far outside still counts, 1E-2 by default",
-        fr="avec 'VOLU' l'écart encore admis, 1E-2 par défaut",
     ),
     family="mesh",
     full_name="INCLUS",
@@ -86,10 +72,6 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
         "line count; 'STRI': they do not; 'BARY': by the cells' centres), or with 'VOLU' inside "
         "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
         "allows an empty result.",
-        fr="Eléments d'un maillage intérieurs à une ligne plane fermée ('LARG', par défaut : les "
-        "noeuds de la ligne comptent ; 'STRI' : ils ne comptent pas ; 'BARY' : par les centres) "
-        "ou, avec 'VOLU', à des éléments volumiques ('STRI', par défaut : tous les noeuds ; 'LARG' "
-        ": un au moins ; 'BARY'). 'NOID' permet un résultat vide.",
         syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"

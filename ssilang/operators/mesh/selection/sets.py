@@ -16,8 +16,8 @@ from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.language.registry import arg, flag, main, said
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
 
-_SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point", fr="maillage, ou point")
-_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty", fr="le résultat peut être vide")
+_SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point")
+_ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 
 
 def as_mesh(item: Mesh | Point) -> Mesh:
@@ -42,11 +42,10 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
 
 
 @DIFF.form(
-    main("first", "MAILLAGE", en="mesh", fr="maillage"),
+    main("first", "MAILLAGE", en="mesh"),
     _SECOND,
     syntax="GEO3 = GEO1 DIFF GEO2 ;",
     en="Of meshes: cells (same type, same nodes) of one only.",
-    fr="De maillages : éléments (mêmes type et noeuds) de l'un seulement.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
         " LIST (NBEL (A DIFF B)) ;",
@@ -58,12 +57,11 @@ def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
 
 
 @INTE.form(
-    main("first", "MAILLAGE", en="mesh", fr="maillage"),
+    main("first", "MAILLAGE", en="mesh"),
     _SECOND,
     _ALLOWED,
     syntax="GEO3 = GEO1 INTE GEO2 ('NOVERIF') ;",
     en="Of meshes: cells (same type, same nodes) that both hold. 'NOVERIF' allows an empty result.",
-    fr="De maillages : éléments (mêmes type et noeuds) communs. 'NOVERIF' permet un résultat vide.",
     examples=(
         "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
         " LIST (NBEL (A INTE B)) ;",
@@ -79,17 +77,13 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
 
 @INTE.form(
     said("GEOM"),
-    arg("first", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
-    arg("second", "MAILLAGE", en="surface of TRI3", fr="surface de TRI3"),
+    arg("first", "MAILLAGE", en="surface of TRI3"),
+    arg("second", "MAILLAGE", en="surface of TRI3"),
     _ALLOWED,
     syntax="GEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;",
     en="With 'GEOM', of two surfaces of TRI3 in space: both surfaces with their triangles cut "
     "where the surfaces cross, then the lines where they cross, by nodes of the first surface and "
     "by nodes of the second. Parts where the surfaces lie in one plane give no line.",
-    fr="Avec 'GEOM', de deux surfaces de TRI3 dans l'espace : les deux surfaces, leurs triangles "
-    "coupés là où elles se croisent, puis les lignes où elles se croisent, par des noeuds de la "
-    "première surface et par des noeuds de la seconde. Les parties situées dans un même plan ne "
-    "donnent pas de ligne.",
     examples=(
         "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
         " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"

@@ -29,14 +29,9 @@ from ssilang.language.vocabulary.terms import POSITIVE, between
 _CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "
 
 
-_FREE = flag(
-    "free",
-    "NESC",
-    en="the table has no sub-type",
-    fr="la table n'a pas de sous-type",
-)
-_MESH = main("mesh", "MAILLAGE", en="mesh", fr="maillage")
-_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts", fr="nombre de parties")
+_FREE = flag("free", "NESC", en="the table has no sub-type")
+_MESH = main("mesh", "MAILLAGE", en="mesh")
+_COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts")
 
 
 @operator(
@@ -54,14 +49,6 @@ _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts", fr="nombre
         "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
         "many equal parts as said (a power of 2, by default 2). 'ARLE' (of a model also without "
         "this word): cells dealt out in turn to that many parts. ETG joins the parts again.",
-        fr="Table des zones 1, 2 ... d'un maillage, de sous-type 'ESCLAVE' sauf avec 'NESC'. "
-        "'CONN' : parties jointes par des noeuds communs. 'SEPA' : parties jointes par des côtés "
-        "communs, sauf ('FACE', 'LIGN') ceux de plus de deux éléments, ('MAIL') ceux compris dans "
-        "des éléments d'un maillage, ('ANGL') ceux où normales ou tangentes tournent de plus d'un "
-        "angle (20 degrés) ; des éléments de sens contraires ne sont pas pris pour repliés sauf "
-        "avec 'TELQ'. 'OPTI' : autant de parties égales que dit (puissance de 2, par défaut 2). "
-        "'ARLE' (pour un modèle aussi sans ce mot) : éléments distribués tour à tour à ce nombre "
-        "de parties. ETG les réunit.",
         syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
         "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
         "('ANGL' (FLOT1) ('TELQ')) ;\n"
@@ -90,20 +77,8 @@ def part(mesh: Mesh, free: bool) -> Table:
 @part.form(
     said("SEPA"),
     _MESH,
-    key(
-        "branching",
-        ("FACE", "LIGN"),
-        repeated=True,
-        en="sides of more than two cells separate",
-        fr="les côtés de plus de deux éléments séparent",
-    ),
-    key(
-        "separator",
-        "MAIL",
-        arg("mesh", "MAILLAGE"),
-        en="sides within these cells separate",
-        fr="les côtés compris dans ces éléments séparent",
-    ),
+    key("branching", ("FACE", "LIGN"), repeated=True, en="sides of more than two cells separate"),
+    key("separator", "MAIL", arg("mesh", "MAILLAGE"), en="sides within these cells separate"),
     select(
         "turn",
         {
@@ -114,20 +89,13 @@ def part(mesh: Mesh, free: bool) -> Table:
                     range=between(0.0, 180.0),
                     default=20.0,
                     en="least angle",
-                    fr="angle minimal",
                     unit="degree",
                 ),
             )
         },
         en="sides where normals or tangents turn separate",
-        fr="les côtés où normales ou tangentes tournent séparent",
     ),
-    flag(
-        "folded",
-        "TELQ",
-        en="cells of opposite senses are taken as folded",
-        fr="des éléments de sens contraires sont pris pour repliés",
-    ),
+    flag("folded", "TELQ", en="cells of opposite senses are taken as folded"),
     _FREE,
 )
 def separated_parts(
@@ -153,14 +121,7 @@ def separated_parts(
 @part.form(
     said("OPTI"),
     _MESH,
-    opt(
-        "count",
-        "ENTIER",
-        range=POSITIVE,
-        default=2,
-        en="number of parts, a power of 2",
-        fr="nombre de parties, puissance de 2",
-    ),
+    opt("count", "ENTIER", range=POSITIVE, default=2, en="number of parts, a power of 2"),
     _FREE,
 )
 def equal_parts(mesh: Mesh, count: int, free: bool) -> Table:
@@ -175,13 +136,11 @@ def dealt_out(call: Call, mesh: Mesh, count: int, free: bool) -> Table:
 
 
 @part.form(
-    main("model", "MMODEL", en="model", fr="modèle"),
+    main("model", "MMODEL", en="model"),
     _COUNT,
     _FREE,
 )
-@part.form(
-    said("ARLE"), arg("model", "MMODEL", en="model", fr="modèle"), _COUNT, _FREE, of=("MMODEL",)
-)
+@part.form(said("ARLE"), arg("model", "MMODEL", en="model"), _COUNT, _FREE, of=("MMODEL",))
 def dealt_out_model(call: Call, model: Model, count: int, free: bool) -> Table:
     """Models whose cells are dealt out in turn, zone by zone."""
     made: list[list[Zone]] = [[] for _ in range(_positive(call, count))]
@@ -208,21 +167,17 @@ def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
 
 @operator(
     "CCON",
-    arg("mesh", "MAILLAGE", en="mesh", fr="maillage"),
+    arg("mesh", "MAILLAGE", en="mesh"),
     choice(
         "strict",
         ("STR1", "STR2"),
         en="points of more than two lines, edges of more than two cells separate",
-        fr="les points de plus de deux lignes, les arêtes de plus de deux éléments séparent",
     ),
     family="mesh",
     help=Help(
         en="Table of the connected parts 1, 2 ... of a mesh. With 'STR1' points of more than two "
         "lines separate, with 'STR2' cells hang together by edges of not more than two cells. "
         "PART does more.",
-        fr="Table des composantes connexes 1, 2 ... d'un maillage. Avec 'STR1' les points de plus "
-        "de deux lignes séparent, avec 'STR2' les éléments se tiennent par des arêtes d'au plus "
-        "deux éléments. PART en fait davantage.",
         syntax="TAB1 = CCON ('STR1'|'STR2') MAIL1 ;",
         examples=(_CUT + "T = CCON L ; MESS (NBEL (T . 2)) ;",),
     ),

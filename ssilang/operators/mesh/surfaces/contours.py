@@ -49,20 +49,14 @@ _POLYNOMIAL_EN = (
     "values behind 'PARA'. OPTI DENS says the size of the cells; 'REGU' spaces the nodes evenly "
     "along the sides, else they are even in U and V."
 )
-_POLYNOMIAL_FR = (
-    "'POLY' : la surface P(U,V), somme de P1 P2 P3 ... fois 1 U U**2 ... et des lignes suivantes "
-    "fois V V**2 ..., N1 colonnes et N2 lignes de points ; U et V vont de 0 à 1 ou entre les "
-    "valeurs données derrière 'PARA'. OPTI DENS dit la taille des éléments ; 'REGU' répartit les "
-    "noeuds régulièrement le long des côtés, sinon ils le sont en U et V."
-)
 _POLYNOMIAL_SYNTAX = (
     "SURF1 = {} 'POLY' N1 N2 P1 P2 (P3 ...) P11 P12 (P13 ...) (...) ('PARA' U1 U2 V1 V2) ('REGU') ;"
 )
-_CENTRE = arg("centre", "POINT", en="centre", fr="centre")
-_APEX = arg("apex", "POINT", en="apex", fr="sommet")
-_FIRST = arg("first", "POINT", en="point of the axis", fr="point de l'axe")
-_AXIS = arg("axis", "POINT", en="other point of the axis", fr="autre point de l'axe")
-_CIRCLE = arg("circle", "POINT", en="centre of a small circle", fr="centre d'un petit cercle")
+_CENTRE = arg("centre", "POINT", en="centre")
+_APEX = arg("apex", "POINT", en="apex")
+_FIRST = arg("first", "POINT", en="point of the axis")
+_AXIS = arg("axis", "POINT", en="other point of the axis")
+_CIRCLE = arg("circle", "POINT", en="centre of a small circle")
 _SHAPES = {
     "PLANE": (),
     "SPHERIQUE": (_CENTRE,),
@@ -70,7 +64,7 @@ _SHAPES = {
     "CONIQUE": (_APEX, _AXIS),
     "TORIQUE": (_CENTRE, _AXIS, _CIRCLE),
 }
-_SHAPE_EN, _SHAPE_FR = "what the surface lies on", "ce sur quoi la surface s'appuie"
+_SHAPE_EN = "what the surface lies on"
 # chart of the contour's positions and the points behind the word
 _CHARTS: dict[str, Callable[..., Chart]] = {
     "SPHERIQUE": sphere_chart,
@@ -91,17 +85,15 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
         "sizes",
         "CHPOINT",
         en="mesh sizes to respect, one component",
-        fr="tailles de maille à respecter, une composante",
         unit="m",
     ),
-    arg("contour", "MAILLAGE", en="closed lines", fr="lignes fermées"),
-    select("shape", _SHAPES, en=_SHAPE_EN, fr=_SHAPE_FR),
+    arg("contour", "MAILLAGE", en="closed lines"),
+    select("shape", _SHAPES, en=_SHAPE_EN),
     opt(
         "criterion",
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
-        fr="écart des lignes à leur plan, rapporté à leur étendue, 1E-3 par défaut",
     ),
     family="mesh",
     full_name="SURFACE",
@@ -110,11 +102,6 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
         "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
         "some triangles, and (POLY) polygons with some triangles; with an element of lines it is "
         "triangles. A nodal field of one component gives the mesh sizes to respect.",
-        fr="Maillage intérieur à des lignes fermées (les trous tournent en sens inverse) : dans "
-        "leur plan (par défaut), sur une sphère, un cylindre, un cône ou un tore. OPTI ELEM "
-        "choisit triangles, quadrangles avec quelques triangles, ou (POLY) polygones avec quelques "
-        "triangles ; un élément de ligne donne des triangles. Un champ par points à une "
-        "composante donne les tailles de maille à respecter.",
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
         "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
         examples=(
@@ -178,20 +165,17 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
 
 @operator(
     "DALL",
-    arg("side1", "MAILLAGE", en="first side", fr="premier côté"),
-    arg("side2", "MAILLAGE", en="second side", fr="deuxième côté"),
-    arg("side3", "MAILLAGE", en="third side", fr="troisième côté"),
-    arg("side4", "MAILLAGE", en="fourth side", fr="quatrième côté"),
-    select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN, fr=_SHAPE_FR),
+    arg("side1", "MAILLAGE", en="first side"),
+    arg("side2", "MAILLAGE", en="second side"),
+    arg("side3", "MAILLAGE", en="third side"),
+    arg("side4", "MAILLAGE", en="fourth side"),
+    select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN),
     family="mesh",
     full_name="DALLER",
     help=Help(
         en="Surface on four lines that form a contour: a grid when opposite sides have the same "
         "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
         "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
-        fr="Surface sur quatre lignes formant un contour : une grille si les côtés opposés ont le "
-        "même nombre d'éléments. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' disent sur quoi elle "
-        "s'appuie ; 'QUEL' interpole entre les côtés. COTE rend les côtés.",
         syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
         "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
         examples=(
@@ -260,21 +244,9 @@ def dall(
 
 _POLYNOMIAL = (
     said("POLYNOME"),
-    arg(
-        "columns",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of columns of points",
-        fr="nombre de colonnes de points",
-    ),
-    arg(
-        "rows",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of rows of points",
-        fr="nombre de lignes de points",
-    ),
-    many("points", "POINT", en="P1 P2 P3 ..., row by row", fr="P1 P2 P3 ..., ligne par ligne"),
+    arg("columns", "ENTIER", range=POSITIVE, en="number of columns of points"),
+    arg("rows", "ENTIER", range=POSITIVE, en="number of rows of points"),
+    many("points", "POINT", en="P1 P2 P3 ..., row by row"),
     key(
         "limits",
         "PARAMETRE",
@@ -284,23 +256,13 @@ _POLYNOMIAL = (
         arg("v2", "FLOTTANT"),
         default=(0.0, 1.0, 0.0, 1.0),
         en="where U and V begin and end",
-        fr="bornes de U et de V",
     ),
-    flag(
-        "regular",
-        "REGULIER",
-        en="nodes even along the sides",
-        fr="noeuds réguliers le long des côtés",
-    ),
+    flag("regular", "REGULIER", en="nodes even along the sides"),
 )
 
 
-@dall.form(
-    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("DALL"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
-)
-@surf.form(
-    *_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("SURF"), en=_POLYNOMIAL_EN, fr=_POLYNOMIAL_FR
-)
+@dall.form(*_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("DALL"), en=_POLYNOMIAL_EN)
+@surf.form(*_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("SURF"), en=_POLYNOMIAL_EN)
 def polynomial_surface(
     call: Call,
     columns: int,

@@ -15,18 +15,15 @@ from ssilang.language.run.call import Call
 
 @operator(
     "COUP",
-    arg("mesh", "MAILLAGE", en="mesh in space", fr="maillage de l'espace"),
-    arg("p1", "POINT", en="point of the plane", fr="point du plan"),
-    arg("p2", "POINT", en="second point of the plane", fr="deuxième point du plan"),
-    arg("p3", "POINT", en="third point of the plane", fr="troisième point du plan"),
+    arg("mesh", "MAILLAGE", en="mesh in space"),
+    arg("p1", "POINT", en="point of the plane"),
+    arg("p2", "POINT", en="second point of the plane"),
+    arg("p3", "POINT", en="third point of the plane"),
     family="mesh",
     full_name="COUPER",
     help=Help(
         en="What a plane through three points cuts out of a mesh in space: triangles in volumes, "
         "lines in surfaces, points in lines. Quadratic cells are cut as linear ones.",
-        fr="Ce qu'un plan passant par trois points coupe d'un maillage de l'espace : des triangles "
-        "dans les volumes, des lignes dans les surfaces, des points dans les lignes. Les éléments "
-        "quadratiques sont coupés comme des linéaires.",
         syntax="GEO2 = COUP GEO1 P1 P2 P3 ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; "
@@ -52,25 +49,15 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
 
 @operator(
     "FUIT",
-    arg("contour", "MAILLAGE", en="closed contour of SEG2", fr="contour fermé de SEG2"),
-    arg(
-        "first",
-        "MAILLAGE",
-        "POINT",
-        en="where the segment may begin",
-        fr="où le segment peut commencer",
-    ),
-    arg("second", "MAILLAGE", "POINT", en="where it may end", fr="où il peut finir"),
+    arg("contour", "MAILLAGE", en="closed contour of SEG2"),
+    arg("first", "MAILLAGE", "POINT", en="where the segment may begin"),
+    arg("second", "MAILLAGE", "POINT", en="where it may end"),
     family="mesh",
     help=Help(
         en="Cuts a closed contour of SEG2 in two by the shortest segment from a node of the second "
         "mesh to a node of the third: that segment, the contour that holds it and the one that "
         "holds its inverse, both in the sense of the first. Only nodes on the contour count. A "
         "line that the axis of revolution closes may be cut too.",
-        fr="Coupe en deux un contour fermé de SEG2 par le plus petit segment entre un noeud du "
-        "deuxième maillage et un noeud du troisième : ce segment, le contour qui le contient et "
-        "celui qui contient son inverse, dans le sens du premier. Seuls comptent les noeuds du "
-        "contour. Une ligne que l'axe de révolution ferme peut aussi être coupée.",
         syntax="MAIL4 MAIL5 MAIL6 = FUIT MAIL1 MAIL2 MAIL3 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = DROI 6 (0. 0.) (3. 0.) ; B = DROI 2 (3. 0.) (3. 1.) ; "

@@ -12,17 +12,14 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
 
 @operator(
     "ISOV",
-    arg(
-        "field", "MCHAML", en="field at nodes, one component", fr="champ aux noeuds, une composante"
-    ),
+    arg("field", "MCHAML", en="field at nodes, one component"),
     choice(
         "side",
         tuple(_SIDES),
         default="EGAL",
         en="places of the value, the default, or of smaller or larger ones",
-        fr="lieux de la valeur, par défaut, ou de valeurs inférieures ou supérieures",
     ),
-    arg("value", "FLOTTANT", en="value", fr="valeur"),
+    arg("value", "FLOTTANT", en="value"),
     family="mesh",
     full_name="ISOVALEUR",
     help=Help(
@@ -31,11 +28,6 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
         "'EGSUPE' the part where it is smaller or equal, larger or equal, cells being cut along "
         "the value. The cells are POI1 SEG2 TRI3 TET4; QUA4 and linear volumes are first cut into "
         "triangles and tetrahedra.",
-        fr="Maillage des lieux où un champ par éléments, donné aux noeuds et d'une composante, "
-        "prend une valeur : points dans les lignes, lignes dans les surfaces, triangles dans les "
-        "volumes. Avec 'EGINFE', 'EGSUPE', partie où il est inférieur, supérieur ou égal, les "
-        "éléments étant coupés le long de la valeur. Les éléments sont POI1 SEG2 TRI3 TET4 ; QUA4 "
-        "et volumes linéaires sont d'abord découpés en triangles et tétraèdres.",
         syntax="MAIL1 = ISOV CHAM1 ('EGAL'|'EGINFE'|'EGSUPE') FLOT1 ;",
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; S = (DROI 3 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ; "

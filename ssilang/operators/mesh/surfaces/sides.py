@@ -9,19 +9,12 @@ from ssilang.language.run.call import Call
 
 @operator(
     "COTE",
-    arg(
-        "number",
-        "ENTIER",
-        en="1 initial, 2 right, 3 final, 4 left",
-        fr="1 initial, 2 droit, 3 final, 4 gauche",
-    ),
-    arg("mesh", "MAILLAGE", en="surface", fr="surface"),
+    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left"),
+    arg("mesh", "MAILLAGE", en="surface"),
     family="mesh",
     help=Help(
         en="Side of a surface kept from its making: 1 initial, 2 right, 3 final, 4 left; all of "
         "them without a number. They run round the surface in the sense of side 1.",
-        fr="Côté d'une surface gardé de sa construction : 1 initial, 2 droit, 3 final, 4 gauche ; "
-        "tous sans numéro. Ils tournent autour de la surface dans le sens du côté 1.",
         syntax="GEO1 = COTE (I1) GEO2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
@@ -42,7 +35,7 @@ def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
     return kept[number - 1]
 
 
-@cote.form(arg("mesh", "MAILLAGE", en="surface", fr="surface"), gives=ANY)
+@cote.form(arg("mesh", "MAILLAGE", en="surface"), gives=ANY)
 def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     """Give back all sides."""
     return _sides(call, mesh)
@@ -56,14 +49,12 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
 
 @operator(
     "FACE",
-    arg("number", "ENTIER", en="1 start, 2 end, 3 around", fr="1 initiale, 2 finale, 3 latérale"),
-    arg("mesh", "MAILLAGE", en="volume", fr="volume"),
+    arg("number", "ENTIER", en="1 start, 2 end, 3 around"),
+    arg("mesh", "MAILLAGE", en="volume"),
     family="mesh",
     help=Help(
         en="Face of a volume kept from its making: 1 start, 2 end, 3 around; all of them without a "
         "number.",
-        fr="Face d'un volume gardée de sa construction : 1 initiale, 2 finale, 3 latérale ; toutes "
-        "sans numéro.",
         syntax="GEO1 = FACE (N1) GEO2 ;",
         examples=(
             "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
@@ -84,7 +75,7 @@ def face(call: Call, number: int, mesh: Mesh) -> Mesh:
     return kept[number - 1]
 
 
-@face.form(arg("mesh", "MAILLAGE", en="volume", fr="volume"), gives=ANY)
+@face.form(arg("mesh", "MAILLAGE", en="volume"), gives=ANY)
 def all_faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     """Give back all faces."""
     return _faces(call, mesh)

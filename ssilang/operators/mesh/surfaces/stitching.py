@@ -11,23 +11,14 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "COUT",
-    arg("first", "MAILLAGE", en="line, or cells", fr="ligne, ou éléments"),
-    arg(
-        "second",
-        "MAILLAGE",
-        "POINT",
-        en="line in the same sense, or point",
-        fr="ligne de même sens, ou point",
-    ),
+    arg("first", "MAILLAGE", en="line, or cells"),
+    arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
     family="mesh",
     full_name="COUTURE",
     help=Help(
         en="Triangles between two lines described in the same sense, whatever their numbers of "
         "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
         "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
-        fr="Triangles entre deux lignes décrites dans le même sens, quels que soient leurs nombres "
-        "d'éléments ; ou éléments d'un maillage joints à un point (POI1 donnent SEG2, SEG2 TRI3, "
-        "SEG3 TRI6, TRI3 TET4, QUA4 PYR5), sauf ceux qui touchent le point.",
         syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 2 (0. 1.) (1. 1.) ;"

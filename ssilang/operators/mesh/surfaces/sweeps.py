@@ -43,25 +43,14 @@ _LAYERS_EN = (
     "sizes decide; DINI and DFIN replace them. If the first mesh is a surface its side 3 is swept "
     "and the result is the surface grown by the new cells. COTE gives the sides."
 )
-_LAYERS_FR = (
-    "N1 > 0 : N1 couches égales ; N1 < 0 : N1 couches gradées selon les densités ; sans N1 les "
-    "densités décident ; DINI et DFIN les remplacent. Si le premier maillage est une surface, son "
-    "côté 3 est balayé et le résultat est la surface augmentée. COTE rend les côtés."
-)
 
 
 LAYERS = opt(
     "count",
     "ENTIER",
     en="number of layers, graded by the mesh sizes if negative; without it these decide",
-    fr="nombre de couches, graduées selon les densités s'il est négatif ; sans lui elles décident",
 )
-_SWEPT = arg(
-    "swept",
-    "MAILLAGE",
-    en="line, or surface whose side 3 is swept",
-    fr="ligne, ou surface dont le côté 3 est balayé",
-)
+_SWEPT = arg("swept", "MAILLAGE", en="line, or surface whose side 3 is swept")
 
 
 def line_to_sweep(mesh: Mesh) -> Mesh:
@@ -101,12 +90,11 @@ def _swept(
     _SWEPT,
     LAYERS,
     SIZES,
-    arg("vector", "POINT", en="vector", fr="vecteur", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m"),
     family="mesh",
     full_name="TRANSLATION",
     help=Help(
         en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
-        fr="Surface engendrée par translation d'une ligne selon un vecteur. " + _LAYERS_FR,
         syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
@@ -133,8 +121,6 @@ def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point
     help=Help(
         en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
         "(3D). " + _LAYERS_EN,
-        fr="Surface engendrée par rotation d'une ligne d'un angle en degrés autour d'un point (2D) "
-        "ou d'un axe (3D). " + _LAYERS_FR,
         syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = L ROTA 8 90. (0. 0.) ;",
@@ -169,21 +155,13 @@ def turning(
     _SWEPT,
     LAYERS,
     SIZES,
-    arg(
-        "goal",
-        "MAILLAGE",
-        en="line to reach, or surface whose side 1 is reached",
-        fr="ligne à atteindre, ou surface dont le côté 1 est atteint",
-    ),
+    arg("goal", "MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
     family="mesh",
     full_name="REGLER",
     help=Help(
         en="Ruled surface between two lines with the same cells, described in the same sense. "
         + _LAYERS_EN
         + " If the second is a surface its side 1 is reached.",
-        fr="Surface réglée entre deux lignes de même découpage, décrites dans le même sens. "
-        + _LAYERS_FR
-        + " Si le second est une surface, son côté 1 est atteint.",
         syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
@@ -231,15 +209,13 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
 
 @operator(
     "GENE",
-    arg("line", "MAILLAGE", en="line that is swept", fr="ligne balayée"),
-    arg("way", "MAILLAGE", en="line along which it goes", fr="ligne qu'elle suit"),
+    arg("line", "MAILLAGE", en="line that is swept"),
+    arg("way", "MAILLAGE", en="line along which it goes"),
     family="mesh",
     full_name="GENERATRICE",
     help=Help(
         en="Surface swept by a line moved parallel to itself along another line, one layer for "
         "each of its cells.",
-        fr="Surface engendrée par une ligne déplacée parallèlement à elle-même le long d'une autre "
-        "ligne, une couche par élément de celle-ci.",
         syntax="SURF1 = LIG1 GENE LIG2 ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ;"

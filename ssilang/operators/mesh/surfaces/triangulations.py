@@ -19,19 +19,9 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "TRIA",
-    arg(
-        "mesh",
-        "MAILLAGE",
-        en="closed lines, or points",
-        fr="lignes fermées, ou points",
-    ),
-    flag(
-        "convex",
-        "CONV",
-        en="of points: their convex hull, as always",
-        fr="de points : leur enveloppe convexe, comme toujours",
-    ),
-    opt("limit", "ENTIER", en="accepted, without effect", fr="accepté, sans effet"),
+    arg("mesh", "MAILLAGE", en="closed lines, or points"),
+    flag("convex", "CONV", en="of points: their convex hull, as always"),
+    opt("limit", "ENTIER", en="accepted, without effect"),
     family="mesh",
     full_name="TRIANGULATION",
     help=Help(
@@ -39,10 +29,6 @@ from ssilang.operators.workspace import workspace
         "refines them); lines that end inside, lie free there or cut the domain in parts are "
         "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
         "points: TRI3 in 2D, TET4 in 3D.",
-        fr="Triangles intérieurs à des lignes planes fermées de SEG2, de sens quelconque, sans "
-        "nouveau point (RAFT les raffine) ; les lignes qui finissent à l'intérieur, y sont libres "
-        "ou coupent le domaine restent des côtés de triangles. Ou triangulation de "
-        "Delaunay d'un maillage de points : TRI3 en 2D, TET4 en 3D.",
         syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; L = P D 3 (1. 0.) D 3 (0. 1.) D 3 P ;"
@@ -68,21 +54,18 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
 
 @operator(
     "RAFT",
-    arg("mesh", "MAILLAGE", en="plane triangles", fr="triangles plans"),
+    arg("mesh", "MAILLAGE", en="plane triangles"),
     opt(
         "sizes",
         "CHPOINT",
         en="mesh sizes wanted; without it the densities of the nodes",
-        fr="tailles de maille voulues ; sans lui les densités des noeuds",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", fr="accepté, sans effet"),
+    opt("limit", "ENTIER", en="accepted, without effect"),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
         "nodes) by new points inside; the contour is kept.",
-        fr="Raffine un maillage plan de TRI3 selon les tailles d'un champ par points (ou les "
-        "densités de ses noeuds) par de nouveaux points intérieurs ; le contour est gardé.",
         syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
         examples=(
             "OPTI DIME 2 ELEM TRI3 ; P = 0. 0. ; L = P D 8 (1. 0.) D 8 (0. 1.) D 8 P ;"

@@ -18,9 +18,9 @@ from ssilang.operators.workspace import workspace
 
 @operator(
     "VORO",
-    arg("germs", "MAILLAGE", en="points of the cells", fr="points des cellules"),
-    arg("contour", "MAILLAGE", en="closed line of SEG2", fr="ligne fermée de SEG2"),
-    opt("weights", "CHPOINT", en="weights of the points", fr="poids des points", unit="m"),
+    arg("germs", "MAILLAGE", en="points of the cells"),
+    arg("contour", "MAILLAGE", en="closed line of SEG2"),
+    opt("weights", "CHPOINT", en="weights of the points", unit="m"),
     family="mesh",
     full_name="VORONOI",
     help=Help(
@@ -29,12 +29,6 @@ from ssilang.operators.workspace import workspace
         "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
         "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
         "numbers, 'VOIS', the points of the cells beside it.",
-        fr="Partition de Voronoi de l'intérieur d'une ligne fermée de SEG2 (2D) : chaque cellule "
-        "tient ce qui est le plus près d'un point d'un maillage de POI1. Des poids w aux points en "
-        "font une partition selon le moindre d^2 - w^2. La table a 'VISU', toutes les arêtes ; "
-        "'POND', les poids ; 'ARTS', les arêtes 1, 2 ... ; 'CELL', indicée par les points : "
-        "'VISU', les arêtes autour, 'ARTS', leurs numéros, 'VOIS', les points des cellules "
-        "voisines.",
         syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
         examples=(
             "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L = A D 1 (2. 0.) D 1 (2. 1.) D 1 (0. 1.) D 1 A ; "
