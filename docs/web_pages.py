@@ -75,6 +75,11 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     )),
     ("Inside", (
         ("The house", "docs/architecture.md"), ("Contributing", "CONTRIBUTING.md"),
+        ("Adding an operator", "docs/adding_an_operator.md"),
+        ("Adding a joint law", "docs/adding_a_joint_law.md"),
+        ("Adding a time scheme", "docs/adding_a_time_scheme.md"),
+        ("Adding an output format", "docs/adding_an_output_format.md"),
+        ("Adding a message", "docs/adding_a_message.md"),
         ("Speed", "benchmarks/README.md"), ("Changes", "CHANGELOG.md"),
     )),
 )  # fmt: skip
