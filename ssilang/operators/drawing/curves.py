@@ -133,16 +133,6 @@ _OPTIONS: tuple[Entry, ...] = (
         "('CHOI' N1 ...) "
         "('TITR' T) ('TITX' T) ('TITY' T) ('POSX' M) ('POSY' M) ('XFMT' F) ('YFMT' F) ('AXES') "
         "('LEGE' (PLACE)) (TAB1) ;",
-        examples=(
-            "EV = EVOL 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; DESS EV 'GRIL' 'MIMA' ;",
-            "E1 = EVOL 'MANU' 'LEGE' 'exact' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ;\n"
-            "E2 = EVOL 'MANU' 'LEGE' 'found' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3.5 1.) ;\n"
-            "DESS (E1 ET E2) 'ECAR' ;",
-            (
-                "E = EVOL 'MANU' (PROG -1. 0. 2.) (PROG -3. 9. 1.) ;\n"
-                "DESS E 'AXES' 'POSX' 'CENT' 'POSY' 'EXCE' 'LEGE' 'NE' ;"
-            ),
-        ),
     ),
 )
 def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: Any) -> None:

@@ -55,7 +55,6 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
     "points, a list with one value a point. Words after the last pair need N1, the number of "
     "pairs.",
-    examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (MANU 'CHPO' P 'UX' 3. 'UY' 4.) ;",),
 )
 def node_field(
     call: Call,
@@ -145,12 +144,6 @@ _CURVES = (
     syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
     en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
     "against numbers that increase (the indices of a table of them).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; A = MANU 'CHML' L 'YOUN' 3. ; "
-        "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; LIST (EXTR C 'YOUN' 1 1 1) ; "
-        "T = TABL ; T . 20. = A ; T . 100. = 2. * A ; "
-        "LIST (EXTR (MANU 'CHML' 'EVOL' 'T' T) 'YOUN' 1 1 1) ;",
-    ),
 )
 def curves_in_cells(
     call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
@@ -199,13 +192,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
     "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
     "everywhere but at one point of one cell.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "LIST (MAXI (MANU 'CHML' L 'SCAL' 3.)) ;",
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-        "LIST (MAXI (MANU 'CHAM' MO 'POSI' 'GRAVITE' 'V' 2 1 7.)) ;",
-    ),
 )
 def cell_field(
     call: Call,

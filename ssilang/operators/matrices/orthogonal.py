@@ -14,8 +14,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
 from ssilang.language.vocabulary.terms import POSITIVE
 
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
-
 
 @operator(
     "ORTH",
@@ -34,10 +32,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
         "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
         syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
-        examples=(
-            _TWO + "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; X = MANU 'CHPO' (P ET Q) 1 'UX' "
-            "(PROG 1. 2.) ; Y = ORTH X (SUIT U) (PROG 9.) K ; LIST (YTMX Y U K) ;",
-        ),
     ),
 )
 def orth(

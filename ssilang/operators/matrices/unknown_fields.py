@@ -11,8 +11,6 @@ from ssilang.language.registry import Chosen, Help, arg, operator, select
 from ssilang.language.run.call import Call
 from ssilang.operators.numbers.noise import session_generator
 
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
-
 
 @operator(
     "CHPO",
@@ -31,13 +29,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
         "random values between 0 and 1 ('ALEATOIRE').",
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
-        examples=(
-            _TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "C = CHPO 'ALEA' (APPU 'UX' 1. P) ; LIST (EXTR C 'COMP') ;"
-            ),
-        ),
     ),
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:

@@ -299,12 +299,6 @@ def _restart(run: ModalRun, system: System) -> Table:
     return filled("REPRISE", entries)
 
 
-_EXAMPLE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 39.4784176 P1 ; "
-    "B1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 1. P1) ; "
-    "P2 = B1 . 'MODES' . 1 . 'POINT_REPERE' ; "
-    "TI = TABL 'INITIAL' ; TI . 'DEPLACEMENT' = MANU 'CHPO' P2 1 'ALFA' 1. ; "
-)
 operator(
     "DYNE",
     choice("scheme", SCHEMES, optional=False, en="how time is stepped"),
@@ -332,15 +326,5 @@ operator(
         "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
         "TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
         "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
-        (
-            _EXAMPLE + "R = DYNE 'DE_VOGELAERE' B1 TI 100 0.01 ; "
-            "LIST (MAXI (R . 51 . 'DEPLACEMENT')) ;",
-            _EXAMPLE + "L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; "
-            "L1 . 'SUPPORT' = P1 ; L1 . 'NORMALE' = -1. 0. ; L1 . 'RAIDEUR' = 4.E3 ; "
-            "L1 . 'JEU' = 0. ; TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ; "
-            "TL . 'LIAISON_B' . 1 = L1 ; TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ;"
-            " TS . 'LIAISON_B' . L1 = VRAI ; R = DYNE 'DE_VOGELAERE' B1 TI TL TS 400 1.E-3 ; "
-            "LIST (MAXI (R . L1 . 'FORCE_DE_CHOC') 'ABS') ;",
-        ),
     ),
 )(_dyne)
