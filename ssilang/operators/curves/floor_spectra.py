@@ -8,7 +8,7 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
+from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
 
 
 @operator(
@@ -24,10 +24,10 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
         "dampings",
         "LISTREEL",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="their dampings",
     ),
-    arg("shares", "LISTREEL", en="their participations"),
+    arg("shares", "LISTREEL", en="their participations", range=ANY_NUMBER),
     arg(
         "frequencies",
         "LISTREEL",
@@ -39,7 +39,7 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
         "damping",
         "FLOTTANT",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="its damping",
     ),
     arg("power", "EVOLUTIO", en="power density"),

@@ -9,7 +9,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Help, arg, flag, key, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, Range
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE
 
 _LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
@@ -70,14 +70,14 @@ operator(
     key(
         "dampings",
         "AMOR",
-        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=Range(0.0, 1.0, open_high=True)),
+        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
         optional=False,
         en="dampings",
     ),
     key(
         "law",
         _LAWS,
-        arg("numbers", "LISTREEL", en="ductility and ratio"),
+        arg("numbers", "LISTREEL", en="ductility and ratio", range=NOT_NEGATIVE),
         en="kinematic or isotropic hardening, or non-linear elastic",
     ),
     flag("takeda", "TAKE", en="not available"),

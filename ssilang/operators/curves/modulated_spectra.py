@@ -13,7 +13,7 @@ from ssilang.kernel.records.modulated import (
 from ssilang.language.registry import Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, RISING, Range
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, RISING
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 
@@ -34,7 +34,7 @@ from ssilang.operators.curves.words import COLOUR, one_part, shade
         "damping",
         "FLOTTANT",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         default=0.05,
         en="damping, 0.05 without it",
     ),

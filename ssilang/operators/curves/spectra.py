@@ -14,11 +14,14 @@ from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE, RISING, between
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 
 _TIMES = key(
-    "times", "TEMPS", arg("t", "LISTREEL", unit="s"), en="times; those of the signal without it"
+    "times",
+    "TEMPS",
+    arg("t", "LISTREEL", unit="s", range=RISING),
+    en="times; those of the signal without it",
 )
 _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
 
@@ -40,8 +43,10 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         en="frequency",
     ),
     _TIMES,
-    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start"),
-    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start"),
+    key("start", "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"),
+    key(
+        "speed", "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
+    ),
     _COLOUR,
     arg("signal", "EVOLUTIO", en="signal g(t)"),
     family="modal",
@@ -103,7 +108,7 @@ def osci(
     key(
         "percentiles",
         "ROTD",
-        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median"),
+        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", range=between(0.0, 100.0)),
         en="percentiles over all directions of two components",
     ),
     arg("signal", "EVOLUTIO", en="acceleration"),
@@ -198,12 +203,12 @@ def _valp(
 
 operator(
     "VALP",
-    arg("diagonal", "LISTREEL", en="diagonal"),
-    arg("below", "LISTREEL", en="sub-diagonal"),
+    arg("diagonal", "LISTREEL", en="diagonal", range=ANY_NUMBER),
+    arg("below", "LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
     key(
         "accuracy",
         ("ITERATION", "ABSOLU", "RELATIF"),
-        arg("number", "FLOTTANT"),
+        arg("number", "FLOTTANT", range=ANY_NUMBER),
         repeated=True,
         en="accepted: exact to rounding",
     ),

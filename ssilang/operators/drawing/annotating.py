@@ -7,6 +7,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import arg, many, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import shared_operator, union
 from ssilang.operators.drawing.objects import is_colour
 
@@ -47,7 +48,7 @@ def _category(colour: str, text: str) -> Annotation:
     said("ETIQ"),
     arg("point", "POINT", en="where"),
     many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
-    opt("distance", "FLOTTANT", en="distance of the text", unit="m"),
+    opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
     "(FLOT1) (LOGI1) MOT1 ;",

@@ -26,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import EXTR, union
 from ssilang.operators.workspace import workspace
 
@@ -50,7 +51,7 @@ def is_colour(word: str) -> bool:
     choice("colour", COLOURS, en="colour"),
     arg("mesh", "MAILLAGE", en="mesh"),
     arg("displacement", "CHPOINT", en="displacements", unit="m"),
-    opt("scale", "FLOTTANT", en="amplification"),
+    opt("scale", "FLOTTANT", en="amplification", range=ANY_NUMBER),
     opt("arrows", "VECTEUR", en="arrows drawn on it"),
     opt("field", "CHPOINT", en="field shown on it"),
     opt("cells", "MCHAML", en="field in cells shown on it"),
@@ -114,7 +115,9 @@ VECT = shared(
     ),
     full_name="VECTEUR",
 )
-_SCALE = opt("scale", "FLOTTANT", en="amplification, chosen by the picture by default")
+_SCALE = opt(
+    "scale", "FLOTTANT", en="amplification, chosen by the picture by default", range=ANY_NUMBER
+)
 
 
 @VECT.form(

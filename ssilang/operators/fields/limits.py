@@ -8,13 +8,14 @@ from ssilang.kernel.fields.cell_algebra import component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 
 
 @operator(
     "PILE",
     arg("first", "MCHAML", en="where one starts"),
     arg("second", "MCHAML", en="direction"),
-    arg("limit", "FLOTTANT", en="limit, positive"),
+    arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
     family="fields",
     full_name="PILEPS",
     help=Help(
@@ -29,8 +30,6 @@ from ssilang.language.run.call import Call
 )
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""
-    if limit <= 0.0:
-        raise call.error("operators.fields.limit-not-positive", limit, limit=limit)
     if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
         raise call.error("operators.fields.fields-of-other-zones", second)
     best = np.inf

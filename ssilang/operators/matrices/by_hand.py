@@ -15,6 +15,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Keyword, arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
 
@@ -41,7 +42,13 @@ def _sign(words: Sequence[str]) -> Keyword:
         kind="component",
         en="unknowns of a node, or one list a node",
     ),
-    many("rows", "LISTREEL", at_least=1, en="terms row by row, all or the lower triangle"),
+    many(
+        "rows",
+        "LISTREEL",
+        at_least=1,
+        en="terms row by row, all or the lower triangle",
+        range=ANY_NUMBER,
+    ),
     syntax="RIG1 = MANU 'RIGI' ('TYPE' MOT1) GEO1 LMOT1 ... ('DUAL' LMOT2 ...) ('ANTI' | 'QUEL') "
     "LREEL1 ... ;",
     en="Matrix by hand. The same element matrix on all cells of a mesh: names of the unknowns of a "

@@ -7,14 +7,15 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_ZERO, POSITIVE
 from ssilang.operators.workspace import workspace
 
 
 @operator(
     "CABL",
     arg("mesh", "MAILLAGE", en="cables"),
-    arg("force", "FLOTTANT", en="force", unit="N"),
-    arg("percent", "FLOTTANT", en="lengthening under it", unit="%"),
+    arg("force", "FLOTTANT", en="force", unit="N", usual=POSITIVE),
+    arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
     family="matrix",
     full_name="CABLE",
     help=Help(
@@ -28,6 +29,4 @@ from ssilang.operators.workspace import workspace
 )
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""
-    if percent == 0.0:
-        raise call.error("operators.matrices.force-without-lengthening")
     return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

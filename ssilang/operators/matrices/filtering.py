@@ -14,7 +14,7 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
     "MFIL",
     arg("weights", "CHPOINT", en="weight of each node"),
     opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
-    opt("power", "FLOTTANT", default=1.0, en="power"),
+    opt("power", "FLOTTANT", default=1.0, en="power", range=NOT_NEGATIVE),
     opt("least", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
     opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
     opt("dual", "MOT", kind="component", en="dual, else the same"),

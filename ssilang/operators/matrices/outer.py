@@ -7,12 +7,13 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.outer import sum_of_outer_products
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.values import ListChpo, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
     "ZXXT",
     arg("fields", "LISTCHPO", en="fields v"),
-    arg("factors", "LISTREEL", en="numbers a"),
+    arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
     family="matrix",
     help=Help(
         en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
@@ -33,7 +34,7 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
 @operator(
     "XXT",
     arg("field", "CHPOINT", en="v"),
-    opt("factor", "FLOTTANT", default=1.0, en="a"),
+    opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
     family="matrix",
     help=Help(
         en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "

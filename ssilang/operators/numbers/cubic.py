@@ -6,14 +6,15 @@ import numpy as np
 
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
     "DEG3",
-    arg("a0", "FLOTTANT", en="constant term"),
-    arg("a1", "FLOTTANT", en="factor of X"),
-    arg("a2", "FLOTTANT", en="factor of X**2"),
-    arg("a3", "FLOTTANT", en="factor of X**3"),
+    arg("a0", "FLOTTANT", en="constant term", range=ANY_NUMBER),
+    arg("a1", "FLOTTANT", en="factor of X", range=ANY_NUMBER),
+    arg("a2", "FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
+    arg("a3", "FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
     family="numbers",
     help=Help(
         en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "

@@ -16,6 +16,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 RACP = shared(
     "RACP",
@@ -38,8 +39,8 @@ RACP = shared(
 )
 _POLYNOMIAL = (
     flag("bairstow", "BAIR", en="changes nothing"),
-    opt("listed", "LISTREEL", en="coefficients by power"),
-    many("numbers", "FLOTTANT", en="coefficients, else"),
+    opt("listed", "LISTREEL", en="coefficients by power", range=ANY_NUMBER),
+    many("numbers", "FLOTTANT", en="coefficients, else", range=ANY_NUMBER),
 )
 
 
@@ -53,8 +54,8 @@ def _all_roots(
 
 @RACP.form(
     said("INTE"),
-    arg("low", "FLOTTANT", en="one end of an interval"),
-    arg("high", "FLOTTANT", en="the other end"),
+    arg("low", "FLOTTANT", en="one end of an interval", range=ANY_NUMBER),
+    arg("high", "FLOTTANT", en="the other end", range=ANY_NUMBER),
     *_POLYNOMIAL,
     gives="FLOTTANT|MOT",
 )

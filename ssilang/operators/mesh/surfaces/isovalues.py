@@ -6,6 +6,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, choice, operator
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
 
@@ -19,7 +20,7 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
         default="EGAL",
         en="places of the value, the default, or of smaller or larger ones",
     ),
-    arg("value", "FLOTTANT", en="value"),
+    arg("value", "FLOTTANT", en="value", range=ANY_NUMBER),
     family="mesh",
     full_name="ISOVALEUR",
     help=Help(
