@@ -75,7 +75,7 @@ ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "shells": (("kernel/elements/shells",), ("kernel/elements/shells",)),
     "matrices": (
-        ("kernel/matrices/lumping.py", "kernel/matrices/relations.py",
+        ("kernel/matrices/build.py", "kernel/matrices/relations.py",
          "kernel/matrices/assembly.py", "kernel/matrices/imposed.py"),
         ("kernel/matrices", "operators/test_lumping.py", "operators/test_matrix_making.py"),
     ),

@@ -24,8 +24,7 @@ from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.models.reduction import reference_to_curve
-from ssilang.operators.models.tension import tension_to_hardening
+from ssilang.operators.models.reduction import reference_to_curve, tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
