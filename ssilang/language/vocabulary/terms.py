@@ -146,7 +146,6 @@ def read_range(text: str) -> Range:
 ANY_NUMBER = Range()
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
-NOT_POSITIVE = Range(high=0.0)
 RISING = Range(0.0, increasing=True)
 
 
@@ -202,29 +201,6 @@ class Quantity(Word):
     range: Range = ANY_NUMBER
     usual: Range = ANY_NUMBER
     default: float | None = None
-
-
-def parameter(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
-    default: float | None = None,
-) -> Quantity:
-    """A parameter of a material or section."""
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
-
-def unused_parameter(
-    name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()
-) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 @dataclass(frozen=True, slots=True)
