@@ -120,7 +120,9 @@ def test_blocks_nest(run):
 
 
 def test_nothing_in_a_skipped_branch_is_evaluated(run):
-    run("SI FAUX ; y = UNKNOWNOP 1 2 ; z = 1 / 0 ; FINSI ;")
+    text = "x = 1 ; SI FAUX ; x = UNKNOWNOP 1 2 ; x = 1 / 0 ; MESS 'met' ; SINON ; y = 2 ; FINSI ;"
+    script = run(text)
+    assert (script["x"], script["y"], script.lines) == (1, 2, [])
 
 
 @pytest.mark.parametrize("words", ["'SI' VRAI ; x = 1 ; 'FINSI'", "si VRAI ; x = 1 ; finsi",
