@@ -153,7 +153,6 @@ ANY_NUMBER = Range(open_low=True, open_high=True)
 NOT_ZERO = Range(zero=False)
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
-NOT_POSITIVE = Range(high=0.0)
 RISING = Range(0.0, increasing=True)
 BELOW_CRITICAL = Range(0.0, 1.0, open_high=True)
 _NAMED = {"": UNSAID, "any": ANY_NUMBER, "!= 0": NOT_ZERO}
@@ -211,29 +210,6 @@ class Quantity(Word):
     range: Range = UNSAID
     usual: Range = UNSAID
     default: float | None = None
-
-
-def parameter(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = UNSAID,
-    usual: Range = UNSAID,
-    default: float | None = None,
-) -> Quantity:
-    """A parameter of a material or section."""
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
-
-def unused_parameter(
-    name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()
-) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,6 @@ from ssilang.kernel.contact.active_set import (
     find_active,
     list_closed,
 )
-from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.rests.modal.diagonal import (
     Sweep,
     account,
