@@ -17,13 +17,22 @@ from ssilang.kernel.records.modulated import (
 from ssilang.language.registry import ANY, Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, RISING, Range
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    BELOW_CRITICAL,
+    NOT_NEGATIVE,
+    POSITIVE,
+    RISING,
+    between,
+)
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
-_SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers")
+_SEED = key(
+    "seed", "INIT", arg("seed", "ENTIER", range=ANY_NUMBER), en="start of the random numbers"
+)
 
 
 def _drawn(call: Call, seed: int | None) -> np.random.Generator:
@@ -177,12 +186,12 @@ def _bands(
 
 @operator(
     "PERT",
-    arg("values", "LISTREEL", en="values"),
+    arg("values", "LISTREEL", en="values", range=ANY_NUMBER),
     flag("signs", "SIGN", en="signs drawn, the default"),
     key(
         "degrees",
         "AMPL",
-        arg("degrees", "FLOTTANT", unit="degree"),
+        arg("degrees", "FLOTTANT", unit="degree", usual=between(0.0, 90.0)),
         en="largest angle whose sin^2 is the share given to the neighbours",
     ),
     _SEED,
@@ -218,7 +227,7 @@ def pert(
         "damping",
         "FLOTTANT",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         default=0.05,
         en="damping, 0.05 without it",
     ),

@@ -24,7 +24,7 @@ from ssilang.kernel.records.signals import (
 )
 from ssilang.language.registry import Help, arg, by, choice, flag, key, operator
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import COLOUR, CURVE, check_together, one_part, shade
 from ssilang.operators.mesh.copies.images import tour
@@ -62,7 +62,7 @@ def filtered_records(
 @tour.form(
     arg("first", "EVOLUTIO", en="component along x"),
     arg("second", "EVOLUTIO", en="component along y"),
-    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg"),
+    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
     gives=("EVOLUTIO", "EVOLUTIO"),
     en="Two horizontal components of a record along axes turned by an angle in degrees, from x to "
     "y.",
@@ -83,8 +83,9 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
     "ZOND",
     arg("record", "EVOLUTIO", en="acceleration"),
     arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz"),
-    key("damping", "AMOR", arg("xi", "FLOTTANT"), default=0.05, en="damping"),
-    key("tolerance", "TOLE", arg("x", "FLOTTANT"), default=0.05,
+    key("damping", "AMOR", arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
+        default=0.05, en="damping"),
+    key("tolerance", "TOLE", arg("x", "FLOTTANT", range=POSITIVE), default=0.05,
         en="largest misfit, 0.05 without it"),
     family="signals",
     gives=("EVOLUTIO", "FLOTTANT"),
@@ -99,8 +100,6 @@ def zond(
 ) -> tuple[Curve, float]:
     """Match a record."""
     part, wanted = one_part(call, record), one_part(call, target)
-    if not tolerance > 0.0:
-        raise call.error("operators.curves.tolerance-not-positive", tolerance, tolerance=tolerance)
     found = matched(
         part.abscissas, part.ordinates, wanted.abscissas, wanted.ordinates, damping, tolerance
     )
@@ -135,21 +134,21 @@ def zond(
     key(
         "count",
         ("NFRQ", "DFRQ"),
-        arg("count", "FLOTTANT"),
+        arg("count", "FLOTTANT", range=POSITIVE),
         default=("NFRQ", 50.0),
         en="number of frequencies, 50 without it",
     ),
     key(
         "turn",
         "EPSI",
-        arg("turn", "FLOTTANT"),
+        arg("turn", "FLOTTANT", range=POSITIVE),
         default=1e-4,
         en="tolerance of the phase, 1.E-4 without it",
     ),
     key(
         "pulsation",
         "PULS",
-        arg("pulsation", "FLOTTANT"),
+        arg("pulsation", "FLOTTANT", range=POSITIVE),
         default=5.0,
         en="pulsation of the wavelet, 5 without it",
     ),

@@ -15,12 +15,22 @@ from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    BELOW_CRITICAL,
+    NOT_NEGATIVE,
+    POSITIVE,
+    RISING,
+    between,
+)
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 from ssilang.operators.mesh.selection.boundaries import enve
 
 _TIMES = key(
-    "times", "TEMPS", arg("t", "LISTREEL", unit="s"), en="times; those of the signal without it"
+    "times",
+    "TEMPS",
+    arg("t", "LISTREEL", unit="s", range=RISING),
+    en="times; those of the signal without it",
 )
 _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
 
@@ -42,8 +52,10 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         en="frequency",
     ),
     _TIMES,
-    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start"),
-    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start"),
+    key("start", "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"),
+    key(
+        "speed", "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
+    ),
     _COLOUR,
     arg("signal", "EVOLUTIO", en="signal g(t)"),
     family="modal",
@@ -101,7 +113,7 @@ def osci(
     key(
         "percentiles",
         "ROTD",
-        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median"),
+        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", range=between(0.0, 100.0)),
         en="percentiles over all directions of two components",
     ),
     arg("signal", "EVOLUTIO", en="acceleration"),
@@ -190,12 +202,12 @@ def _valp(
 
 operator(
     "VALP",
-    arg("diagonal", "LISTREEL", en="diagonal"),
-    arg("below", "LISTREEL", en="sub-diagonal"),
+    arg("diagonal", "LISTREEL", en="diagonal", range=ANY_NUMBER),
+    arg("below", "LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
     key(
         "accuracy",
         ("ITERATION", "ABSOLU", "RELATIF"),
-        arg("number", "FLOTTANT"),
+        arg("number", "FLOTTANT", range=ANY_NUMBER),
         repeated=True,
         en="accepted: exact to rounding",
     ),
@@ -222,10 +234,10 @@ operator(
         "dampings",
         "LISTREEL",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="their dampings",
     ),
-    arg("shares", "LISTREEL", en="their participations"),
+    arg("shares", "LISTREEL", en="their participations", range=ANY_NUMBER),
     arg(
         "frequencies",
         "LISTREEL",
@@ -237,7 +249,7 @@ operator(
         "damping",
         "FLOTTANT",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="its damping",
     ),
     arg("power", "EVOLUTIO", en="power density"),
@@ -326,14 +338,14 @@ operator(
     key(
         "dampings",
         "AMOR",
-        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=Range(0.0, 1.0, open_high=True)),
+        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
         optional=False,
         en="dampings",
     ),
     key(
         "law",
         _LAWS,
-        arg("numbers", "LISTREEL", en="ductility and ratio"),
+        arg("numbers", "LISTREEL", en="ductility and ratio", range=NOT_NEGATIVE),
         en="kinematic or isotropic hardening, or non-linear elastic",
     ),
     flag("takeda", "TAKE", en="not available"),

@@ -28,6 +28,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import EXTR, shared_operator, union
 from ssilang.operators.workspace import workspace
 
@@ -52,7 +53,7 @@ def is_colour(word: str) -> bool:
     choice("colour", COLOURS, en="colour"),
     arg("mesh", "MAILLAGE", en="mesh"),
     arg("displacement", "CHPOINT", en="displacements", unit="m"),
-    opt("scale", "FLOTTANT", en="amplification"),
+    opt("scale", "FLOTTANT", en="amplification", range=ANY_NUMBER),
     opt("arrows", "VECTEUR", en="arrows drawn on it"),
     opt("field", "CHPOINT", en="field shown on it"),
     opt("cells", "MCHAML", en="field in cells shown on it"),
@@ -102,7 +103,9 @@ VECT = shared(
     ),
     full_name="VECTEUR",
 )
-_SCALE = opt("scale", "FLOTTANT", en="amplification, chosen by the picture by default")
+_SCALE = opt(
+    "scale", "FLOTTANT", en="amplification, chosen by the picture by default", range=ANY_NUMBER
+)
 
 
 @VECT.form(
@@ -233,7 +236,7 @@ def _category(colour: str, text: str) -> Annotation:
     said("ETIQ"),
     arg("point", "POINT", en="where"),
     many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
-    opt("distance", "FLOTTANT", en="distance of the text", unit="m"),
+    opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
     "(FLOT1) (LOGI1) MOT1 ;",

@@ -27,6 +27,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
@@ -35,7 +36,7 @@ _FIELDS = ("CHPOINT", "MCHAML")
 _LAGRANGE = frozenset({"LX", "FLX"})
 
 
-_FIELD = arg("field", *_FIELDS, en="field")
+_FIELD = arg("field", *_FIELDS, en="field", range=ANY_NUMBER)
 _NODAL = arg("field", "CHPOINT", en="field at nodes")
 _IN_CELLS = arg("field", "MCHAML", en="field in cells")
 NATURE = key(

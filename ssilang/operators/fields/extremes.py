@@ -26,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
@@ -142,7 +143,7 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
-        many("others", "ENTIER", "FLOTTANT", en="more numbers"),
+        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=ANY_NUMBER),
         gives="FLOTTANT|ENTIER",
         syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
         en=f"Of numbers: the {en}.",
@@ -150,7 +151,7 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
-        many("others", "LISTREEL", "LISTENTI", en="lists of the same length"),
+        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=ANY_NUMBER),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
         syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
         en=f"Of a list: the {en} value; of several, item by item.",
@@ -203,7 +204,7 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
     "PILE",
     arg("first", "MCHAML", en="where one starts"),
     arg("second", "MCHAML", en="direction"),
-    arg("limit", "FLOTTANT", en="limit, positive"),
+    arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
     family="fields",
     full_name="PILEPS",
     help=Help(
@@ -214,8 +215,6 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
 )
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""
-    if limit <= 0.0:
-        raise call.error("operators.fields.limit-not-positive", limit, limit=limit)
     if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
         raise call.error("operators.fields.fields-of-other-zones", second)
     best = np.inf

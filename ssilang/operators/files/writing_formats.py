@@ -23,6 +23,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import arg, choice, flag, key, lead, main, named, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.files.meshes import PLANE, mesh_table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
@@ -37,7 +38,7 @@ from ssilang.operators.workspace import workspace
     opt("nodal", "CHPOINT", en="nodal field"),
     opt("cells", "MCHAML", en="field in cells"),
     flag("follows", "SUIT", en="behind what is written"),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
+    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
     syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
     en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
     "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "

@@ -32,7 +32,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListMots, ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO, POSITIVE
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
 from ssilang.operators.workspace import workspace
@@ -60,7 +60,13 @@ def _sign(words: Sequence[str]) -> Keyword:
         kind="component",
         en="unknowns of a node, or one list a node",
     ),
-    many("rows", "LISTREEL", at_least=1, en="terms row by row, all or the lower triangle"),
+    many(
+        "rows",
+        "LISTREEL",
+        at_least=1,
+        en="terms row by row, all or the lower triangle",
+        range=ANY_NUMBER,
+    ),
     syntax="RIG1 = MANU 'RIGI' ('TYPE' MOT1) GEO1 LMOT1 ... ('DUAL' LMOT2 ...) ('ANTI' | 'QUEL') "
     "LREEL1 ... ;",
     en="Matrix by hand. The same element matrix on all cells of a mesh: names of the unknowns of a "
@@ -187,7 +193,7 @@ def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
     "MFIL",
     arg("weights", "CHPOINT", en="weight of each node"),
     opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
-    opt("power", "FLOTTANT", default=1.0, en="power"),
+    opt("power", "FLOTTANT", default=1.0, en="power", range=NOT_NEGATIVE),
     opt("least", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
     opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
     opt("dual", "MOT", kind="component", en="dual, else the same"),
@@ -221,7 +227,7 @@ def mfil(
 @operator(
     "ZXXT",
     arg("fields", "LISTCHPO", en="fields v"),
-    arg("factors", "LISTREEL", en="numbers a"),
+    arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
     family="matrix",
     help=Help(
         en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
@@ -238,7 +244,7 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
 @operator(
     "XXT",
     arg("field", "CHPOINT", en="v"),
-    opt("factor", "FLOTTANT", default=1.0, en="a"),
+    opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
     family="matrix",
     help=Help(
         en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
@@ -254,8 +260,8 @@ def xxt(field: NodeField, factor: float) -> Matrix:
 @operator(
     "CABL",
     arg("mesh", "MAILLAGE", en="cables"),
-    arg("force", "FLOTTANT", en="force", unit="N"),
-    arg("percent", "FLOTTANT", en="lengthening under it", unit="%"),
+    arg("force", "FLOTTANT", en="force", unit="N", usual=POSITIVE),
+    arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
     family="matrix",
     full_name="CABLE",
     help=Help(
@@ -265,6 +271,4 @@ def xxt(field: NodeField, factor: float) -> Matrix:
 )
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""
-    if percent == 0.0:
-        raise call.error("operators.matrices.force-without-lengthening")
     return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

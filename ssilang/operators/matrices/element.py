@@ -366,12 +366,7 @@ def kp(
 
 @kp.form(
     MODEL,
-    arg(
-        "modulus",
-        "FLOTTANT",
-        en="gradient of the pressure",
-        unit="N/m3",
-    ),
+    arg("modulus", "FLOTTANT", en="gradient of the pressure", unit="N/m3", range=ANY_NUMBER),
     opt("direction", "POINT", en="its direction, else the sides' normals"),
     _BUCKLING,
     _WHOLE,

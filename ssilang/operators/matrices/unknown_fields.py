@@ -9,6 +9,7 @@ from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.registry import Chosen, Help, arg, operator, select
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.numbers.noise import session_generator
 
 
@@ -18,7 +19,7 @@ from ssilang.operators.numbers.noise import session_generator
         "values",
         {
             "ALEATOIRE": [],
-            "UNIFORME": [arg("value", "FLOTTANT", en="value")],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value", range=ANY_NUMBER)],
         },
         en="random, or the same everywhere",
     ),

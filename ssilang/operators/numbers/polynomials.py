@@ -17,6 +17,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 RACP = shared(
     "RACP",
@@ -32,8 +33,8 @@ RACP = shared(
 )
 _POLYNOMIAL = (
     flag("bairstow", "BAIR", en="changes nothing"),
-    opt("listed", "LISTREEL", en="coefficients by power"),
-    many("numbers", "FLOTTANT", en="coefficients, else"),
+    opt("listed", "LISTREEL", en="coefficients by power", range=ANY_NUMBER),
+    many("numbers", "FLOTTANT", en="coefficients, else", range=ANY_NUMBER),
 )
 
 
@@ -47,8 +48,8 @@ def _all_roots(
 
 @RACP.form(
     said("INTE"),
-    arg("low", "FLOTTANT", en="one end of an interval"),
-    arg("high", "FLOTTANT", en="the other end"),
+    arg("low", "FLOTTANT", en="one end of an interval", range=ANY_NUMBER),
+    arg("high", "FLOTTANT", en="the other end", range=ANY_NUMBER),
     *_POLYNOMIAL,
     gives="FLOTTANT|MOT",
 )
@@ -91,10 +92,10 @@ def _real_roots(roots: ComplexArray) -> FloatArray:
 
 @operator(
     "DEG3",
-    arg("a0", "FLOTTANT", en="constant term"),
-    arg("a1", "FLOTTANT", en="factor of X"),
-    arg("a2", "FLOTTANT", en="factor of X**2"),
-    arg("a3", "FLOTTANT", en="factor of X**3"),
+    arg("a0", "FLOTTANT", en="constant term", range=ANY_NUMBER),
+    arg("a1", "FLOTTANT", en="factor of X", range=ANY_NUMBER),
+    arg("a2", "FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
+    arg("a3", "FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
     family="numbers",
     help=Help(
         en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "

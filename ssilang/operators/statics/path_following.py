@@ -16,6 +16,7 @@ from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -322,7 +323,7 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     arg("du", "CHPOINT", en="step so far", unit="m"),
     arg("rest", "CHPOINT", en="step by the residual", unit="m"),
     arg("unit", "CHPOINT", en="step by the load", unit="m"),
-    arg("asked", "FLOTTANT", en="strain asked for"),
+    arg("asked", "FLOTTANT", en="strain asked for", range=ANY_NUMBER),
     family="statics",
     help=Help(
         en="Equation of strains behind PILOINDI, which is the procedure to call.",

@@ -186,7 +186,7 @@ def parc(
 @operator(
     "CONG",
     arg("first", "MAILLAGE", en="first line"),
-    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it"),
+    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it", range=POSITIVE),
     opt("radius", "FLOTTANT", range=POSITIVE, en="radius", unit="m"),
     arg("second", "MAILLAGE", en="line that follows"),
     flag("double", "DOUBLE", en="two arcs: not available"),

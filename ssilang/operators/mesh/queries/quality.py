@@ -17,6 +17,7 @@ from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
@@ -66,6 +67,7 @@ def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
         "FLOTTANT",
         "CHPOINT",
         en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
+        range=POSITIVE,
     ),
     flag("listed", "LISTREEL", en="a list is given"),
 )
@@ -81,8 +83,6 @@ def topological(
     if isinstance(metric, NodeField):
         wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
     elif metric is not None:
-        if metric <= 0:
-            raise call.error("operators.mesh.wanted-length-not-positive", metric)
         wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
     values = quality_in_metric(cells.coordinates, wanted)
     if listed:

@@ -11,6 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.contour_split import split_contour
 from ssilang.language.registry import Help, arg, choice, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
@@ -79,7 +80,7 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
         default="EGAL",
         en="places of the value, the default, or of smaller or larger ones",
     ),
-    arg("value", "FLOTTANT", en="value"),
+    arg("value", "FLOTTANT", en="value", range=ANY_NUMBER),
     family="mesh",
     full_name="ISOVALEUR",
     help=Help(

@@ -20,6 +20,7 @@ from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import workspace
 
 
@@ -27,7 +28,7 @@ from ssilang.operators.workspace import workspace
     "TRIA",
     arg("mesh", "MAILLAGE", en="closed lines, or points"),
     flag("convex", "CONV", en="of points: their convex hull, as always"),
-    opt("limit", "ENTIER", en="accepted, without effect"),
+    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     full_name="TRIANGULATION",
     help=Help(
@@ -63,7 +64,7 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect"),
+    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
