@@ -212,6 +212,10 @@ WORDS = (
         "Point qui représente une déformée statique",
     ),
     _element(
+        "link", "LIAI", "Point of a link of DYNE (MODE ... LIAISON)",
+        "Point d'une liaison de DYNE (MODE ... LIAISON)",
+    ),
+    _element(
         "impedance", "IMP1", "Spring and dashpot on one point",
         "Ressort et amortisseur en un point",
     ),

@@ -20,4 +20,9 @@ WORDS = (
         "Sides that carry a load, a pressure: for the operators PRES and BSIG",
         "Bords qui portent un chargement, une pression : pour les opérateurs PRES et BSIG",
     ),
+    Word(
+        "LIAISON",
+        "Links of modes that DYNE steps: shocks, friction, couplings (tables PASAPAS)",
+        "Liaisons de modes que DYNE intègre : chocs, frottement, couplages (tables PASAPAS)",
+    ),
 )
