@@ -16,7 +16,7 @@ from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
-from ssilang.language.vocabulary.terms import ANY_NUMBER, Range
+from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range
 from ssilang.messages.message import Translated, french, spoken
 
 ANY = "*"
@@ -55,8 +55,8 @@ class Argument(Translated):
     behind: bool = False
     leads: bool = False
     whole: bool = False
-    range: Range = ANY_NUMBER
-    usual: Range = ANY_NUMBER
+    range: Range = UNSAID
+    usual: Range = UNSAID
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -149,8 +149,8 @@ def arg(
     en: str = "",
     unit: str = "",
     kind: str = "",
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
     return Argument(name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual)
@@ -170,8 +170,8 @@ def named(name: str, optional: bool = False, en: str = "") -> Argument:
 
 
 def main(name: str, *types: str, en: str = "") -> Argument:
-    """The operand whose type decides which form of an operator runs."""
-    return Argument(name, types, en=en, main=True)
+    """The operand whose type decides which form of an operator runs; of numbers, any."""
+    return Argument(name, types, en=en, main=True, range=ANY_NUMBER)
 
 
 def opt(
@@ -181,8 +181,8 @@ def opt(
     en: str = "",
     unit: str = "",
     kind: str = "",
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """An optional operand."""
     return Argument(
@@ -203,6 +203,8 @@ def many(
     unit: str = "",
     kind: str = "",
     whole: bool = False,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -223,6 +225,8 @@ def many(
         left=tuple(left),
         behind=behind,
         whole=whole,
+        range=range,
+        usual=usual,
     )
 
 

@@ -83,6 +83,7 @@ def errors(source: Source) -> list[str]:
         ("L = PROG 1. ; X = L ET (FLUX 'DEPL' L) ; MESS X ;", "unknown-operator"),
         ("L = PROG 1. ; X = L ET FLUX (L ET L) ; MESS X ;", "unknown-operator"),
         ("L = PROG 1. ; X = (L ET L) FLUX 'DEPL' ; MESS X ;", "unknown-operator"),
+        ("FLUX 1 ;", "unknown-operator"),
     ],
 )
 def test_finds(text, code):
@@ -95,6 +96,7 @@ def test_finds(text, code):
         ("X = 1 / 2 ; MESS X ;", "integer-division"),
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
         ("X = 1 ;", "unused-name"),
+        ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
         ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),

@@ -30,6 +30,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -368,6 +369,9 @@ class PhraseReader:
 
     def _name(self, item: tree.Name, scope: Scope) -> Operand:
         value = scope.values.get(item.text)
+        if type(value) is NotBuilt:
+            self.report(value.refusal(item.span))
+            value = UNKNOWN
         if value is not None:
             return Operand(value, item.span, item.text)
         procedure = self.session.library.find(item.text)

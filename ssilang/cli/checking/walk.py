@@ -16,6 +16,7 @@ from ssilang.cli.checking.words import misspelt_words
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.not_built import put_off
 from ssilang.language.run.phrase_errors import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -79,6 +80,10 @@ class Checker:
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
+        if problem.code == "unknown-operator":  # what is read after all
+            self.problems = [
+                e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
+            ]
         places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
         if problem.span is None or (problem.code, problem.span.start) not in places:
             self.problems.append(problem)
@@ -210,6 +215,10 @@ class Checker:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
             return self._outcome(statement, left)
         except SsiError as error:
+            known = {*self._names, *scope.values, *self.session.library.standard_names}
+            if later := put_off(statement, error, known):
+                self._report(SsiError("not-built-yet", error.span, **error.data))
+                return [later] * len(statement.targets)
             word = self.session.evaluator.word_of_entry(statement, error)
             if word is None:
                 self._report(error)

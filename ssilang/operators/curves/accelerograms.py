@@ -16,7 +16,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
 
 _KINDS = ("DEPL", "VITE", "ACCE")
@@ -63,7 +63,7 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     key(
         "degree",
         "POLY",
-        arg("degree", "ENTIER", en="from 1 to 6"),
+        arg("degree", "ENTIER", en="from 1 to 6", range=between(1, 6)),
         en="degree of the velocity's polynomial",
     ),
     family="signals",
@@ -202,7 +202,7 @@ PERIODS = opt(
         "dampings",
         "LISTREEL",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="dampings",
     ),
     PERIODS,

@@ -39,7 +39,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -66,9 +66,9 @@ _ENTRIES: dict[str, list[Entry]] = {
         key("type", "TYPE", arg("type", "MOT"), en="type of the ordinates"),
         key("legend", "LEGE", arg("legend", "MOT"), en="legend"),
         _ABSCISSA,
-        arg("x", *_LISTS, en="abscissas"),
+        arg("x", *_LISTS, en="abscissas", range=ANY_NUMBER),
         _ORDINATE,
-        arg("y", *_LISTS, en="ordinates"),
+        arg("y", *_LISTS, en="ordinates", range=ANY_NUMBER),
     ],
     "COMP": [
         choice(
@@ -82,11 +82,11 @@ _ENTRIES: dict[str, list[Entry]] = {
             en="legends",
         ),
         _ABSCISSA,
-        arg("x", "LISTREEL", en="abscissas"),
+        arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER),
         _ORDINATE,
-        arg("first", "LISTREEL", en="first parts"),
+        arg("first", "LISTREEL", en="first parts", range=ANY_NUMBER),
         opt("second_name", "MOT", en="name of the second"),
-        arg("second", "LISTREEL", en="second parts"),
+        arg("second", "LISTREEL", en="second parts", range=ANY_NUMBER),
     ],
     "CHPO": [
         arg("field", "CHPOINT", en="field"),
@@ -95,9 +95,9 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
     "TEMP": [
         arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
         opt("index", "MOT", en="what of the results"),
-        opt("steps", "LISTENTI", en="steps, all without it"),
+        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
         opt(
             "names",
             "MOT",
@@ -106,11 +106,11 @@ _ENTRIES: dict[str, list[Entry]] = {
             kind="component",
         ),
         opt("support", "POINT", "MAILLAGE", en="points"),
-        many("cell", "ENTIER", en="zone, cell, point"),
+        many("cell", "ENTIER", en="zone, cell, point", range=POSITIVE),
     ],
     "RECO": [
         arg("history", "LISTCHPO", "TABLE", en="contributions in time"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
         _BASIS,
         opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
         opt("load", "CHARGEME", en="load of pseudo-modes"),
@@ -134,14 +134,14 @@ _ENTRIES: dict[str, list[Entry]] = {
         flag("modes", "ALFA", en="of its modes"),
         opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks"),
         _COMPONENT,
-        opt("times", "LISTREEL", en="times", unit="s"),
+        opt("times", "LISTREEL", en="times", unit="s", range=ANY_NUMBER),
     ],
     "PJBA": [
         arg("history", "LISTCHPO", "TABLE", en="fields in time"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
-        opt("steps", "LISTENTI", en="steps, all without it"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
+        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
         _BASIS,
-        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it"),
+        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE),
         opt("metric", "RIGIDITE", en="matrix of the product"),
     ],
 }

@@ -15,7 +15,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
@@ -44,10 +44,10 @@ def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
 
 
 _MAIN = main("curve", "EVOLUTIO", en="curves")
-_NUMBER = opt("place", "ENTIER", en="number of the curve")
+_NUMBER = opt("place", "ENTIER", en="number of the curve", range=POSITIVE)
 _BY_PLACE = flag("by_place", "INDI", en="limits are places of points")
-_LOW = arg("low", "FLOTTANT", en="first abscissa")
-_HIGH = arg("high", "FLOTTANT", en="last abscissa")
+_LOW = arg("low", "FLOTTANT", en="first abscissa", range=ANY_NUMBER)
+_HIGH = arg("high", "FLOTTANT", en="last abscissa", range=ANY_NUMBER)
 _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
 
 
@@ -59,7 +59,14 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
             "ABSC": [_NUMBER],
             "ORDO": [_NUMBER],
             "COUR": [
-                arg("which", "ENTIER", "LISTENTI", "MOT", en="number, numbers, or name of an axis")
+                arg(
+                    "which",
+                    "ENTIER",
+                    "LISTENTI",
+                    "MOT",
+                    en="number, numbers, or name of an axis",
+                    range=POSITIVE,
+                )
             ],
             "PAS": [arg("step", "ENTIER", range=POSITIVE, en="one point of so many")],
             "AVAN": [_BY_PLACE, _HIGH],
@@ -258,7 +265,7 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
 @CHAN.form(
     said("TITR", *_FIELD_OF),
     CURVE,
-    opt("place", "ENTIER", en="number of the curve, all without it"),
+    opt("place", "ENTIER", en="number of the curve, all without it", range=POSITIVE),
     arg("name", "MOT", en="title, legend or name"),
     of=("EVOLUTIO",),
     syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",

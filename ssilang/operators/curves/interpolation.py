@@ -40,6 +40,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
@@ -49,24 +50,34 @@ from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
 
 _WHERE = "where the function is wanted"
-_NUMBER = arg("value", "FLOTTANT", en=_WHERE)
-_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE)
-_LIST = arg("value", "LISTREEL", en=_WHERE)
+_NUMBER = arg("value", "FLOTTANT", en=_WHERE, range=ANY_NUMBER)
+_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE, range=ANY_NUMBER)
+_LIST = arg("value", "LISTREEL", en=_WHERE, range=ANY_NUMBER)
 _FUNCTION = either(
     "function",
     group("curve", CURVE),
     group(
         "lists",
-        arg("x", "LISTREEL", en="abscissas"),
-        arg("y", "LISTREEL", en="ordinates"),
+        arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER),
+        arg("y", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     ),
 )
 
 
 _SPLINE = (
     flag("smooth", "SPLI", en="by a cubic spline"),
-    key("left", "DGAU", arg("left", "FLOTTANT"), en="slope of the spline at the left end"),
-    key("right", "DDRO", arg("right", "FLOTTANT"), en="slope of the spline at the right end"),
+    key(
+        "left",
+        "DGAU",
+        arg("left", "FLOTTANT", range=ANY_NUMBER),
+        en="slope of the spline at the left end",
+    ),
+    key(
+        "right",
+        "DDRO",
+        arg("right", "FLOTTANT", range=ANY_NUMBER),
+        en="slope of the spline at the right end",
+    ),
 )
 
 
@@ -145,13 +156,13 @@ def all_values(call: Call, value: float, function: Chosen) -> ListReel:
     key(
         "power",
         "PID",
-        opt("power", "FLOTTANT", default=1.0),
+        opt("power", "FLOTTANT", default=1.0, range=POSITIVE),
         en="weights by powers of the distance",
     ),
     key(
         "cut",
         "ELIM",
-        opt("cut", "FLOTTANT", default=0.0),
+        opt("cut", "FLOTTANT", default=0.0, range=NOT_NEGATIVE),
         default=0.0,
         en="distance within which a point gives its own values",
     ),
@@ -173,7 +184,7 @@ def of_cloud(
 
 @ipol.form(
     arg("table", "TABLE", en="fields by times"),
-    arg("time", "FLOTTANT", en="time", unit="s"),
+    arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML",
 )
 def in_table(call: Call, table: Table, time: float) -> Any:
@@ -198,7 +209,7 @@ def in_table(call: Call, table: Table, time: float) -> Any:
 
 @ipol.form(
     arg("field", "CHPOINT", en="curvilinear abscissas"),
-    arg("distance", "FLOTTANT", en="distance along the line", unit="m"),
+    arg("distance", "FLOTTANT", en="distance along the line", unit="m", range=ANY_NUMBER),
 )
 def on_line(call: Call, field: NodeField, distance: float) -> Point:
     """A point of a line."""
@@ -241,15 +252,15 @@ _PLACE = ("ENTIER", "LISTENTI")
     key(
         "bounds",
         "BORN",
-        arg("low", *_BOUND, en="lower ones"),
-        arg("high", *_BOUND, en="upper ones"),
+        arg("low", *_BOUND, en="lower ones", range=ANY_NUMBER),
+        arg("high", *_BOUND, en="upper ones", range=ANY_NUMBER),
         en="between abscissas",
     ),
     key(
         "places",
         "INDI",
-        arg("low", *_PLACE, en="first ones"),
-        arg("high", *_PLACE, en="last ones"),
+        arg("low", *_PLACE, en="first ones", range=POSITIVE),
+        arg("high", *_PLACE, en="last ones", range=POSITIVE),
         en="between places",
     ),
     gives="FLOTTANT|LISTREEL|NUAGE",

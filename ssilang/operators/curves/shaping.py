@@ -13,7 +13,7 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, RISING, between
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 
 _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
@@ -28,8 +28,8 @@ _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
         en="by the value at the end (default), or along the last two points",
     ),
     CURVE,
-    arg("first", "FLOTTANT", en="abscissa to reach"),
-    opt("second", "FLOTTANT", en="another one"),
+    arg("first", "FLOTTANT", en="abscissa to reach", range=ANY_NUMBER),
+    opt("second", "FLOTTANT", en="another one", range=ANY_NUMBER),
     family="curves",
     help=Help(
         en="Curves continued to one or two abscissas outside their range: with the value at the "
@@ -201,7 +201,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     key(
         "percent",
         "DECL",
-        arg("p", "FLOTTANT", unit="%"),
+        arg("p", "FLOTTANT", unit="%", range=between(0.0, 100.0)),
         default=1e-6,
         en="threshold of the largest absolute value, 1.E-6 without it",
     ),
@@ -225,8 +225,6 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
 )
 def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
     """Mean shock."""
-    if count is not None and count < 1:
-        raise call.error("operators.curves.count-of-shocks", count, count=count)
     parts = []
     for p in records.parts:
         constant_step(p.abscissas)
@@ -238,11 +236,11 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
 @operator(
     "LAPL",
     flag("inverse", "INVERSE", en="the inverse transform"),
-    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s"),
-    arg("real", "LISTREEL", en="real parts"),
-    arg("imaginary", "LISTREEL", en="imaginary parts"),
-    arg("shift", "FLOTTANT", en="real part a of the variable"),
-    arg("group", "ENTIER", en="group size"),
+    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s", range=RISING),
+    arg("real", "LISTREEL", en="real parts", range=ANY_NUMBER),
+    arg("imaginary", "LISTREEL", en="imaginary parts", range=ANY_NUMBER),
+    arg("shift", "FLOTTANT", en="real part a of the variable", range=ANY_NUMBER),
+    arg("group", "ENTIER", en="group size", range=POSITIVE),
     family="signals",
     full_name="LAPLACE",
     help=Help(

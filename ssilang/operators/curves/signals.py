@@ -33,7 +33,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.language.vocabulary.terms import POSITIVE, between
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
 
 _SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
@@ -112,7 +112,7 @@ def _check_power(call: Call, power: int) -> None:
 @tfr.form(
     _POWER,
     arg("fields", "LISTCHPO", en="fields at constant step"),
-    arg("times", "LISTREEL", en="their times", unit="s"),
+    arg("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
     _FORM,
     *LIMITS,
 )
@@ -178,7 +178,7 @@ def tfri(call: Call, curve: Curve) -> Curve:
     return Curve((part,), curve.title)
 
 
-_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
+_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
 
 
 @operator(
@@ -190,7 +190,7 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
         {
             "PHAU": [_CUT],
             "PBAS": [_CUT],
-            "OMEG": [arg("cut", "ENTIER", en="exponent")],
+            "OMEG": [arg("cut", "ENTIER", en="exponent", range=ANY_NUMBER)],
         },
         en="high-pass, low-pass, or power of the circular frequency",
     ),
@@ -344,7 +344,7 @@ _AXIS = arg("name", "MOT", en="name of the ordinates")
         optional=False,
         en="constant step",
     ),
-    arg("values", "LISTREEL", en="ordinates"),
+    arg("values", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     family="signals",
     help=Help(
         en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
@@ -368,8 +368,8 @@ def fdt(name: str, step: float, values: ListReel) -> Curve:
     _AXIS,
     flag("given", "NOCO", en="times are given"),
     flag("pairs", "COUP", en="by pairs"),
-    arg("values", "LISTREEL", en="times and ordinates, or the step or 0"),
-    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate"),
+    arg("values", "LISTREEL", en="times and ordinates, or the step or 0", range=ANY_NUMBER),
+    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate", range=ANY_NUMBER),
 )
 def fdt_of_times(
     call: Call, name: str, given: bool, pairs: bool, values: ListReel, second: ListReel | None

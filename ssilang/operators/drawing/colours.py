@@ -10,6 +10,7 @@ from ssilang.kernel.curves.curve import CurvePart
 from ssilang.language.registry import Like, main, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 
@@ -23,6 +24,7 @@ from ssilang.operators.workspace import workspace
         "MOT",
         en="colour, its number, or one for each part",
         kind="colour",
+        range=ANY_NUMBER,
     ),
     gives=Like("value"),
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",

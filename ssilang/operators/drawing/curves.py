@@ -26,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import ListEnti, Table, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -44,7 +45,13 @@ def _corner() -> Keyword:
 
 
 def _bounds(name: str, word: str, en: str) -> Keyword:
-    return key(name, word, arg("low", "FLOTTANT"), arg("high", "FLOTTANT"), en=en)
+    return key(
+        name,
+        word,
+        arg("low", "FLOTTANT", range=ANY_NUMBER),
+        arg("high", "FLOTTANT", range=ANY_NUMBER),
+        en=en,
+    )
 
 
 def _title_place(name: str, word: str, en: str) -> Select:
@@ -68,8 +75,8 @@ _OPTIONS: tuple[Entry, ...] = (
     flag("square", "CARR", en="square frame"),
     _bounds("x_limits", "XBOR", "bounds of the abscissas"),
     _bounds("y_limits", "YBOR", "bounds of the ordinates"),
-    key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas"),
-    key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates"),
+    key("x_step", "XGRA", arg("d", "FLOTTANT", range=POSITIVE), en="step of the abscissas"),
+    key("y_step", "YGRA", arg("d", "FLOTTANT", range=POSITIVE), en="step of the ordinates"),
     flag("extremes", "MIMA", en="extreme values are written"),
     key(
         "difference",
@@ -83,7 +90,7 @@ _OPTIONS: tuple[Entry, ...] = (
     key(
         "chosen",
         "CHOI",
-        many("numbers", "ENTIER", "LISTENTI"),
+        many("numbers", "ENTIER", "LISTENTI", range=POSITIVE),
         default=(),
         en="numbers of the curves drawn",
     ),
@@ -101,7 +108,13 @@ _OPTIONS: tuple[Entry, ...] = (
         {
             "LEGE": [
                 _corner(),
-                key("at", "XY", arg("x", "FLOTTANT"), arg("y", "FLOTTANT"), en="place"),
+                key(
+                    "at",
+                    "XY",
+                    arg("x", "FLOTTANT", range=ANY_NUMBER),
+                    arg("y", "FLOTTANT", range=ANY_NUMBER),
+                    en="place",
+                ),
             ]
         },
         en="legend",

@@ -25,6 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
@@ -42,12 +43,14 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     said("CHPO"),
     _TITLE,
     NATURE,
-    opt("count", "ENTIER", en="number of pairs"),
+    opt("count", "ENTIER", en="number of pairs", range=POSITIVE),
     _ON_NODES,
     each(
         "pairs",
         arg("component", "MOT", en="name of a component"),
-        arg("value", "FLOTTANT", "LISTREEL", en="its value, or one value a point"),
+        arg(
+            "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
+        ),
         at_least=1,
         times="count",
     ),
@@ -76,7 +79,7 @@ def node_field(
     NATURE,
     _ON_NODES,
     arg("names", "LISTMOTS", en="names of the components"),
-    arg("values", "LISTREEL", en="their values, 0 for those behind the last"),
+    arg("values", "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER),
     syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
 )
 def node_field_of_lists(
@@ -138,7 +141,7 @@ _CURVES = (
     *_CURVES,
     each(
         "pairs",
-        arg("abscissa", "FLOTTANT", en="abscissa"),
+        arg("abscissa", "FLOTTANT", en="abscissa", range=ANY_NUMBER),
         arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
@@ -192,6 +195,7 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         "FLOTTANT",
         en="of a field that is zero but at one point, whose cell was the value: number of the "
         "point, of the zone if not 1, then the value",
+        range=ANY_NUMBER,
     ),
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
     "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"

@@ -22,6 +22,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing, union
 
@@ -109,9 +110,9 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
 @EXTR.form(
     main("field", "MCHAML", en="field in cells"),
     arg("component", "MOT", kind="component", en="component"),
-    opt("zone", "ENTIER", en="number of the zone"),
-    opt("cell", "ENTIER", en="number of the cell in it"),
-    opt("point", "ENTIER", en="number of the point in it"),
+    opt("zone", "ENTIER", en="number of the zone", range=POSITIVE),
+    opt("cell", "ENTIER", en="number of the cell in it", range=POSITIVE),
+    opt("point", "ENTIER", en="number of the point in it", range=POSITIVE),
     gives=ANY,
     syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;",
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "

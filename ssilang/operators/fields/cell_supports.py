@@ -24,6 +24,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import When, arg, choice, flag, main, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.workspace import workspace
 
@@ -195,7 +196,7 @@ _POINTS = main("field", "MCHAML", en="field in cells")
 
 @COOR.form(
     _POINTS,
-    arg("axis", "ENTIER", en="axis, from 1"),
+    arg("axis", "ENTIER", en="axis, from 1", range=POSITIVE),
     syntax="CHAM2 = COOR N1 CHAM1 ; CHAM2 CHAM3 (CHAM4) = COOR CHAM1 ;",
     en="Of a field in cells: the coordinates of the points that it stands on, as fields in cells.",
     examples=(_EXAMPLE + "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ; LIST (MAXI X) ;",),

@@ -24,6 +24,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
 
@@ -121,7 +122,7 @@ def _by_rows(call: Call) -> Cloud:
 
 
 _COMPONENT = arg("component", "MOT", en="column")
-_LIMIT = arg("limit", "FLOTTANT", en="limit")
+_LIMIT = arg("limit", "FLOTTANT", en="limit", range=ANY_NUMBER)
 
 
 def _columns(cloud: Cloud) -> Collection[str]:
@@ -141,7 +142,7 @@ def _columns(cloud: Cloud) -> Collection[str]:
             "ENTR": [
                 _COMPONENT,
                 _LIMIT,
-                arg("upper", "FLOTTANT", en="upper limit"),
+                arg("upper", "FLOTTANT", en="upper limit", range=ANY_NUMBER),
             ],
         },
         optional=False,

@@ -27,6 +27,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
@@ -36,7 +37,7 @@ _LAGRANGE = frozenset({"LX", "FLX"})
 _POINT_FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
 
 
-_FIELD = arg("field", *_FIELDS, en="field")
+_FIELD = arg("field", *_FIELDS, en="field", range=ANY_NUMBER)
 _NODAL = arg("field", "CHPOINT", en="field at nodes")
 _IN_CELLS = arg("field", "MCHAML", en="field in cells")
 NATURE = key(

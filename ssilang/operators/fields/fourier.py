@@ -15,6 +15,7 @@ from ssilang.language.registry import (
     operator,
 )
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import workspace
 
 _ODD = {
@@ -27,7 +28,7 @@ _ODD = {
 @operator(
     "DFOU",
     arg("field", "CHPOINT", "MCHAML", en="field of a harmonic"),
-    arg("angle", "FLOTTANT", en="angle", unit="deg"),
+    arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
     gives=Like("field"),
     family="fields",
     full_name="DFOURIER",

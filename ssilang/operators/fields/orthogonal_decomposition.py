@@ -36,7 +36,7 @@ _TABLE = flag("table", "TBAS", en="the result is a table BASE_MODALE")
 
 
 _OPTIONS = (
-    opt("numbers", "LISTENTI", en="fields to take, by number"),
+    opt("numbers", "LISTENTI", en="fields to take, by number", range=POSITIVE),
     opt("names", "LISTMOTS", kind="component", en="components"),
     opt("matrix", "RIGIDITE", en="scalar product, a mass"),
     arg("count", "ENTIER", range=POSITIVE, en="number of modes"),

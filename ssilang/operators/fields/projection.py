@@ -11,7 +11,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes")
 
@@ -23,7 +23,9 @@ _SUPPORT = choice(
 )
 _MODEL = arg("place", "MMODEL", en="where to")
 _MESH = arg("place", "MAILLAGE", en="where to")
-_COUNT = opt("count", "ENTIER", default=3, en="integration points in each direction")
+_COUNT = opt(
+    "count", "ENTIER", default=3, en="integration points in each direction", range=POSITIVE
+)
 
 
 _TOLERANCE = opt(
@@ -112,8 +114,6 @@ def proi_by_least_squares(
     call: Call, place: Model, fields: tuple[CellField, ...], count: int, tolerance: float
 ) -> CellField:
     """Projection on a model by least squares."""
-    if count < 1:
-        raise call.error("operators.fields.integration-points-none", count, points=count)
     made = by_least_squares(fields[-1], place, count, tolerance, lost := Lost())
     _tell(call, fields[-1], lost, "operators.fields.projected-zero-outside")
     return made

@@ -20,6 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.signs import paired_names
 
 # ---- measures -----------------------------------------------------------------------------------
@@ -51,7 +52,7 @@ def resu(call: Call, field: NodeField) -> NodeField:
 
 
 @resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum"),
+    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", range=ANY_NUMBER),
     gives="FLOTTANT|ENTIER",
 )
 def resu_of_list(values: ListReel | ListEnti) -> float | int:
@@ -115,8 +116,8 @@ def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> f
 
 
 _FACTORS = (
-    opt("a", "FLOTTANT", en="factor of the first field"),
-    opt("b", "FLOTTANT", en="factor of the second field"),
+    opt("a", "FLOTTANT", en="factor of the first field", range=ANY_NUMBER),
+    opt("b", "FLOTTANT", en="factor of the second field", range=ANY_NUMBER),
 )
 
 

@@ -17,6 +17,7 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
@@ -69,7 +70,7 @@ _FILE = lead("file", "MOT", en="file")
 @LIRE.form(
     said("CSV"),
     _FILE,
-    key("first", "DEBU", arg("n", "ENTIER"), default=1, en="first line"),
+    key("first", "DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
     key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator"),
     choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines"),
     syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",

@@ -10,13 +10,19 @@ from ssilang.io.ground_motions.titled import read_titled
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Entry, arg, flag, key, lead, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, NOT_ZERO
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.workspace import workspace
 
 _ENTRIES: tuple[Entry, ...] = (
     lead("file", "MOT", en="file"),
-    opt("factor", "FLOTTANT", en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2"),
+    opt(
+        "factor",
+        "FLOTTANT",
+        en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2",
+        range=NOT_ZERO,
+    ),
     flag("in_si", "SI", en="metres and seconds, by the unit that the file names"),
 )
 """What every format of records reads: file, then a factor or 'SI'."""
@@ -55,7 +61,7 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     said("COSMOS"),
     *_ENTRIES,
     key(
-        "number", "CANAL", arg("n", "ENTIER"), default=0,
+        "number", "CANAL", arg("n", "ENTIER", range=NOT_NEGATIVE), default=0,
         en="which record of a file that has several"),
     syntax="EVO1 = LIRE 'COSMOS' FIC1 (FLOT1 | 'SI') ('CANAL' N1) ;",
     en="COSMOS: a ground motion in version 1.20 of the COSMOS format (.V1, .V2), the first of the "

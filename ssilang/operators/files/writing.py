@@ -12,7 +12,7 @@ from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt,
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
@@ -46,7 +46,7 @@ def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Pat
 _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
 
 
-_NUMBER = arg("n", "ENTIER")
+_NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
 
 
 @SORT.form(
@@ -60,6 +60,7 @@ _NUMBER = arg("n", "ENTIER")
         "TABLE",
         at_least=1,
         en="lists, or what holds them",
+        range=ANY_NUMBER,
     ),
     key("width", "NCOL", _NUMBER, en="columns side by side"),
     key("digits", "DIGI", _NUMBER, en="decimals"),
@@ -132,8 +133,8 @@ def _chai(call: Call, word: str) -> None:
 @SORT.form(
     said("BILA"),
     lead("name", "MOT", en="name of the figure"),
-    arg("value", "FLOTTANT", en="figure"),
-    opt("expected", "FLOTTANT", en="value expected"),
+    arg("value", "FLOTTANT", en="figure", range=ANY_NUMBER),
+    opt("expected", "FLOTTANT", en="value expected", range=ANY_NUMBER),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "

@@ -20,6 +20,7 @@ from ssilang.language.registry import arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
@@ -71,7 +72,7 @@ class _Said:
         _FORMATS,
         en="files by instant and mesh with a list, or one file for all (VTU if nothing is said)",
     ),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
+    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
     flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",

@@ -17,6 +17,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 COLI = shared(
     "COLI",
@@ -40,7 +41,7 @@ COLI = shared(
 
 @COLI.form(
     arg("held", "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"),
-    arg("factors", "LISTREEL", en="coefficients"),
+    arg("factors", "LISTREEL", en="coefficients", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML|LISTREEL",
 )
 def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
@@ -52,7 +53,7 @@ def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
 
 @COLI.form(
     many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields"),
-    many("factors", "FLOTTANT", en="coefficients"),
+    many("factors", "FLOTTANT", en="coefficients", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML",
 )
 def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:

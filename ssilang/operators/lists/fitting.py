@@ -13,6 +13,7 @@ from ssilang.language.registry import Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import call_procedure
 from ssilang.language.values import ListReel, Procedure, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 _ROUNDS = 200
 """Steps of LEVM, taken and refused."""
@@ -23,11 +24,13 @@ _GAIN = 1e-12
 
 @operator(
     "MOCA",
-    arg("start", "LISTREEL", en="parameters"),
-    arg("measured", "LISTREEL", en="measured values"),
-    arg("values", "LISTREEL", en="values for the parameters"),
-    many("derivatives", "LISTREEL", at_least=1, en="derivative by each parameter"),
-    key("weights", "POIDS", arg("weights", "LISTREEL"), en="weights"),
+    arg("start", "LISTREEL", en="parameters", range=ANY_NUMBER),
+    arg("measured", "LISTREEL", en="measured values", range=ANY_NUMBER),
+    arg("values", "LISTREEL", en="values for the parameters", range=ANY_NUMBER),
+    many(
+        "derivatives", "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
+    ),
+    key("weights", "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"),
     family="lists",
     help=Help(
         en="The parameters that bring a function nearest to measured values: from its values and "
@@ -76,10 +79,18 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
 
 @operator(
     "LEVM",
-    key("abscissas", "ABSC", arg("list", "LISTREEL"), optional=False, en="points"),
-    key("measured", "ORDO", arg("list", "LISTREEL"), optional=False, en="values"),
-    key("spreads", "SIGM", arg("list", "LISTREEL"), optional=False, en="weights"),
-    key("start", "PARA", arg("list", "LISTREEL"), optional=False, en="first parameters, none zero"),
+    key(
+        "abscissas", "ABSC", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="points"
+    ),
+    key("measured", "ORDO", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="values"),
+    key("spreads", "SIGM", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="weights"),
+    key(
+        "start",
+        "PARA",
+        arg("list", "LISTREEL", range=ANY_NUMBER),
+        optional=False,
+        en="first parameters, none zero",
+    ),
     key(
         "function",
         "PROC",
@@ -161,7 +172,9 @@ def _damped(
 @operator(
     "GANE",
     arg("table", "TABLE", en="0: values, 1 to n: derivatives"),
-    key("damping", "AMOR", arg("factor", "FLOTTANT"), default=0.0, en="damping"),
+    key(
+        "damping", "AMOR", arg("factor", "FLOTTANT", range=NOT_NEGATIVE), default=0.0, en="damping"
+    ),
     flag("matrices", "MATR", en="not available"),
     family="lists",
     full_name="GANEWTON",

@@ -33,6 +33,7 @@ from ssilang.language.values import (
     Mot,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
@@ -43,7 +44,7 @@ _ITEM = {
     "LISTREEL": "FLOTTANT", "LISTENTI": "ENTIER", "LISTMOTS": "MOT", "LISTCHPO": "CHPOINT",
     "LISTOBJE": "*",
 }  # fmt: skip
-_PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from 1")
+_PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from 1", range=POSITIVE)
 _LIST = main("value", *LISTS, en="list")
 
 
@@ -167,7 +168,7 @@ _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
 
 @ENLE.form(
     main("places", "LISTENTI", en="places, before the list"),
-    arg("value", *_OTHER_LISTS, en="list"),
+    arg("value", *_OTHER_LISTS, en="list", range=ANY_NUMBER),
     gives=Like("value"),
     en="Places may stand before a list of another type.",
     examples=("LIST (ENLE (LECT 1 3) (MOTS 'A' 'B' 'C')) ;",),
@@ -220,8 +221,8 @@ def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
 for _kind, _item in _ITEM.items():
     INSE.form(
         _list(_kind),
-        arg("place", "ENTIER", en="place, from 1"),
-        arg("item", _item, en="item to put there"),
+        arg("place", "ENTIER", en="place, from 1", range=POSITIVE),
+        arg("item", _item, en="item to put there", range=ANY_NUMBER),
         gives=_kind,
     )(_insert)
 
@@ -263,9 +264,9 @@ def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> No
 
 def _replacing(kind: str) -> None:
     REMP.form(
-        arg("value", kind, en="list"),
+        arg("value", kind, en="list", range=ANY_NUMBER),
         _PLACES,
-        arg("new", _ITEM[kind], kind, en="item, or one for each place"),
+        arg("new", _ITEM[kind], kind, en="item, or one for each place", range=ANY_NUMBER),
     )(_replace)
 
 
@@ -300,7 +301,7 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
 @operator(
     "SOMM",
     flag("running", "CUMU", en="partial sums"),
-    arg("value", "LISTREEL", "LISTENTI", en="values to sum"),
+    arg("value", "LISTREEL", "LISTENTI", en="values to sum", range=ANY_NUMBER),
     gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",

@@ -22,6 +22,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 _REAL = ("ENTIER", "FLOTTANT")
 _FREE = "its items, steps and repetitions stand in any order"
@@ -30,22 +31,29 @@ _FREE = "its items, steps and repetitions stand in any order"
 def _items(kind: str) -> tuple[Entry, ...]:
     """What `_read_items` reads."""
     return (
-        many("items", kind, "LISTREEL", "LISTENTI", en="items, lists of them, or N * item"),
+        many(
+            "items",
+            kind,
+            "LISTREEL",
+            "LISTENTI",
+            en="items, lists of them, or N * item",
+            range=ANY_NUMBER,
+        ),
         key(
             "steps",
             "PAS",
-            arg("step", kind),
+            arg("step", kind, range=ANY_NUMBER),
             repeated=True,
             en="from the item before to the one behind by steps",
         ),
-        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps"),
-        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps"),
+        key("ratio", "GEOM", arg("ratio", "FLOTTANT", range=ANY_NUMBER), en="ratio of steps"),
+        key("count", "NPAS", arg("count", "ENTIER", range=NOT_NEGATIVE), en="number of steps"),
     )
 
 
 _FACTORS = (
-    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default"),
-    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default"),
+    key("a", "A", arg("a", "FLOTTANT", range=ANY_NUMBER), en="slope, 1 by default"),
+    key("b", "B", arg("b", "FLOTTANT", range=ANY_NUMBER), en="constant, 1 by default"),
 )
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
@@ -242,9 +250,9 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "function",
         {
             "SINU": [
-                arg("frequency", "FLOTTANT", en="frequency", unit="Hz"),
-                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees"),
-                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude"),
+                arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
+                key("phase", "PHAS", arg("p", "FLOTTANT", range=ANY_NUMBER), en="phase, degrees"),
+                key("size", "AMPL", arg("a", "FLOTTANT", range=ANY_NUMBER), en="amplitude"),
             ],
             "LINE": _FACTORS,
             "EXPO": _FACTORS,
@@ -351,7 +359,7 @@ def lect(call: Call) -> ListEnti:
 
 @operator(
     "MOTS",
-    many("words", "MOT", "ENTIER", en="words, or N * word"),
+    many("words", "MOT", "ENTIER", en="words, or N * word", range=ANY_NUMBER),
     family="lists",
     help=Help(
         en="List of words; N * MOT1 repeats.",

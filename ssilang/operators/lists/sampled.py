@@ -9,7 +9,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.registry import Chosen, Help, arg, choice, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 
 @operator(
@@ -20,7 +20,7 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE
         default="DIRE",
         en="halved, or doubled with zeros or with means",
     ),
-    arg("values", "LISTREEL", en="samples"),
+    arg("values", "LISTREEL", en="samples", range=ANY_NUMBER),
     family="lists",
     help=Help(
         en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
@@ -45,10 +45,10 @@ def diad(way: str, values: ListReel) -> ListReel:
 
 @operator(
     "LTL",
-    arg("first", "LISTREEL", en="first list"),
-    opt("second", "LISTREEL", en="second one, else the first"),
-    opt("a", "FLOTTANT", default=1.0, en="factor"),
-    opt("b", "FLOTTANT", default=1.0, en="second factor"),
+    arg("first", "LISTREEL", en="first list", range=ANY_NUMBER),
+    opt("second", "LISTREEL", en="second one, else the first", range=ANY_NUMBER),
+    opt("a", "FLOTTANT", default=1.0, en="factor", range=ANY_NUMBER),
+    opt("b", "FLOTTANT", default=1.0, en="second factor", range=ANY_NUMBER),
     family="lists",
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
@@ -66,8 +66,8 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
 
 @operator(
     "CVOL",
-    arg("signal", "LISTREEL", en="signal"),
-    arg("response", "LISTREEL", en="response"),
+    arg("signal", "LISTREEL", en="signal", range=ANY_NUMBER),
+    arg("response", "LISTREEL", en="response", range=ANY_NUMBER),
     key(
         "before",
         "NPNE",
@@ -144,7 +144,7 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         optional=False,
         en="which function",
     ),
-    arg("values", "LISTREEL", en="arguments"),
+    arg("values", "LISTREEL", en="arguments", range=ANY_NUMBER),
     family="lists",
     full_name="FONCTION",
     help=Help(
@@ -176,7 +176,7 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
 
 @operator(
     "ZLEG",
-    arg("degree", "ENTIER", en="degree"),
+    arg("degree", "ENTIER", en="degree", range=NOT_NEGATIVE),
     family="lists",
     help=Help(
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "

@@ -26,7 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
 
@@ -55,7 +55,7 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     key(
         "where",
         "DANS",
-        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE"),
+        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=ANY_NUMBER),
         optional=False,
         en="where it is looked for",
     ),
@@ -176,14 +176,14 @@ _COST = (
     key(
         "cost",
         "COUT",
-        arg("costs", "LISTREEL", "LISTENTI"),
+        arg("costs", "LISTREEL", "LISTENTI", range=ANY_NUMBER),
         optional=False,
         en="cost of each item at each place",
     ),
     choice("method", ("HONG", "COMP"), en="changes nothing: the best is found"),
 )
 _SORTED = main("value", *SORTABLE, en="list to sort by")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", range=ANY_NUMBER)
 
 
 @ORDO.form(
@@ -337,7 +337,7 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
 
 @UNIQ.form(
     main("value", *SORTABLE, "MAILLAGE", en="list, or mesh"),
-    many("others", *SORTABLE, "MAILLAGE", en="further ones"),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones", range=ANY_NUMBER),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("value", ("others",)),

@@ -17,8 +17,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model
-from ssilang.kernel.matrices.build import nodal_diagonal
-from ssilang.kernel.matrices.lumping import lumped_matrix
+from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
@@ -426,12 +425,7 @@ def kp(
 
 @kp.form(
     MODEL,
-    arg(
-        "modulus",
-        "FLOTTANT",
-        en="gradient of the pressure",
-        unit="N/m3",
-    ),
+    arg("modulus", "FLOTTANT", en="gradient of the pressure", unit="N/m3", range=ANY_NUMBER),
     opt("direction", "POINT", en="its direction, else the sides' normals"),
     _BUCKLING,
     _WHOLE,

@@ -12,7 +12,7 @@ from ssilang.kernel.statics.linear import product
 from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 
 _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 
@@ -22,7 +22,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
     flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
     arg("field", "CHPOINT", en="field X"),
     arg("shapes", "LISTCHPO", en="fields U"),
-    arg("norms", "LISTREEL", en="products U K U"),
+    arg("norms", "LISTREEL", en="products U K U", range=ANY_NUMBER),
     opt("loaded", "LISTCHPO", en="fields K U"),
     arg("matrix", "RIGIDITE", en="matrix K"),
     opt("precision", "FLOTTANT", range=POSITIVE, en="precision"),

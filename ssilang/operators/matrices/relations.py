@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
 from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
@@ -353,7 +353,7 @@ def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
     _SIDE,
     each(
         "terms",
-        opt("factor", "FLOTTANT", en="factor"),
+        opt("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
         arg("unknown", "MOT", kind="component", en="unknown"),
         arg("support", "MAILLAGE", "POINT", en="nodes"),
     ),

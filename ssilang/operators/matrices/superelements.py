@@ -1,4 +1,4 @@
-"""SUPE: super-elements, static condensation of a body onto some of its unknowns."""
+"""SUPE CMCT: static condensation of a body, matrices without some unknowns."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (
@@ -18,7 +19,7 @@ from ssilang.kernel.matrices.superelement import (
     shape_fields,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, by, choice, flag, main, opt, said, shared
+from ssilang.language.registry import Help, arg, by, choice, flag, main, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
@@ -154,3 +155,44 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     masters = len(element.masters)
     inner = element.numbering.size - masters
     return say("operators.matrices.super-element", masters=masters, inner=inner)
+
+
+_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+
+
+@operator(
+    "CMCT",
+    arg("matrix", "RIGIDITE", en="relations C"),
+    arg("diagonal", "CHPOINT", en="M^-1"),
+    family="matrix",
+    help=Help(
+        en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
+        "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
+        "without the unknowns that the relations give by the others.",
+        syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
+        examples=(
+            _TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
+            "D = MANU 'CHPO' (P ET Q) 1 'UX' 0.5 ; LIST (EXTR (CMCT C D) 'DIAG') ;",
+            (
+                "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ;\n"
+                "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ;\n"
+                "C = RELA 2. 'UX' P '+' 3. 'UX' Q ;\n"
+                "LIST (EXTR (CMCT K C) 'DIAG') ;"
+            ),
+        ),
+    ),
+)
+def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
+    """On the multipliers."""
+    return condensed_on_multipliers(matrix, diagonal)
+
+
+@cmct.form(
+    arg("matrix", "RIGIDITE", en="matrix"),
+    arg(
+        "relations", "RIGIDITE", en="relations, or the first matrix that CHAN 'COND' makes of them"
+    ),
+)
+def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
+    """On the unknowns that stay."""
+    return condensed_by_relations(matrix, relations)

@@ -29,7 +29,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -249,7 +249,13 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         en="the field SCAL gives the value of relations between unknowns of one node",
     ),
     arg("matrix", "RIGIDITE", en="conditions"),
-    arg("value", "FLOTTANT", "CHPOINT", en="one value for all, or a field of the held unknowns"),
+    arg(
+        "value",
+        "FLOTTANT",
+        "CHPOINT",
+        en="one value for all, or a field of the held unknowns",
+        range=ANY_NUMBER,
+    ),
     family="relations",
     full_name="DEPIMPOSE",
     help=Help(
@@ -396,7 +402,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each")
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER)
 
 
 @operator(

@@ -9,6 +9,7 @@ from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.registry import Chosen, Help, arg, operator, select
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.numbers.noise import session_generator
 
 _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
@@ -20,7 +21,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "values",
         {
             "ALEATOIRE": [],
-            "UNIFORME": [arg("value", "FLOTTANT", en="value")],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value", range=ANY_NUMBER)],
         },
         en="random, or the same everywhere",
     ),

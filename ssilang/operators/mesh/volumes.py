@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -85,7 +85,9 @@ _BASE = arg("base", "MAILLAGE", en="surface, or volume whose face 2 is swept")
 _CUTS = (
     LAYERS,
     SIZES,
-    key("places", "PROG", arg("places", "LISTREEL"), en="positions of the layers"),
+    key(
+        "places", "PROG", arg("places", "LISTREEL", range=ANY_NUMBER), en="positions of the layers"
+    ),
     flag("wordy", "VERB", en="accepted, without effect"),
 )
 

@@ -11,7 +11,7 @@ from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined
@@ -45,7 +45,12 @@ operator(
         ("MASSE", "RAIDEUR", "AMORTISSEMENT"),
         en="what the matrix is, by its type without it",
     ),
-    key("chosen", "QUELCONQUE", arg("factors", "LISTREEL"), en="factors of the four blocks"),
+    key(
+        "chosen",
+        "QUELCONQUE",
+        arg("factors", "LISTREEL", range=ANY_NUMBER),
+        en="factors of the four blocks",
+    ),
     arg("matrix", "RIGIDITE", en="matrix"),
     opt("other", "RIGIDITE", en="of the imaginary rows"),
     opt(
@@ -54,6 +59,7 @@ operator(
         default=1.0,
         en="circular frequency, 1 without it",
         unit="rad/s",
+        usual=NOT_NEGATIVE,
     ),
     opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
     family="modal",

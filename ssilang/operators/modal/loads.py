@@ -12,6 +12,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, arg, choice, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.tables.indices import copied
@@ -30,7 +31,7 @@ _MODE = (
     "SEIS",
     arg("curve", "EVOLUTIO", en="acceleration of the ground"),
     arg("table", "TABLE", en="basis"),
-    arg("factor", "FLOTTANT", en="factor"),
+    arg("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
     choice("direction", _AXES, optional=False, en="direction of the ground"),
     family="modal",
     full_name="SEISME",

@@ -19,7 +19,7 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.workspace import solver_of, workspace
 
@@ -172,18 +172,18 @@ operator(
         "method",
         {
             "PROCHE": [
-                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz"),
-                opt("counts", "LISTENTI", en="modes near each, 1"),
+                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", range=ANY_NUMBER),
+                opt("counts", "LISTENTI", en="modes near each, 1", range=POSITIVE),
             ],
             "INTERVALLE": [
-                arg("low", "FLOTTANT", en="one end", unit="Hz"),
-                arg("high", "FLOTTANT", en="the other", unit="Hz"),
+                arg("low", "FLOTTANT", en="one end", unit="Hz", range=ANY_NUMBER),
+                arg("high", "FLOTTANT", en="the other", unit="Hz", range=ANY_NUMBER),
             ],
             "SIMULTANE": [_FREQUENCY, _COUNT],
             "IRAM": [
                 _FREQUENCY,
                 _COUNT,
-                opt("decay", "FLOTTANT", default=0.0, en="imaginary part"),
+                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", range=ANY_NUMBER),
             ],
         },
         optional=False,

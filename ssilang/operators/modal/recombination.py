@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.problem.loading import terms_of
 from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
@@ -273,7 +273,7 @@ reco = operator(
     BASIS,
     _QUANTITY,
     _LOAD,
-    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load"),
+    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER),
     family="modal",
     help=Help(
         "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
@@ -307,7 +307,7 @@ reco = operator(
     BASIS,
     _QUANTITY,
     _LOAD,
-    arg("time", "FLOTTANT", en="instant", unit="s"),
+    arg("time", "FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
 )
 def reco_of_results(
     call: Call,

@@ -16,6 +16,7 @@ from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.tables.entries import Entries
 
 _ENTRIES = {
@@ -33,7 +34,7 @@ _ENTRIES = {
     arg("model", "MMODEL", en="cables, bars"),
     arg("material", "MCHAML", en="their parameters"),
     opt("table", "TABLE", en="losses"),
-    arg("force", "FLOTTANT", en="tension at the end", unit="N"),
+    arg("force", "FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
     opt("ends", "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"),
     opt("before", "MCHAML", en="not built"),
     family="model",

@@ -1,4 +1,4 @@
-"""RTEN VLOC CALP: stresses and strains in other frames or places of the section."""
+"""Frames of elements: RTEN VLOC CALP, FREN along lines, VSUR for normals and tangents."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
@@ -29,16 +30,20 @@ from ssilang.kernel.elements.results.shell_frames import (
 )
 from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
+from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
+from ssilang.kernel.mesh.lines.frenet import frenet_frames
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Chosen, Help, arg, choice, flag, many, operator, opt, select
 from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import on_zones, state_and_rest
+from ssilang.operators.workspace import workspace
 
 Frames = Callable[[Zone, Support], FloatArray]
 Surface = Callable[[Zone, Support], SurfaceAxes]
@@ -310,3 +315,86 @@ def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
         return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
 
     return on_zones(present(call, model), field.title, make)
+
+
+@operator(
+    "FREN",
+    arg("line", "MAILLAGE", en="lines"),
+    family="mesh",
+    full_name="FRENET",
+    help=Help(
+        en="Frenet frame along lines, as a nodal field: tangent TX TY (TZ), normal NX NY (NZ) and, "
+        "in 3D, binormal BX BY BZ. In 2D the normal is the tangent turned by a quarter turn.",
+        syntax="CHPO1 = FREN LIG1 ;",
+        examples=("OPTI DIME 2 ELEM SEG2 ; F = FREN (DROI 4 (0. 0.) (1. 0.)) ; LIST (TYPE F) ;",),
+    ),
+)
+def fren(session: Session, line: Mesh) -> NodeField:
+    """Frenet frame."""
+    ids, frames = frenet_frames(line)
+    dimension = workspace(session).dimension
+    if dimension < 3:
+        t = frames[:, 0]
+        values = {"TX": t[:, 0], "TY": t[:, 1], "NX": -t[:, 1], "NY": t[:, 0]}
+    else:
+        values = {
+            f"{row}{axis}": frames[:, k, j]
+            for k, row in enumerate("TNB")
+            for j, axis in enumerate("XYZ")
+        }
+    return NodeField.of(line.nodes, ids, values, "DIFFUS")
+
+
+_SHELLS = ("plate", "mindlin", "thick", "meridian")
+_BEAMS = ("beam", "timoshenko", "pipe")
+
+
+@operator(
+    "VSUR",
+    arg("model", "MMODEL", en="model"),
+    flag("unit", "NORM", en="of length 1"),
+    family="models",
+    help=Help(
+        en="At the integration points of a model, the normal of its shells and the tangent of its "
+        "beams, components VX VY (VZ), or VR VZ about an axis; as long as the Jacobian there, or "
+        "of length 1 with 'NORM'. Other elements give nothing.",
+        syntax="CHAM1 = VSUR MODL1 ('NORM') ;",
+        examples=(
+            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
+            "V = VSUR (MODE S MECANIQUE ELASTIQUE COQ4) 'NORM' ; MESS (MAXI (EXCO 'VZ' V)) ;",
+        ),
+    ),
+)
+def vsur(model: Model, unit: bool) -> CellField:
+    """Vectors of shells and beams."""
+    blocks = [b for z in model.zones if (b := _block(z, unit)) is not None]
+    return CellField(tuple(blocks), "NORMALES" if unit else "VECTEURS SURFACE")
+
+
+def _block(zone: Zone, unit: bool) -> CellFieldBlock | None:
+    family = ELEMENTS[zone.element].family if zone.element in ELEMENTS else ""
+    if family not in (*_SHELLS, *_BEAMS):
+        return None
+    vectors = _vectors(zone, family in _SHELLS)
+    if unit:
+        vectors = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if zone.mode is Mode.THREE_DIMENSIONAL:
+        names: tuple[str, ...] = ("VX", "VY", "VZ")
+    else:
+        round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+        names = ("VR", "VZ") if round_axis else ("VX", "VY")
+    components = {name: vectors[..., i].copy() for i, name in enumerate(names)}
+    return CellFieldBlock(zone.cells, components, "RIGIDITE", zone.element, zone.constituent)
+
+
+def _vectors(zone: Zone, normal: bool) -> FloatArray:
+    """Vectors (n_cells, n_points, 3) of the length of the Jacobian."""
+    points = support_rule(zone.element, "RIGIDITE").points
+    gradients = shape_gradients(zone.cells.cell_type, points)
+    tangents = np.einsum("pki,ckd->cpid", gradients, zone.cells.coordinates)
+    if not normal:
+        return np.asarray(tangents[:, :, 0])
+    if tangents.shape[2] == 1:  # a meridian: a quarter turn from the line
+        t = tangents[:, :, 0]
+        return np.stack([-t[..., 1], t[..., 0], 0.0 * t[..., 0]], axis=-1)
+    return np.asarray(np.cross(tangents[:, :, 0], tangents[:, :, 1]))

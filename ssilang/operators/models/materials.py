@@ -24,8 +24,8 @@ from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
-from ssilang.operators.models.reduction import reference_to_curve
-from ssilang.operators.models.tension import tension_to_hardening
+from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.models.reduction import reference_to_curve, tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
@@ -56,7 +56,7 @@ _MODEL = arg("model", "MMODEL", en="model")
 _PAIRS = each(
     "pairs",
     arg("name", "MOT", kind="parameter", en="parameter"),
-    arg("value", *_VALUES, en="its value"),
+    arg("value", *_VALUES, en="its value", range=ANY_NUMBER),
 )
 
 
@@ -80,7 +80,7 @@ def _tables(language: str) -> Sequence[HelpTable]:
         {
             "PARALLELE": [],
             "PERPENDICULAIRE": [],
-            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg")],
+            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER)],
         },
         en="how the axes lie to that direction",
     ),

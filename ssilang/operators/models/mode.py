@@ -48,6 +48,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
@@ -89,7 +90,12 @@ _SETTINGS = (
         arg("point", "POINT"),
         en="point that carries the motion of the section in generalised plane strain",
     ),
-    key("layers", "INTEGRE", arg("count", "ENTIER"), en="points across the thickness of shells"),
+    key(
+        "layers",
+        "INTEGRE",
+        arg("count", "ENTIER", range=POSITIVE),
+        en="points across the thickness of shells",
+    ),
     choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
 )

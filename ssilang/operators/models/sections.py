@@ -13,7 +13,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _ENTRIES = (
     flag("checked", "VERIF", en="a table of the fields too"),
-    many("lists", "LISTREEL", en="curvatures and normal force, one value a step"),
+    many("lists", "LISTREEL", en="curvatures and normal force, one value a step", range=ANY_NUMBER),
     arg("model", "MMODEL", en="section of fibres"),
     arg("material", "MCHAML", en="its parameters"),
     arg("tolerance", "FLOTTANT", range=POSITIVE, en="error allowed on the normal force, relative"),

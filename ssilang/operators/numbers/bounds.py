@@ -25,6 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 
 BORN = shared(
     "BORN",
@@ -54,8 +55,8 @@ BORN = shared(
     ),
     full_name="BORNER",
 )
-_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound")
-_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound")
+_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", range=ANY_NUMBER)
+_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound", range=ANY_NUMBER)
 _BOUND = select(
     "bound",
     {"MAXIMUM": [_HIGH], "MINIMUM": [_LOW], "COMPRIS": [_LOW, _HIGH]},
@@ -77,7 +78,7 @@ def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
     main("value", "EVOLUTIO", en="curves"),
     each(
         "bounds",
-        opt("curve", "ENTIER", en="number of a curve, 1 if none"),
+        opt("curve", "ENTIER", en="number of a curve, 1 if none", range=POSITIVE),
         _BOUND,
         at_least=1,
     ),

@@ -17,6 +17,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 def nearest(x: Any) -> Any:
@@ -56,6 +57,7 @@ def _whole(call: Call, values: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
+        range=ANY_NUMBER,
     ),
     gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
@@ -92,6 +94,7 @@ def enti(call: Call, way: str, value: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
+        range=ANY_NUMBER,
     ),
     gives="FLOTTANT|LISTREEL",
     family="numbers",
@@ -113,7 +116,7 @@ def flot(call: Call, value: Any) -> Any:
 
 @operator(
     "VERI",
-    arg("value", "FLOTTANT", "CHPOINT", en="what is tested"),
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=ANY_NUMBER),
     family="numbers",
     help=Help(
         en="Whether a real, or all values of a field, are numbers (neither infinite nor "

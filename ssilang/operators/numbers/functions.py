@@ -17,6 +17,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import Help, Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 Function = Callable[[Any], Any]
 OPERANDS = ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")
@@ -142,7 +143,7 @@ _FUNCTIONS: dict[str, tuple[Function, str, str, str]] = {
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-_VALUE = arg("value", *OPERANDS, en="argument")
+_VALUE = arg("value", *OPERANDS, en="argument", range=ANY_NUMBER)
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
@@ -171,7 +172,7 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
 
 @operator(
     "IFRE",
-    arg("limit", "FLOTTANT", en="upper limit, in radians"),
+    arg("limit", "FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
     family="functions",
     help=Help(
         en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
@@ -192,8 +193,8 @@ def ifre(limit: float) -> tuple[float, float]:
 
 @operator(
     "ATG",
-    arg("first", *OPERANDS, en="tangent, or numerator"),
-    opt("second", *OPERANDS, en="denominator"),
+    arg("first", *OPERANDS, en="tangent, or numerator", range=ANY_NUMBER),
+    opt("second", *OPERANDS, en="denominator", range=ANY_NUMBER),
     gives=_REALS,
     family="functions",
     help=Help(

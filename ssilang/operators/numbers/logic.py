@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ssilang.language.registry import SCALAR_RULES, Help, arg, operator
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.dispatch import union
 
 
@@ -58,8 +59,8 @@ def non(value: bool) -> bool:
 
 @operator(
     "MULT",
-    arg("first", "ENTIER", en="integer"),
-    arg("second", "ENTIER", en="divisor"),
+    arg("first", "ENTIER", en="integer", range=ANY_NUMBER),
+    arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
     family="comparisons",
     full_name="MULTIPLE",
     help=Help(

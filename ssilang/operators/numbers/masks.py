@@ -22,6 +22,7 @@ from ssilang.language.registry import (
     select,
     shared,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.numbers.functions import mapped
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
@@ -91,15 +92,15 @@ _EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]
 
 def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
-    limit = arg("limit", *limits, en="value to compare with")
+    limit = arg("limit", *limits, en="value to compare with", range=ANY_NUMBER)
     return (
         select(
             "test",
             {
                 **{word: [limit] for word in _TESTS},
                 "COMPRIS": [
-                    arg("low", *limits, en="lower bound"),
-                    arg("high", *limits, en="upper bound"),
+                    arg("low", *limits, en="lower bound", range=ANY_NUMBER),
+                    arg("high", *limits, en="upper bound", range=ANY_NUMBER),
                 ],
                 **(_EXISTE if kind == "MCHAML" else {}),
             },

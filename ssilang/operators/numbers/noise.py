@@ -20,7 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -75,9 +75,16 @@ def _poisson(
 @BRUI.form(
     _NOISE,
     choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law"),
-    arg("mean", "FLOTTANT", en="mean"),
+    arg("mean", "FLOTTANT", en="mean", range=ANY_NUMBER),
     arg("width", "FLOTTANT", range=NOT_NEGATIVE, en="deviation or half width"),
-    arg("where", "ENTIER", "LISTREEL", "MAILLAGE", en="number of values, times, or mesh"),
+    arg(
+        "where",
+        "ENTIER",
+        "LISTREEL",
+        "MAILLAGE",
+        en="number of values, times, or mesh",
+        range=ANY_NUMBER,
+    ),
     choice("colour", COLOURS, en="colour of the curve"),
     _SKIP,
     gives="LISTREEL|EVOLUTIO|CHPOINT",
@@ -92,8 +99,6 @@ def _continuous(
     colour: str | None,
     skip: int | None,
 ) -> Any:
-    if width < 0:
-        raise call.error("operators.numbers.negative-width", width, width=width)
     generator = session_generator(call, skip)
     if isinstance(where, int) and where < 0:
         raise call.error("operators.numbers.negative-count", where, where=where)

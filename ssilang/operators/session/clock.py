@@ -11,6 +11,7 @@ from ssilang.language.registry import Help, choice, flag, key, many, operator, o
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 
 _MONTHS = (
     "janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août", "septembre",
@@ -132,7 +133,7 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
     "DATE",
     flag("letters", "LETT"),
     choice("part", ("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
-    opt("seconds", "FLOTTANT"),
+    opt("seconds", "FLOTTANT", range=NOT_NEGATIVE),
     family="session",
     help=Help(
         en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "

@@ -10,6 +10,7 @@ from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, Stop
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ANNULE
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
@@ -51,7 +52,7 @@ def iterer(name: str) -> NoReturn:
 @operator(
     "ASSI",
     flag("every", "TOUS", en="not available"),
-    opt("number", "ENTIER", en="assistant, changes nothing"),
+    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
     gives=(),
     family="control",
     full_name="ASSISTANT",

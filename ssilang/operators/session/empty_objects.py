@@ -27,6 +27,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import Workspace, workspace
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
@@ -94,7 +95,14 @@ def _group(call: Call) -> list[Any] | None:
 @operator(
     "VIDE",
     flag("tabulated", "TABU", en="in a table"),
-    opt("places", "LISTENTI", "LISTREEL", "LISTMOTS", en="indices of the table, else 1, 2 ..."),
+    opt(
+        "places",
+        "LISTENTI",
+        "LISTREEL",
+        "LISTMOTS",
+        en="indices of the table, else 1, 2 ...",
+        range=ANY_NUMBER,
+    ),
     many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",

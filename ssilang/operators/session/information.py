@@ -12,6 +12,7 @@ from ssilang.language.say.reference import (
     procedure_page,
 )
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
 
@@ -91,7 +92,7 @@ SOUC = shared(
 )
 
 
-@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag"))
+@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", range=NOT_NEGATIVE))
 def _raise_flag(session: Session, level: int) -> None:
     if level:
         session.doubt(level)

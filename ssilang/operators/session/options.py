@@ -19,6 +19,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE, Workspace, workspace
@@ -416,7 +417,7 @@ def _worst_error(call: Call) -> int:
 
 @operator(
     "DENS",
-    arg("size", "FLOTTANT", en="mesh size", unit="m"),
+    arg("size", "FLOTTANT", en="mesh size", unit="m", range=POSITIVE),
     family="mesh",
     full_name="DENSITE",
     help=Help(

@@ -22,7 +22,7 @@ from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.language.registry import Help, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import MODEL
 
@@ -140,9 +140,9 @@ _FLOW = (
     arg("strain", "MCHAML", en="step of strain"),
     _MATERIAL,
     opt("extra", "TABLE", en="gets SUCCES"),
-    opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding"),
+    opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding", range=ANY_NUMBER),
     flag("alone", "NOID", en="accepted, changes nothing"),
-    opt("count", "ENTIER", en="accepted, changes nothing"),
+    opt("count", "ENTIER", en="accepted, changes nothing", range=ANY_NUMBER),
 )
 
 
@@ -227,7 +227,7 @@ _STATE = (
     key(
         "precision",
         "PREC",
-        arg("precision", "FLOTTANT"),
+        arg("precision", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="distance to the surface, a share of the stress; 1.E-3 without it",
     ),
@@ -237,7 +237,7 @@ _STATE = (
         arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         en="accepted: no law here has a viscosity",
     ),
-    opt("number", "FLOTTANT", en="the same as PREC"),
+    opt("number", "FLOTTANT", en="the same as PREC", range=POSITIVE),
 )
 _SYMMETRIC = flag("symmetric", "SYME", en="symmetric part")
 
@@ -325,11 +325,16 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     key(
         "share",
         "C1",
-        arg("share", "FLOTTANT"),
+        arg("share", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
     ),
-    key("least", "C2", arg("least", "FLOTTANT"), en="least perturbation, C1 / 100 without it"),
+    key(
+        "least",
+        "C2",
+        arg("least", "FLOTTANT", range=POSITIVE),
+        en="least perturbation, C1 / 100 without it",
+    ),
     _SYMMETRIC,
 )
 def perturbed(
@@ -344,8 +349,6 @@ def perturbed(
     """Stiffness of a step, by perturbing its strain."""
     model, step = present(call, model), _Step(start, end)
     smallest = share / 100.0 if least is None else least
-    if share <= 0.0 or smallest <= 0.0:
-        raise call.error("operators.statics.perturbation-not-positive")
     tangents = [(_by_differences(z, step, share, smallest), not has_law(z)) for z in model.zones]
     return _tangent_matrix(model, tangents, joined((step.end, step.start)), symmetric)
 

@@ -42,6 +42,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.statics.stresses import MODEL
@@ -100,7 +101,7 @@ def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     key(
         "values",
         FORCES,
-        arg("value", "FLOTTANT", unit="N"),
+        arg("value", "FLOTTANT", unit="N", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
@@ -154,7 +155,7 @@ def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     key(
         "values",
         MOMENTS,
-        arg("value", "FLOTTANT", unit="N m"),
+        arg("value", "FLOTTANT", unit="N m", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
@@ -173,6 +174,7 @@ _PRESSURE = arg(
     "FLOTTANT",
     en="pressure, by its number or as a field",
     unit="Pa",
+    range=ANY_NUMBER,
 )
 _OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: accepted, change nothing")
 _FACES = opt("faces", "MAILLAGE", en="sides")
@@ -188,7 +190,7 @@ _FACES = opt("faces", "MAILLAGE", en="sides")
         group(
             "named",
             arg("name", "MOT", en="name of the component, for a model CHARGEMENT"),
-            arg("value", "FLOTTANT", "MCHAML", en="pressure", unit="Pa"),
+            arg("value", "FLOTTANT", "MCHAML", en="pressure", unit="Pa", range=ANY_NUMBER),
             _FACES,
         ),
     ),

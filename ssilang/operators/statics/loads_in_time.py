@@ -35,6 +35,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, Range
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 
 _SPACE = ("CHPOINT", "MCHAML")
@@ -69,7 +70,7 @@ _PATH = group(  # behind the name, which may be this word
 @operator(
     "CHAR",
     _NAME,
-    arg("held", *_HELD, en="field, or what is loaded"),
+    arg("held", *_HELD, en="field, or what is loaded", range=ANY_NUMBER),
     opt("curve", "EVOLUTIO", en="factor in time, 1 without it"),
     _LINK,
     _MOVES,
@@ -188,7 +189,7 @@ def char_in_steps(
 
 @char.form(
     _NAME,
-    arg("times", "LISTREEL", en="times", unit="s"),
+    arg("times", "LISTREEL", en="times", unit="s", range=Range(increasing=True)),
     arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each"),
     _LINK,
     _MOVES,
@@ -260,7 +261,7 @@ def part_at(part: LoadPart, time: float) -> Any:
 
 
 _LOAD = arg("load", "CHARGEME", en="loading")
-_TIME = arg("time", "FLOTTANT", en="time", unit="s")
+_TIME = arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
 
 
 @operator(
@@ -323,7 +324,7 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
 
 
 _MAIN = main("load", "CHARGEME", en="loading")
-_NUMBER = opt("place", "ENTIER", default=1, en="number of the part")
+_NUMBER = opt("place", "ENTIER", default=1, en="number of the part", range=POSITIVE)
 _PART = arg("name", "MOT", en="name of parts")
 
 

@@ -44,8 +44,7 @@ from ssilang.operators.statics.bodies import (
     plastic_bodies,
     warn_of_strains,
 )
-from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
-from ssilang.operators.statics.linear_zones import linear_blocks
+from ssilang.operators.statics.initial_stress import linear_blocks, offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses

@@ -20,6 +20,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import solver_of, workspace
@@ -32,16 +33,26 @@ _WORDS = (
     flag("bilateral", "NOUNIL", en="unilateral conditions are equalities"),
     flag("stabilise", "STAB", en="add to the diagonal what makes the matrix positive"),
     flag("plain", "NOSTAB", en="accepted: the default"),
-    key("passes", "ELIM", arg("passes", "ENTIER"), en="0 keeps all conditions in a saddle point"),
+    key(
+        "passes",
+        "ELIM",
+        arg("passes", "ENTIER", range=NOT_NEGATIVE),
+        en="0 keeps all conditions in a saddle point",
+    ),
     key(
         "first",
         "INIB",
         arg("conditions", "RIGIDITE", en="conditions"),
-        arg("active", "LISTENTI", en="active ones"),
+        arg("active", "LISTENTI", en="active ones", range=ANY_NUMBER),
         en="first guess of the active conditions: accepted, found without it",
     ),
 )
-_PRECISION = opt("precision", "FLOTTANT", en="accepted: the solution is refined to rounding anyway")
+_PRECISION = opt(
+    "precision",
+    "FLOTTANT",
+    en="accepted: the solution is refined to rounding anyway",
+    range=ANY_NUMBER,
+)
 _LOADS = many("loads", "CHPOINT", at_least=1, en="second members")
 
 

@@ -28,6 +28,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
@@ -351,7 +352,12 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
 @LIST.form(
     flag("brief", "RESU", en="less of it"),
     arg("value", "*", "TEXTE", en="what is printed"),
-    many("numbers", "ENTIER", en="values in a line, depth of tables, or first and last line"),
+    many(
+        "numbers",
+        "ENTIER",
+        en="values in a line, depth of tables, or first and last line",
+        range=ANY_NUMBER,
+    ),
 )
 def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
     session.print(described(value, session.told, brief, numbers))

@@ -9,6 +9,7 @@ from ssilang.language.registry import Help, arg, choice, key, many, operator, op
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, between
 from ssilang.messages.message import Sentence, find
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
@@ -94,11 +95,21 @@ ERRE = shared(
 
 
 @ERRE.form(
-    arg("number", "ENTIER", en="number of the message"),
+    arg("number", "ENTIER", en="number of the message", range=ANY_NUMBER),
     key(
         "values",
         "AVEC",
-        many("values", "MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL"),
+        many(
+            "values",
+            "MOT",
+            "ENTIER",
+            "FLOTTANT",
+            "LOGIQUE",
+            "LISTMOTS",
+            "LISTENTI",
+            "LISTREEL",
+            range=ANY_NUMBER,
+        ),
         default=(),
         en="what completes the message",
     ),
@@ -123,6 +134,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         "FLOTTANT",
         "LOGIQUE",
         en="what completes a sentence of the library",
+        range=ANY_NUMBER,
     ),
 )
 def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
@@ -134,7 +146,7 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
 
 @operator(
     "SAUT",
-    opt("count", "ENTIER", default=1, en="number of lines"),
+    opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
     choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
     help=Help(
@@ -145,8 +157,6 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
 )
 def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
-    if not 0 <= count <= _BLANK_LINES:
-        raise call.error("operators.texts.blank-lines", count, most=_BLANK_LINES, found=count)
     for _ in range(1 if what == "PAGE" else count):
         call.session.print("")
 

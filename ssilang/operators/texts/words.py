@@ -16,6 +16,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.progressions import check_length
@@ -37,6 +38,7 @@ TEXT = (
         "FLOTTANT",
         "LOGIQUE",
         en="what is written, each with a column if one is given",
+        range=ANY_NUMBER,
     ),
 )
 """What `read_text` reads."""
@@ -194,7 +196,7 @@ def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
 
 @EXTR.form(
     main("text", "MOT", en="word"),
-    arg("places", "LISTENTI", en="places of its characters"),
+    arg("places", "LISTENTI", en="places of its characters", range=POSITIVE),
 )
 def _letters(call: Call, text: str, places: ListEnti) -> Mot:
     return Mot("".join(_letter(call, text, int(i)) for i in places.values))
@@ -202,8 +204,8 @@ def _letters(call: Call, text: str, places: ListEnti) -> Mot:
 
 @EXTR.form(
     main("text", "MOT", en="word"),
-    arg("first", "ENTIER", en="first character"),
-    opt("last", "ENTIER", en="last character, the end by default"),
+    arg("first", "ENTIER", en="first character", range=POSITIVE),
+    opt("last", "ENTIER", en="last character, the end by default", range=POSITIVE),
     syntax="MOT2 = EXTR MOT1 N1 (N2) ; MOT2 = EXTR MOT1 LISTENTI1 ; TAB1 = EXTR 'TYPE1' ;",
     en="Of a word: characters N1 to N2 (to the end without N2). With a type word alone: table of "
     "all named objects of that type.",

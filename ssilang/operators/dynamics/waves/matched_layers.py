@@ -32,12 +32,9 @@ def zpml(call: Call, table: Table) -> Table:
     from ssilang.kernel.waves.matched_layer import matched_layer
 
     entries = Entries(call, table, "@PML")
-    wanted = entries.get("REFLEXION")
-    if wanted is not None and not 0 < wanted < 1:
-        raise entries.error("operators.dynamics.reflection-of-layer", reflection=wanted)
     made = matched_layer(
         entries.needed("MODELE"), entries.needed("CARACTERISTIQUES"),
-        entries.needed("INTERIEUR"), wanted,
+        entries.needed("INTERIEUR"), entries.get("REFLEXION"),
     )  # fmt: skip
     if made.cells < FEWEST - 1e-6:
         entries.warn("operators.dynamics.thin-layer", cells=made.cells, fewest=FEWEST)

@@ -19,6 +19,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import arg, choice, main, many, opt, said
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import CHAN, MANU
 from ssilang.operators.workspace import workspace
 
@@ -85,7 +86,12 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
     return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
 
 
-_NUMBERS = opt("numbers", "LISTENTI", en="numbers of the points of each cell, in a mesh of points")
+_NUMBERS = opt(
+    "numbers",
+    "LISTENTI",
+    en="numbers of the points of each cell, in a mesh of points",
+    range=POSITIVE,
+)
 
 
 @CHAN.form(

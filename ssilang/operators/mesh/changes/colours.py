@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.combine import recolour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 
@@ -52,7 +53,7 @@ def afco(mesh: Mesh) -> Mesh:
     main("mesh", "MAILLAGE", en="mesh"),
     either(
         "colour",
-        group("number", arg("number", "ENTIER", en="its number")),
+        group("number", arg("number", "ENTIER", en="its number", usual=between(0, len(COLOURS)))),
         group("name", arg("name", "MOT", en="its name", kind="colour")),
         optional=True,
         en="colour, that of OPTI COUL by default",

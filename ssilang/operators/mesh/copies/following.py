@@ -16,6 +16,7 @@ from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import ANY, Help, Like, arg, flag, many, operator, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
 from ssilang.operators.mesh.copies.moves import displacements
@@ -105,12 +106,7 @@ def through_map(objects: Sequence[Any], before: Mesh, after: Mesh) -> tuple[Any,
 
 @dedu.form(
     said("ROTA"),
-    arg(
-        "angle",
-        "FLOTTANT",
-        en="angle by which vectors turn",
-        unit="degree",
-    ),
+    arg("angle", "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER),
     _OBJECTS,
     _BEFORE,
     _AFTER,

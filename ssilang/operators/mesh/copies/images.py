@@ -31,6 +31,7 @@ from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, o
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
@@ -188,7 +189,9 @@ def _shifted(
 
 
 def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
-    return many("objects", *types, leaving=leaving, left=left, en="objects to copy")
+    return many(
+        "objects", *types, leaving=leaving, left=left, en="objects to copy", range=ANY_NUMBER
+    )
 
 
 _SHIFTED = (

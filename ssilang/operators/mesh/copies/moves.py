@@ -28,6 +28,7 @@ from ssilang.kernel.mesh.generators.sweep import rotate
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.maps import (
     DIRECTION,
     FIXED,
@@ -166,6 +167,7 @@ def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
         "FLOTTANT",
         en="angle, or one for each node",
         unit="degree",
+        range=ANY_NUMBER,
     ),
     AXIS,
 )

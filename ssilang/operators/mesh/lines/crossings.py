@@ -17,6 +17,7 @@ from ssilang.kernel.mesh.surfaces.analytic import (
 )
 from ssilang.language.registry import Chosen, arg, key, main, select
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
@@ -70,7 +71,7 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     key(
         "length",
         "LONG",
-        arg("length", "FLOTTANT", unit="m"),
+        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
         en="length of the curve, then the end only shows the way",
     ),
     END,
@@ -97,8 +98,6 @@ def crossing(
 ) -> Mesh:
     """The line along which two surfaces cross, from a point or a line to another."""
     cuts = cuts_of(call, count, sizes)
-    if length is not None and length <= 0.0:
-        raise call.error("operators.mesh.curve-length-not-positive", length, length=length)
     if len(surfaces) != 2:
         raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
     ends = ends_of(call, start, end)

@@ -11,6 +11,7 @@ from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
@@ -143,8 +144,8 @@ def cubt(
     key(
         "limits",
         "PARAMETRE",
-        arg("u1", "FLOTTANT"),
-        arg("u2", "FLOTTANT"),
+        arg("u1", "FLOTTANT", range=ANY_NUMBER),
+        arg("u2", "FLOTTANT", range=ANY_NUMBER),
         default=(0.0, 1.0),
         en="U at the start and at the end",
     ),

@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
@@ -145,12 +146,7 @@ def segment(
 @operator(
     "QUEL",
     choice("cell_type", ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"),
-    many(
-        "lists",
-        "LISTREEL",
-        en="first coordinates, second ones ...",
-        unit="m",
-    ),
+    many("lists", "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER),
     many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
     family="mesh",
     full_name="QUELCONQUE",

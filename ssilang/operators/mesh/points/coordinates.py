@@ -15,11 +15,15 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import ANY, arg, main, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import COOR
 from ssilang.operators.workspace import workspace
 
 _AXIS = arg(
-    "axis", "ENTIER", en="number of the coordinate; the dimension + 1 stands for the density"
+    "axis",
+    "ENTIER",
+    en="number of the coordinate; the dimension + 1 stands for the density",
+    range=POSITIVE,
 )
 _POINT = main("support", "POINT", en="point")
 _MESH = main("support", "MAILLAGE", en="mesh")
@@ -79,7 +83,7 @@ def all_coordinates(
 @COOR.form(
     said("CURV"),
     arg("line", "MAILLAGE", en="line"),
-    opt("axis", "ENTIER", en="accepted, without effect"),
+    opt("axis", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
 )
 def curvilinear_coordinate(line: Mesh, axis: int | None) -> NodeField:
     """Length along a line."""

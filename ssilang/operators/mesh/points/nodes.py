@@ -10,6 +10,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -29,7 +30,7 @@ def noeu(point: Point) -> int:
     return point.node + 1
 
 
-@noeu.form(arg("number", "ENTIER", en="number of a node"))
+@noeu.form(arg("number", "ENTIER", en="number of a node", range=POSITIVE))
 def numbered(session: Session, call: Call, number: int) -> Point:
     """The point of a node."""
     nodes = workspace(session).nodes

@@ -32,6 +32,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
@@ -44,7 +45,7 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
-_LIMIT = arg("limit", "FLOTTANT", en="value")
+_LIMIT = arg("limit", "FLOTTANT", en="value", range=ANY_NUMBER)
 EXTREMES = select(
     "what",
     {
@@ -52,8 +53,8 @@ EXTREMES = select(
         "MINI": (),
         **dict.fromkeys(_COMPARISONS, (_LIMIT,)),
         "COMPRIS": (
-            arg("low", "FLOTTANT", en="one limit"),
-            arg("high", "FLOTTANT", en="other limit"),
+            arg("low", "FLOTTANT", en="one limit", range=ANY_NUMBER),
+            arg("high", "FLOTTANT", en="other limit", range=ANY_NUMBER),
         ),
     },
     optional=False,
@@ -85,8 +86,8 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
 @operator(
     "POIN",
     _MESH,
-    arg("number", "ENTIER", en="number of a point, or in the cell"),
-    opt("cell", "ENTIER", en="number of the cell"),
+    arg("number", "ENTIER", en="number of a point, or in the cell", range=POSITIVE),
+    opt("cell", "ENTIER", en="number of the cell", range=POSITIVE),
     family="mesh",
     full_name="POINT",
     help=Help(
@@ -272,11 +273,11 @@ def of_cell_field(
 
 
 @poin.form(
-    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m"),
+    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m", range=ANY_NUMBER),
     key(
         "density",
         "DENS",
-        arg("density", "FLOTTANT", unit="m"),
+        arg("density", "FLOTTANT", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
 )
@@ -294,11 +295,12 @@ def made(session: Session, coordinates: Sequence[float], density: float | None) 
         at_least=1,
         en="first coordinates, second ones ...",
         unit="m",
+        range=ANY_NUMBER,
     ),
     key(
         "density",
         "DENS",
-        arg("density", "FLOTTANT", "LISTREEL", unit="m"),
+        arg("density", "FLOTTANT", "LISTREEL", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
 )

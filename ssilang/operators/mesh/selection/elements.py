@@ -40,6 +40,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.points.picking import (
     ABSOLUTE,
     EXTREMES,
@@ -54,7 +55,7 @@ _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 _FILTERS = key(
     "filters", (TIE, *CELL_TYPES, "POLY", *COLOURS), repeated=True, en="type or colour of the cells"
 )
-_NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those")
+_NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those", range=POSITIVE)
 
 
 @operator(
@@ -115,7 +116,7 @@ def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti |
         "colour",
         {
             "COUL": [
-                opt("number", "ENTIER", en="number of a colour"),
+                opt("number", "ENTIER", en="number of a colour", range=NOT_NEGATIVE),
             ]
         },
         optional=False,

@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -24,7 +24,7 @@ from ssilang.operators.workspace import workspace
     "DEDA",
     arg("point", "POINT", en="point"),
     arg("mesh", "MAILLAGE", en="closed line or closed surface"),
-    opt("tolerance", "FLOTTANT", en="accepted, without effect"),
+    opt("tolerance", "FLOTTANT", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     help=Help(
         en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "

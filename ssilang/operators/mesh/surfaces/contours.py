@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
@@ -250,10 +250,10 @@ _POLYNOMIAL = (
     key(
         "limits",
         "PARAMETRE",
-        arg("u1", "FLOTTANT"),
-        arg("u2", "FLOTTANT"),
-        arg("v1", "FLOTTANT"),
-        arg("v2", "FLOTTANT"),
+        arg("u1", "FLOTTANT", range=ANY_NUMBER),
+        arg("u2", "FLOTTANT", range=ANY_NUMBER),
+        arg("v1", "FLOTTANT", range=ANY_NUMBER),
+        arg("v2", "FLOTTANT", range=ANY_NUMBER),
         default=(0.0, 1.0, 0.0, 1.0),
         en="where U and V begin and end",
     ),

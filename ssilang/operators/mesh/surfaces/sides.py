@@ -5,11 +5,12 @@ from __future__ import annotations
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import ANY, Help, arg, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 
 
 @operator(
     "COTE",
-    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left"),
+    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="surface"),
     family="mesh",
     help=Help(
@@ -49,7 +50,7 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
 
 @operator(
     "FACE",
-    arg("number", "ENTIER", en="1 start, 2 end, 3 around"),
+    arg("number", "ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="volume"),
     family="mesh",
     help=Help(

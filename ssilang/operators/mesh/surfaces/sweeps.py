@@ -25,6 +25,7 @@ from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -49,6 +50,7 @@ LAYERS = opt(
     "count",
     "ENTIER",
     en="number of layers, graded by the mesh sizes if negative; without it these decide",
+    range=NOT_ZERO,
 )
 _SWEPT = arg("swept", "MAILLAGE", en="line, or surface whose side 3 is swept")
 
