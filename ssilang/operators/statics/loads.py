@@ -437,9 +437,9 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
     _THICKNESS,
     family="load",
     help=Help(
-        en="Nodal forces of a force per volume in continuous elements: nodal field or field in "
-        "cells with components FX FY FZ (weight, centrifugal force ...). CAR1 gives the "
-        "thickness DIM3 in plane stress.",
+        en="Nodal forces of a force per volume in continuous elements and shells DKT COQ3 COQ4: "
+        "nodal field or field in cells with components FX FY FZ (weight, centrifugal force ...). "
+        "CAR1 gives the thickness EPAI of shells, DIM3 in plane stress.",
         syntax="FOR1 = CNEQ MODL1 | CHPO1 | CHAM1 (CAR1) ;",
         examples=(
             "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
