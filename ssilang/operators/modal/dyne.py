@@ -391,17 +391,6 @@ _FORM = operator(
     "projected on the modes (CHARGEMENT), DEPLACEMENTS . 0 and VITESSES . 0, NOMBRE_PAS, "
     "PAS_DE_TEMPS and PAS_DE_SORTIE; TEMPS, DEPLACEMENTS, VITESSES and LIAISONS are written into "
     "it.",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM POI1 ; P = 0. 0. ; Q = 0. 0. ; "
-        "U = MANU 'CHPO' P 1 'UX' 1. ; G = MANU 'POI1' Q ; H = MANU 'POI1' P ; "
-        "M = MODE G 'MECANIQUE' 'ELASTIQUE' 'MODAL' ; A = MATE M 'FREQ' 1. 'MASS' 1. 'DEFO' U ; "
-        "L = MODE H 'LIAISON' 'POINT_PLAN' ; "
-        "B = MATE L 'NORM' (-1. 0.) 'RAID' 4.E3 'JEU' 0. ; T = TABL 'PASAPAS' ; "
-        "T . 'MODELE' = M ET L ; T . 'CARACTERISTIQUES' = A ET B ; T . 'DEPLACEMENTS' = TABL ; "
-        "T . 'DEPLACEMENTS' . 0 = MANU 'CHPO' Q 1 'ALFA' 1. ; T . 'NOMBRE_PAS' = 400 ; "
-        "T . 'PAS_DE_TEMPS' = 1.E-3 ; T . 'SORTIE' = TABL ; T . 'SORTIE' . L = VRAI ; "
-        "DYNE 'DE_VOGELAERE' T ; LIST (MAXI (T . 'LIAISONS' . L . 'FORCE_DE_CHOC') 'ABS') ;",
-    ),
 )
 def _of_models(call: Call, scheme: bool, table: Table) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""

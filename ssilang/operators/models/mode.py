@@ -224,11 +224,6 @@ def contact(
         en="with friction, plastic ...",
     ),
     arg("mesh", "MAILLAGE", en="its point, a cell POI1"),
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM POI1 ; G = MANU 'POI1' (1. 0.) ; "
-        "M = MODE G 'LIAISON' 'CERCLE_PLAN' 'FROTTEMENT' ; LIST (NBEL (EXTR M 'MAIL')) ; "
-        "LIST (EXTR M 'MATE') ;",
-    ),
 )
 def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh) -> Model:
     """A model of links, one for each point."""
