@@ -8,7 +8,8 @@ from ssilang.io.atomic import write_text
 from ssilang.report.deck_text import Colours
 from ssilang.report.page import page_of
 from ssilang.report.results import read_results
-from ssilang.report.sweep_page import is_sweep, read_sweep, sweep_page
+from ssilang.report.sweep_page import sweep_page
+from ssilang.report.sweep_table import is_sweep, read_sweep
 
 NAME = "report.html"
 
