@@ -222,8 +222,8 @@ def _through(field: Any, curve: Curve) -> Any:
 
 
 for _kind in ("CHPOINT", "MCHAML"):
-    rule("*", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
-    rule("*", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
+    rule("* /", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
+    rule("* /", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
 
 
 # ---- integrals ----------------------------------------------------------------------------------

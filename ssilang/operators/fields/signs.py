@@ -187,7 +187,7 @@ def _multiply_cells(
     if sign == "*" and _has_matrices(a) != _has_matrices(b):
         found = call.required("MMODEL") if model is None else model
         return _stresses(found, a, b) if _has_matrices(a) else _stresses(found, b, a)
-    if model is not None:
+    if model is not None and sign == "*":
         raise call.error("operators.fields.model-for-hooke", model)
     return cell_algebra.multiplied(a, b, sign == "/", _of_objects)
 
@@ -215,12 +215,12 @@ def _stresses(model: Model, matrices: CellField, strains: CellField) -> CellFiel
     return CellField(blocks, "CONTRAINTES")
 
 
-@rule_with_call("*", "MMODEL", "MCHAML")
+@rule_with_call("* /", "MMODEL", "MCHAML")
 def _model_first(call: Call, sign: str, model: Model, a: CellField) -> CellField:
     return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
 
 
-@rule_with_call("*", "MCHAML", "MMODEL")
+@rule_with_call("* /", "MCHAML", "MMODEL")
 def _model_second(call: Call, sign: str, a: CellField, model: Model) -> CellField:
     return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
 

@@ -291,8 +291,8 @@ def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...
     syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
     "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
     en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
-    "with the parameters CAR1 beams and bars count with their section, plane stress with its "
-    "thickness.",
+    "with the parameters CAR1 beams and bars count with their section, shells and plane stress "
+    "with their thickness.",
 )
 def intg(
     call: Call,

@@ -169,6 +169,9 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
+        if "FLOTTANT" in kinds and problem.code == "operators.lists.steps-lead-away":
+            call.warn("operators.lists.steps-left-out", **problem.data)
+            return [end, *more]
         raise call.error(problem.code, end, **problem.data) from None
 
 

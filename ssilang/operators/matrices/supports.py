@@ -9,7 +9,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Matrix, Relations
@@ -54,6 +56,8 @@ def warn_of_foreign(call: Call, unknowns: Sequence[str]) -> None:
     """Tell of displacements and rotations that no body has under the OPTI MODE in force."""
     mode = workspace(call.session).mode
     own = made.translations(mode) + made.rotations(mode)
+    if mode is Mode.GENERALISED_PLANE_STRAIN:
+        own += SECTION_UNKNOWNS
     foreign = [name for name in dict.fromkeys(unknowns) if name in _DISPLACEMENTS.difference(own)]
     if foreign:
         call.warn("operators.matrices.foreign-unknown", names=foreign, own=own, mode=mode.value)

@@ -10,7 +10,6 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.kernel.modal.links import link_arrays
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
@@ -110,8 +109,7 @@ def _oscillators(
     from ssilang.kernel.continuation.link_samples import LinkForces
 
     n = len(system.M)
-    read = links_of(call, tables.get("links"), system.basis)
-    forces = LinkForces(link_arrays([r.link for r in read], n))
+    forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))
     table = tables.get("loads")
     unbalance = False

@@ -19,10 +19,11 @@ from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
-from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
+from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.models.reduction import reference_to_curve, tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
@@ -32,7 +33,17 @@ Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
 
-_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
+_VALUES = (
+    "FLOTTANT",
+    "EVOLUTIO",
+    "MCHAML",
+    "POINT",
+    "CHPOINT",
+    "MMODEL",
+    "MAILLAGE",
+    "TABLE",
+    "MOT",
+)
 SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
 
@@ -250,6 +261,10 @@ def unknown_parameter(call: Call, written: str, model: Model, known: Known) -> E
 def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     """Values of a parameter on the cells of a zone; None if a field does not stand there."""
     n = len(zone.cells)
+    if zone.formulation == "LIAISON" and not isinstance(value, float | CellField):
+        return _one_object(value, n)
+    if isinstance(value, Mesh | Table | str):
+        raise call.error("operators.models.parameter-is-a-number", value, name=name)
     if name in ("MODS", "MATS"):
         _check_section(call, name, value)
         return _one_object(value, n)

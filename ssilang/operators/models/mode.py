@@ -28,6 +28,7 @@ from ssilang.kernel.materials.behaviours import (
     normalised,
 )
 from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
@@ -137,6 +138,7 @@ MODE = shared(
         "line to the body meshed by GEO2 and lets it slide along with the friction of BPEL 99 "
         "(MATE: FF, PHIF); both are for PASAPAS.\n"
         "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
+        "The formulation LIAISON makes a link of DYNE on a point, for tables PASAPAS.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
         "Joints are integrated at GAUSS points (default) or, by LOBATTO, at the nodes of faces "
@@ -157,7 +159,8 @@ MODE = shared(
         "MODL1 = MODE GEO1 'CONTACT' ('UNILATERAL') GEO2 ('MESC' | 'SYME' | 'FAIB' | 'MORT') ;\n"
         "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'COULOMB' GEO2 ('MESC' ...) ;\n"
         "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'FROCABLE' (MODL2) GEO2 ;\n"
-        "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
+        "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;\n"
+        "MODL1 = MODE GEO1 'LIAISON' 'POINT_PLAN' | 'POINT_POINT' | ... ('FROTTEMENT' | ...) ;",
     ),
 )
 
@@ -209,6 +212,30 @@ def contact(
     if friction is not None and friction["law"] == "FROCABLE":
         return cable_model(call, mesh, cables, slave, ws)
     return contact_model(call, mesh, slave, method, friction is not None, ws)
+
+
+@MODE.form(
+    choice("formulation", ("LIAISON",), optional=False, en="a link of DYNE"),
+    choice("kind", tuple(dict.fromkeys(w[0] for w in LINKS)), length=8, optional=False, en="kind"),
+    choice(
+        "more",
+        tuple(dict.fromkeys(w[1] for w in LINKS if len(w) > 1)),
+        length=8,
+        en="with friction, plastic ...",
+    ),
+    arg("mesh", "MAILLAGE", en="its point, a cell POI1"),
+)
+def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh) -> Model:
+    """A model of links, one for each point."""
+    words = (kind, more) if more else (kind,)
+    if words not in LINKS:
+        raise call.error(
+            "operators.models.no-such-link", words=words, known=[" ".join(w) for w in LINKS]
+        )
+    if any(b.cell_type != "POI1" for b in mesh.blocks):
+        raise call.error("operators.models.link-on-points", mesh)
+    mode = workspace(call.session).mode
+    return Model(tuple(Zone(b, "LIAISON", words, "LIAI", mode) for b in mesh.blocks))
 
 
 @MODE.form(

@@ -259,7 +259,7 @@ def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
 
 _FURTHER = {
     "*": "\nCHAM3 = CHAM1 * CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nSIG1 = HOO1 * EPS1 MODL1 ;",
-    "/": "\nCHAM3 = CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;",
+    "/": "\nCHAM3 = (MODL1) CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nCHAM2 = CHAM1 / EVOL1 ;",
 }
 _TEXTS = {
     "+": "Sum of two objects.",
@@ -268,7 +268,10 @@ _TEXTS = {
         "Product of two objects. Of fields with three lists of names: component by component (in "
         "cells with a factor each); of matrices of Hooke by strains, with the model: stresses."
     ),
-    "/": "Quotient; of two integers it is an integer, cut towards zero.",
+    "/": (
+        "Quotient; of two integers it is an integer, cut towards zero. A field by a curve: its "
+        "values through the curve's function, as with *."
+    ),
     "**": "Power.",
 }
 for _sign, _en in _TEXTS.items():

@@ -386,9 +386,9 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
     _THICKNESS,
     family="load",
     help=Help(
-        en="Nodal forces of a force per volume in continuous elements: nodal field or field in "
-        "cells with components FX FY FZ (weight, centrifugal force ...). CAR1 gives the "
-        "thickness DIM3 in plane stress.",
+        en="Nodal forces of a force per volume in continuous elements and shells DKT COQ3 COQ4: "
+        "nodal field or field in cells with components FX FY FZ (weight, centrifugal force ...). "
+        "CAR1 gives the thickness EPAI of shells, DIM3 in plane stress.",
         syntax="FOR1 = CNEQ MODL1 | CHPO1 | CHAM1 (CAR1) ;",
     ),
 )

@@ -8,6 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.bar import bar_stretch
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
@@ -18,6 +19,11 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 
+# what the line or middle surface of a family is multiplied by
+_ACROSS = dict.fromkeys(("bar", "beam", "timoshenko", "pipe"), "SECT") | dict.fromkeys(
+    ("plate", "mindlin", "meridian"), "EPAI"
+)
+
 
 def integrals(
     zone: Zone, field: CellField, name: str, material: CellField | None = None
@@ -27,8 +33,8 @@ def integrals(
     Parameters
     ----------
     material : CellField, optional
-        With it beams and bars are integrated over their volume (SECT), plane stress over its
-        thickness (DIM3); without it over their line or surface.
+        With it beams, bars and shells are integrated over their volume (SECT, EPAI), plane stress
+        over its thickness (DIM3); without it over their line or surface.
     """
     seen = zone_field(zone, field)
     if name not in seen:
@@ -39,8 +45,12 @@ def integrals(
     parameters = zone_field(zone, material)
     weights = family_of(zone).weights(zone, parameters, target)
     total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
-    if material is not None and ELEMENTS[zone.element].family in ("bar", "beam", "timoshenko"):
-        total = total * np.broadcast_to(parameters.at("SECT", "GRAVITE")[:, 0], total.shape)
+    family = ELEMENTS[zone.element].family
+    across = _ACROSS.get(family)
+    if material is not None and across is not None:
+        if family == "pipe":
+            parameters = pipe_parameters(zone, parameters)
+        total = total * np.broadcast_to(parameters.at(across, "GRAVITE")[:, 0], total.shape)
     return total
 
 
