@@ -114,7 +114,8 @@ def _asked(options: SweepOptions) -> Asked:
 def _judge(options: SweepOptions, asked: Asked, err: TextIO) -> bool:
     """Leave what was asked for beside the table, and the fits; whether a name is unknown."""
     if not asked.limits:
-        (options.folder / ASKED).unlink(missing_ok=True)
+        for name in (ASKED, FITS):
+            (options.folder / name).unlink(missing_ok=True)
         return False
     asked.write(options.folder)
     made = read_sweep(options.folder)
