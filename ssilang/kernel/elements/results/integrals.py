@@ -5,11 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import carry, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.model import Zone
+
+# what the line or middle surface of a family is multiplied by
+_ACROSS = dict.fromkeys(("bar", "beam", "timoshenko", "pipe"), "SECT") | dict.fromkeys(
+    ("plate", "mindlin", "meridian"), "EPAI"
+)
 
 
 def integrals(
@@ -20,8 +26,8 @@ def integrals(
     Parameters
     ----------
     material : CellField, optional
-        With it beams and bars are integrated over their volume (SECT), plane stress over its
-        thickness (DIM3); without it over their line or surface.
+        With it beams, bars and shells are integrated over their volume (SECT, EPAI), plane stress
+        over its thickness (DIM3); without it over their line or surface.
     """
     seen = zone_field(zone, field)
     if name not in seen:
@@ -32,6 +38,10 @@ def integrals(
     parameters = zone_field(zone, material)
     weights = family_of(zone).weights(zone, parameters, target)
     total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
-    if material is not None and ELEMENTS[zone.element].family in ("bar", "beam", "timoshenko"):
-        total = total * np.broadcast_to(parameters.at("SECT", "GRAVITE")[:, 0], total.shape)
+    family = ELEMENTS[zone.element].family
+    across = _ACROSS.get(family)
+    if material is not None and across is not None:
+        if family == "pipe":
+            parameters = pipe_parameters(zone, parameters)
+        total = total * np.broadcast_to(parameters.at(across, "GRAVITE")[:, 0], total.shape)
     return total
