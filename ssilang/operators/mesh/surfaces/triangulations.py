@@ -11,8 +11,12 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.constrained import is_closed, triangulated_with_lines
-from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.constrained import (
+    delaunay_mesh,
+    is_closed,
+    refined_triangles,
+    triangulated_with_lines,
+)
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
