@@ -40,29 +40,41 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     ),
 )
 def _category(colour: str, text: str) -> Annotation:
+    if not is_colour(colour) and is_colour(text):
+        colour, text = text, colour
     return Annotation((Category(index_of(colour), str(text)),))
 
 
 @ANNO.form(
     said("ETIQ"),
     arg("point", "POINT", en="where"),
-    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
     opt("distance", "FLOTTANT", en="distance of the text", unit="m"),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
     "(FLOT1) (LOGI1) MOT1 ;",
+    examples=(
+        "OPTI DIME 2 ELEM SEG2 ; P = 1. 0. ; L = DROI 4 (0. 0.) P ;\n"
+        "A = ANNO 'ETIQ' P 'S' 'end' 'VERT' ; TRAC L A ; MESS (TYPE A) ;",
+    ),
     en="ETIQ: a text at a point, in a colour, on one of its sides, at a distance, with a line to "
     "the point unless LOGI1 is FAUX.",
 )
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
 ) -> Annotation:
-    colour, place = 0, "NE"
-    for word in words[:-1]:
-        if word.strip().upper() in PLACES:
-            place = word.strip().upper()
-        elif is_colour(word):
-            colour = index_of(word)
-        else:
+    found: dict[str, str] = {}
+    for word in words:
+        side = word.strip().upper() in PLACES and "place" not in found
+        role = (
+            "place" if side else "colour" if is_colour(word) and "colour" not in found else "text"
+        )
+        if role in found:
             raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
-    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))
+        found[role] = word
+    if "text" not in found:  # the text is spelt as a side or a colour
+        role = next(r for r, word in found.items() if word is words[-1])
+        found["text"] = found.pop(role)
+    colour = index_of(found["colour"]) if "colour" in found else 0
+    place = found.get("place", "NE").strip().upper()
+    return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))
