@@ -16,8 +16,8 @@ from ssilang.api import histories
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
 from ssilang.api.html import rows_html
-from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
+from ssilang.api.view import library
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
 from ssilang.kernel.mesh.combine import poi1

@@ -13,6 +13,7 @@ from ssilang.cli.check import check_file, check_source
 from ssilang.cli.run import run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.say.diagnostics import render
+from ssilang.language.say.reference import operator_page
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.operators.loader import load_operators
@@ -32,7 +33,7 @@ FIN B1 ;
 """
 
 load_operators()
-_EXAMPLES = {o.name: o.help.examples for o in OPERATORS.values()}
+_EXAMPLES = {o.name: operator_page(o).help.examples for o in OPERATORS.values()}
 
 
 def codes(text: str) -> list[str]:

@@ -11,6 +11,7 @@ from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, Stop
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ANNULE, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
@@ -22,7 +23,6 @@ from ssilang.language.values import ANNULE, Table
     help=Help(
         en="Leaves the named loop (an outer one too) or the running procedure.",
         syntax="QUIT NOM1 ;",
-        examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
     ),
 )
 def quitter(session: Session, name: str) -> NoReturn:
@@ -38,11 +38,7 @@ def quitter(session: Session, name: str) -> NoReturn:
     gives=(),
     family="control",
     full_name="ITERER",
-    help=Help(
-        en="Goes on with the next turn of the named loop.",
-        syntax="ITER NOM1 ;",
-        examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
-    ),
+    help=Help(en="Goes on with the next turn of the named loop.", syntax="ITER NOM1 ;"),
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
@@ -57,7 +53,6 @@ ASSI = shared(
         en="Has an assistant carry out the phrase that follows: here one process does all, so the "
         "phrase simply runs.",
         syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-        examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
     ),
 )
 
@@ -69,10 +64,6 @@ ASSI = shared(
     syntax="TAB2 ... = ASSI 'TOUS' PHRASE ;",
     en="TOUS: the phrase runs for each index of the tables ESCLAVE in it, with their objects at "
     "that index in their place; results are tables ESCLAVE.",
-    examples=(
-        "T = TABL 'ESCLAVE' ; T . 1 = PROG 3. 1. ; T . 2 = PROG 5. ; "
-        "U = ASSI 'TOUS' MAXI T ; LIST (U . 1) ; LIST (U . 2) ;",
-    ),
 )
 def assi_all(call: Call, word: str) -> tuple[Table, ...] | None:
     """Run the phrase for all objects of its tables."""
@@ -109,7 +100,7 @@ def _indices(table: Table) -> list[Any]:
 
 
 @ASSI.form(
-    opt("number", "ENTIER", en="assistant, changes nothing"),
+    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
     gives=(),
 )
 def assi(number: int | None) -> None:
@@ -121,9 +112,7 @@ def assi(number: int | None) -> None:
     gives=(),
     family="control",
     help=Help(
-        en="Ends the run; with a name, ends the block that REPE opened.",
-        syntax="FIN ; FIN NOM1 ;",
-        examples=("MESS 'last words' ; FIN ;",),
+        en="Ends the run; with a name, ends the block that REPE opened.", syntax="FIN ; FIN NOM1 ;"
     ),
 )
 def fin() -> NoReturn:
@@ -139,7 +128,6 @@ def fin() -> NoReturn:
     help=Help(
         en="A comment up to the end of the statement; a line with * in column 1 is one too.",
         syntax="COMM ... ;",
-        examples=("COMM nothing happens here ;",),
     ),
 )
 def comm(text: tuple[Any, ...]) -> None:
@@ -171,7 +159,6 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
         en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
         "optional; without type any object is taken.",
         syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
-        examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
     ),
     reads_itself="its items are names and types, with * or / between",
 )
@@ -204,7 +191,6 @@ def argu(call: Call) -> None:
     help=Help(
         en="Inside a procedure: gives results, delivered before those of FINP.",
         syntax="RESP OBJ1 OBJ2 ... ;",
-        examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
     ),
 )
 def resp(session: Session, results: tuple[Any, ...]) -> None:

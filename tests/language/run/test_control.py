@@ -103,9 +103,12 @@ def test_what_does_something_or_is_misspelt_is_refused_at_once(fails, text):
 
 
 def test_names_that_hold_nothing_are_neither_saved_nor_listed(run):
-    script = run("SA = STRU 1. ; SB = 2 ; OPTI SAUV 'a.sauv' ; SAUV ; LIST ; x = EXIS 'SA' ;")
-    assert any(" SB " in line for line in script.lines)
-    assert not any(" SA " in line for line in script.lines)
+    script = run(
+        "SB = 2 ; SA = STRU 1. ; OPTI SAUV 'a.sauv' ; SAUV ; OUBL SB ; LIST ;"
+        "OPTI REST 'a.sauv' ; REST ; x = SB ;"
+    )
+    assert not any("SA " in line for line in script.lines)
+    assert script["x"] == 2
 
 
 def test_blocks_nest(run):
@@ -117,7 +120,9 @@ def test_blocks_nest(run):
 
 
 def test_nothing_in_a_skipped_branch_is_evaluated(run):
-    run("SI FAUX ; y = UNKNOWNOP 1 2 ; z = 1 / 0 ; FINSI ;")
+    text = "x = 1 ; SI FAUX ; x = UNKNOWNOP 1 2 ; x = 1 / 0 ; MESS 'met' ; SINON ; y = 2 ; FINSI ;"
+    script = run(text)
+    assert (script["x"], script["y"], script.lines) == (1, 2, [])
 
 
 @pytest.mark.parametrize("words", ["'SI' VRAI ; x = 1 ; 'FINSI'", "si VRAI ; x = 1 ; finsi",

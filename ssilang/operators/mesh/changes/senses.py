@@ -26,10 +26,6 @@ from ssilang.operators.workspace import workspace
     main("mesh", "MAILLAGE", en="mesh"),
     syntax="GEO2 = INVE GEO1 ;",
     en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = INVE (DROI 2 (0. 0.) (1. 0.)) ;"
-        " LIST (COOR 1 (L POIN 'INIT')) ;",
-    ),
 )
 def inverted(mesh: Mesh) -> Mesh:
     """Mesh turned inside out."""
@@ -53,10 +49,6 @@ def inverted(mesh: Mesh) -> Mesh:
         "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
         "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
         syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
-            " LIST (MESU S) ;",
-        ),
     ),
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
@@ -76,7 +68,6 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     help=Help(
         en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
         syntax="GEO2 = VERS GEO1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = VERS (DROI 4 (0. 0.) (1. 0.)) ;",),
     ),
 )
 def vers(mesh: Mesh) -> Mesh:
@@ -89,11 +80,6 @@ def vers(mesh: Mesh) -> Mesh:
     syntax="MAIL2 = ORDO MAIL1 ;",
     en="Of a mesh: lines put end to end, points by distance from the first one, other cells from "
     "neighbour to neighbour.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ;\n"
-        "A = (S ELEM 1) ET (S ELEM 3) ET (S ELEM 2) ; B = ORDO A ;\n"
-        "LIST (MAXI (COOR 1 (B ELEM 2))) ;",
-    ),
 )
 def ordered(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""
