@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
 from ssilang.kernel.waves.histories import HISTORIES
 
 
@@ -13,8 +13,12 @@ def negative_unknowns(matrix: Matrix) -> list[tuple[int, str, float]]:
     """Node, name and stiffness of unknowns where springs make the diagonal negative.
 
     A spring below zero beside a stiffer one, or a condition, is meant (a weight that leans), and so
-    are the diagonals of stresses of a matched layer.
+    are the diagonals of stresses of a matched layer. Impedances, which have real and imaginary parts
+    of the same unknowns, are below zero above a frequency.
     """
+    names = {n for b in matrix.blocks for n in b.unknowns}
+    if any(imaginary(n) in names for n in names):
+        return []
     looked = [b for b in matrix.blocks if b.zone is None and (_diagonal(b) < 0.0).any()]
     if not looked:
         return []
