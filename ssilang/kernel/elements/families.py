@@ -8,11 +8,10 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MeshError
-from ssilang.kernel.elements.beams.bar import Bar
+from ssilang.kernel.elements.beams.bar import Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_beam import FibreBeam
 from ssilang.kernel.elements.beams.fibre_section import Fibre
-from ssilang.kernel.elements.beams.hoop import Hoop
 from ssilang.kernel.elements.beams.pipe import Pipe
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import (

@@ -25,6 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
@@ -42,12 +43,14 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     said("CHPO"),
     _TITLE,
     NATURE,
-    opt("count", "ENTIER", en="number of pairs"),
+    opt("count", "ENTIER", en="number of pairs", range=POSITIVE),
     _ON_NODES,
     each(
         "pairs",
         arg("component", "MOT", en="name of a component"),
-        arg("value", "FLOTTANT", "LISTREEL", en="its value, or one value a point"),
+        arg(
+            "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
+        ),
         at_least=1,
         times="count",
     ),
@@ -55,7 +58,6 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
     "points, a list with one value a point. Words after the last pair need N1, the number of "
     "pairs.",
-    examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (MANU 'CHPO' P 'UX' 3. 'UY' 4.) ;",),
 )
 def node_field(
     call: Call,
@@ -76,7 +78,7 @@ def node_field(
     NATURE,
     _ON_NODES,
     arg("names", "LISTMOTS", en="names of the components"),
-    arg("values", "LISTREEL", en="their values, 0 for those behind the last"),
+    arg("values", "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER),
     syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
 )
 def node_field_of_lists(
@@ -138,19 +140,13 @@ _CURVES = (
     *_CURVES,
     each(
         "pairs",
-        arg("abscissa", "FLOTTANT", en="abscissa"),
+        arg("abscissa", "FLOTTANT", en="abscissa", range=ANY_NUMBER),
         arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
     syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
     en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
     "against numbers that increase (the indices of a table of them).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; A = MANU 'CHML' L 'YOUN' 3. ; "
-        "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; LIST (EXTR C 'YOUN' 1 1 1) ; "
-        "T = TABL ; T . 20. = A ; T . 100. = 2. * A ; "
-        "LIST (EXTR (MANU 'CHML' 'EVOL' 'T' T) 'YOUN' 1 1 1) ;",
-    ),
 )
 def curves_in_cells(
     call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
@@ -192,6 +188,7 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         "FLOTTANT",
         en="of a field that is zero but at one point, whose cell was the value: number of the "
         "point, of the zone if not 1, then the value",
+        range=ANY_NUMBER,
     ),
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
     "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
@@ -199,13 +196,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
     "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
     "everywhere but at one point of one cell.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "LIST (MAXI (MANU 'CHML' L 'SCAL' 3.)) ;",
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-        "LIST (MAXI (MANU 'CHAM' MO 'POSI' 'GRAVITE' 'V' 2 1 7.)) ;",
-    ),
 )
 def cell_field(
     call: Call,

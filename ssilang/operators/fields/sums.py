@@ -20,6 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.signs import paired_names
 
 # ---- measures -----------------------------------------------------------------------------------
@@ -34,10 +35,6 @@ from ssilang.operators.fields.signs import paired_names
         en="Resultant of a field at nodes: its first point with the sum of each component. "
         "The sum of a list is SOMM's.",
         syntax="CHPO2 = RESU CHPO1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
-            "LIST (RESU (PROG 1. 2. 4.)) ;",
-        ),
     ),
 )
 def resu(call: Call, field: NodeField) -> NodeField:
@@ -51,7 +48,7 @@ def resu(call: Call, field: NodeField) -> NodeField:
 
 
 @resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum"),
+    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", range=ANY_NUMBER),
     gives="FLOTTANT|ENTIER",
 )
 def resu_of_list(values: ListReel | ListEnti) -> float | int:
@@ -76,15 +73,6 @@ _PAIRED = (
         en="Sum over all nodes of the products of paired components of two fields; of two lists "
         "of fields, a list.",
         syntax="X1 = XTY CHPO1 CHPO2 LMOT1 LMOT2 ; LREE1 = XTY LCHP1 LCHP2 LMOT1 LMOT2 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
-            "LIST (XTY C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY')) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
-                "D = MANU 'CHPO' P 'T' 2. ; L = MOTS 'T' ;\n"
-                "LIST (XTY (SUIT C D) (SUIT D D) L L) ;"
-            ),
-        ),
     ),
 )
 def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
@@ -115,8 +103,8 @@ def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> f
 
 
 _FACTORS = (
-    opt("a", "FLOTTANT", en="factor of the first field"),
-    opt("b", "FLOTTANT", en="factor of the second field"),
+    opt("a", "FLOTTANT", en="factor of the first field", range=ANY_NUMBER),
+    opt("b", "FLOTTANT", en="factor of the second field", range=ANY_NUMBER),
 )
 
 
@@ -129,14 +117,6 @@ _FACTORS = (
     help=Help(
         en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
         syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "LIST (XTX (MANU 'CHML' M 'SCAL' 3.)) ;"
-            ),
-        ),
     ),
 )
 def xtx(
@@ -181,11 +161,6 @@ def _weighted_sum(
         en="Linear combination of the fields of a table indexed by points, with the values of a "
         "field with one component as coefficients.",
         syntax="CHPO1 = COMB ('SEMBLABLE') CHPO2 TAB1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = MANU 'CHPO' P 'UX' 3. ; "
-            "T . Q = MANU 'CHPO' P 'UX' 5. ; A = MANU 'CHPO' (P ET Q) 'ALFA' 2. ; "
-            "LIST (MAXI (COMB A T)) ;",
-        ),
     ),
 )
 def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:

@@ -75,10 +75,6 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
         "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
         "HOTANGEN).",
         syntax="CHAM1 = ZERO MODL1 MOT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ; LIST (MAXI (ZERO M 'CONTRAIN')) ;",
-        ),
     ),
 )
 def zero(call: Call, model: Model, word: str | None) -> CellField:

@@ -17,6 +17,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 COLI = shared(
     "COLI",
@@ -25,14 +26,6 @@ COLI = shared(
         en="Linear combination: fields each followed by its coefficient, or a list of fields (or "
         "a table 1 .. N of fields or lists) with a list of coefficients.",
         syntax="CHP1 = COLI CHP2 X2 CHP3 X3 ... ; OBJ1 = COLI LCHP1 | TAB1 LREE1 ;",
-        examples=(
-            "T = TABL ; T . 1 = PROG 1. 2. ; T . 2 = PROG 3. 4. ; LIST (COLI T (PROG 2. 1.)) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "C = MANU 'CHPO' P 'T' 5. ; D = MANU 'CHPO' P 'T' 1. ;\n"
-                "LIST (MAXI (COLI C 2. D 3.)) ;"
-            ),
-        ),
     ),
     full_name="COLINEAIRE",
 )
@@ -40,7 +33,7 @@ COLI = shared(
 
 @COLI.form(
     arg("held", "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"),
-    arg("factors", "LISTREEL", en="coefficients"),
+    arg("factors", "LISTREEL", en="coefficients", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML|LISTREEL",
 )
 def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
@@ -52,7 +45,7 @@ def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
 
 @COLI.form(
     many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields"),
-    many("factors", "FLOTTANT", en="coefficients"),
+    many("factors", "FLOTTANT", en="coefficients", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML",
 )
 def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:
@@ -85,7 +78,6 @@ def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
     help=Help(
         en="Sum of the values of a field of a single component (SCAL, most often).",
         syntax="X1 = SOMT CHPO1 ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (SOMT (MANU 'CHPO' P 'SCAL' 3.)) ;",),
     ),
 )
 def somt(field: NodeField) -> float:

@@ -34,14 +34,6 @@ _HISTORY = "EXCE_ASYMPTOTES"
         "a point that misses conditions, these may be given up at a cost: DELTA0 (50) times what "
         "F may change over the range.",
         syntax="TAB1 = EXCE TAB1 ;",
-        examples=(
-            "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = 2. ; T . 'VF' = TABL ; "
-            "T . 'VF' . 0 = 4. ; T . 'VF' . 1 = 4. ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; "
-            "T . 'MC' . 1 . 0 = -2. ; T . 'MC' . 1 . 1 = -1. ; T . 'VCMAX' = TABL ; "
-            "T . 'VCMAX' . 1 = -1. ; T . 'VXMIN' = TABL ; T . 'VXMIN' . 1 = 0.1 ; "
-            "T . 'VXMAX' = TABL ; T . 'VXMAX' . 1 = 9. ;\n"
-            "T = EXCE T ; LIST (T . 'VX0' . 1) ;",
-        ),
     ),
 )
 def exce(call: Call, table: Table) -> Table:

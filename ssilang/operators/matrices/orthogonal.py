@@ -12,9 +12,7 @@ from ssilang.kernel.statics.linear import product
 from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
-
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 
 
 @operator(
@@ -22,7 +20,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
     flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
     arg("field", "CHPOINT", en="field X"),
     arg("shapes", "LISTCHPO", en="fields U"),
-    arg("norms", "LISTREEL", en="products U K U"),
+    arg("norms", "LISTREEL", en="products U K U", range=ANY_NUMBER),
     opt("loaded", "LISTCHPO", en="fields K U"),
     arg("matrix", "RIGIDITE", en="matrix K"),
     opt("precision", "FLOTTANT", range=POSITIVE, en="precision"),
@@ -34,10 +32,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
         "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
         syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
-        examples=(
-            _TWO + "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; X = MANU 'CHPO' (P ET Q) 1 'UX' "
-            "(PROG 1. 2.) ; Y = ORTH X (SUIT U) (PROG 9.) K ; LIST (YTMX Y U K) ;",
-        ),
     ),
 )
 def orth(

@@ -9,9 +9,8 @@ from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.registry import Chosen, Help, arg, operator, select
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.numbers.noise import session_generator
-
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 
 
 @operator(
@@ -20,7 +19,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "values",
         {
             "ALEATOIRE": [],
-            "UNIFORME": [arg("value", "FLOTTANT", en="value")],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value", range=ANY_NUMBER)],
         },
         en="random, or the same everywhere",
     ),
@@ -31,13 +30,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
         "random values between 0 and 1 ('ALEATOIRE').",
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
-        examples=(
-            _TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "C = CHPO 'ALEA' (APPU 'UX' 1. P) ; LIST (EXTR C 'COMP') ;"
-            ),
-        ),
     ),
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:

@@ -274,18 +274,6 @@ _TEXTS = {
     ),
     "**": "Power.",
 }
-_EXAMPLES = {
-    "*": (
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE ; H = HOOK M (MATE M 'YOUN' 100. 'NU' 0.) ; "
-        "E = EPSI M (NOMC 'UX' (0.01 * (COOR 1 S))) ; LIST (MAXI (H * E M)) ; "
-        "LIST (MAXI (E * E (MOTS 'EPXX') (MOTS 'EPXX') (MOTS 'SQUA') (PROG 1.E4))) ;",
-    ),
-    "/": (
-        "OPTI DIME 2 ; P = 0. 0. ; E = EVOL 'MANU' (PROG 0. 10.) (PROG 0. 100.) ; "
-        "LIST (MAXI ((MANU 'CHPO' P 'T' 4.) / E)) ;",
-    ),
-}
 for _sign, _en in _TEXTS.items():
     operator(
         _sign,
@@ -296,7 +284,6 @@ for _sign, _en in _TEXTS.items():
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
             f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
-            (f"x = 6 {_sign} 3 ; LIST x ;", *_EXAMPLES.get(_sign, ())),
         ),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

@@ -25,6 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 
 BORN = shared(
     "BORN",
@@ -33,29 +34,11 @@ BORN = shared(
         en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
         "Of a field, component by component; of curves, curve by curve: those named are kept.",
         syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
-        examples=(
-            "LIST (BORN (PROG -1. 0.5 3.) 'COMPRIS' 0. 1.) ;",
-            (
-                "LIST (BORN (PROG 1. 5. 9.) 'MAXI' 6.) ; LIST (BORN (LECT 1 5 9) 'MINI' 4) ;\n"
-                "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 5. 9.) ;\n"
-                "LIST (MAXI (EXTR (BORN E 'MAXI' 6.) 'ORDO')) ;\n"
-                "LIST (MINI (EXTR (BORN E 1 'MINI' 4.) 'ORDO')) ;\n"
-                "LIST (MAXI (EXTR (BORN E 'COMP' 2. 7.) 'ORDO')) ;"
-            ),
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
-                "D = MANU 'CHPO' P 'UX' 3. 'UY' 4. ;\n"
-                "MESS (MAXI (BORN C 'MAXI' 2.)) (MAXI (BORN C 'MINI' 8.)) (MAXI (BORN C\n"
-                "'COMP' 6. 7.)) ;\n"
-                "LIST (BORN D 'UX' 'MAXI' 1. 'UY' 'MINI' 9.) ;\n"
-                "LIST (BORN D 'UX' 'COMP' 5. 6.) ;"
-            ),
-        ),
     ),
     full_name="BORNER",
 )
-_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound")
-_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound")
+_HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", range=ANY_NUMBER)
+_LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound", range=ANY_NUMBER)
 _BOUND = select(
     "bound",
     {"MAXIMUM": [_HIGH], "MINIMUM": [_LOW], "COMPRIS": [_LOW, _HIGH]},
@@ -77,7 +60,7 @@ def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
     main("value", "EVOLUTIO", en="curves"),
     each(
         "bounds",
-        opt("curve", "ENTIER", en="number of a curve, 1 if none"),
+        opt("curve", "ENTIER", en="number of a curve, 1 if none", range=POSITIVE),
         _BOUND,
         at_least=1,
     ),

@@ -22,6 +22,7 @@ from ssilang.language.registry import (
     select,
     shared,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.numbers.functions import mapped
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
@@ -47,39 +48,6 @@ MASQ = shared(
         "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
         "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
         "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
-        examples=(
-            "LIST (MASQ (PROG 1. 5. 9.) 'SUPERIEUR' 4.) ;",
-            (
-                "L = PROG 1. 2. 3. ;\n"
-                "LIST (L MASQ 'EGSU' 2.) ; LIST (L MASQ 'EGAL' 2.) ;\n"
-                "LIST (L MASQ 'EGIN' 2.) ;\n"
-                "LIST (L MASQ 'INFE' 2.) ; LIST (L MASQ 'DIFF' 2.) ;\n"
-                "LIST (L MASQ 'COMP' 1.5 3.) ;"
-            ),
-            (
-                "L = LECT 1 2 3 ; LIST (L MASQ 'SUPE' 2) ;\n"
-                "LIST (L MASQ 'EGSU' 2) ; LIST (L MASQ 'EGAL' 2) ; LIST (L MASQ 'EGIN' 2) ;\n"
-                "LIST (L MASQ 'INFE' 2) ; LIST (L MASQ 'DIFF' 2) ; LIST (L MASQ 'COMP' 2 3) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG2 ; X = COOR 1 (DROI 4 (0. 0.) (2. 0.)) ;\n"
-                "MESS (X MASQ 'SUPE' 'SOMM' 1.) (X MASQ 'EGSU' 'SOMM' 1.) (X MASQ 'EGAL'\n"
-                "'SOMM' 1.) ;\n"
-                "MESS (X MASQ 'EGIN' 'SOMM' 0.5) (X MASQ 'INFE' 'SOMM' 0.5) (X MASQ 'DIFF'\n"
-                "'SOMM' 1.) ;\n"
-                "MESS (X MASQ 'COMP' 'SOMM' 0.4 2.) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 4 (0. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ;\n"
-                "MESS (X MASQ 'SUPE' 'SOMM' 1.) (X MASQ 'EGSU' 'SOMM' 1.) (X MASQ 'EGAL'\n"
-                "'SOMM' 1.) ;\n"
-                "MESS (X MASQ 'EGIN' 'SOMM' 0.5) (X MASQ 'INFE' 'SOMM' 0.5) (X MASQ 'DIFF'\n"
-                "'SOMM' 1.) ;\n"
-                "MESS (X MASQ 'COMP' 'SOMM' 0.4 2.) (MAXI (X MASQ 'EXIS' 'SCAL')) ;"
-            ),
-        ),
     ),
     full_name="MASQUE",
 )
@@ -91,15 +59,15 @@ _EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]
 
 def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
-    limit = arg("limit", *limits, en="value to compare with")
+    limit = arg("limit", *limits, en="value to compare with", range=ANY_NUMBER)
     return (
         select(
             "test",
             {
                 **{word: [limit] for word in _TESTS},
                 "COMPRIS": [
-                    arg("low", *limits, en="lower bound"),
-                    arg("high", *limits, en="upper bound"),
+                    arg("low", *limits, en="lower bound", range=ANY_NUMBER),
+                    arg("high", *limits, en="upper bound", range=ANY_NUMBER),
                 ],
                 **(_EXISTE if kind == "MCHAML" else {}),
             },

@@ -23,6 +23,7 @@ from ssilang.kernel.elements.shapes.geometry import (
 from ssilang.kernel.elements.shapes.polygons import SIDES
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.solids.kinematics import (
+    SECTION_UNKNOWNS,
     SOLID_KINEMATICS,
     SolidKinematics,
     harmonic,
@@ -109,7 +110,7 @@ class Solid(ElementFamily):
         section = np.full((n, 1), section_point(zone).number, dtype=np.int64)
         nodes: IntArray = np.hstack([own.raw_nodes, section])
         local = np.concatenate([own.local, [k, k, k]])
-        return Layout(own.table, nodes, local, (*own.unknowns, "UZ", "RX", "RY"))
+        return Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... or EPRR ..."""
