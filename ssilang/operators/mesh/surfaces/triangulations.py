@@ -64,7 +64,7 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+    opt("limit", "ENTIER", en="most nodes of the result"),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
@@ -81,7 +81,7 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator(
