@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ssilang.io.inside import inside
+from ssilang.io.file_names import inside
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.messages.message import Teller
 from ssilang.report import records

@@ -12,7 +12,7 @@ import numpy as np
 
 from ssilang.io.atomic import write_text
 from ssilang.io.errors import InputError
-from ssilang.io.inside import inside
+from ssilang.io.file_names import inside
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances

@@ -10,7 +10,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from ssilang.io.errors import InputError
-from ssilang.io.inside import inside
+from ssilang.io.file_names import inside
 from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES
 

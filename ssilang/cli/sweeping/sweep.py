@@ -157,11 +157,11 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
-    asked, told = _asked(options), bool(rows)
+    asked, looked = _asked(options), bool(rows)
     for row in _progress(_run(waiting, options, err), len(waiting), teller(options.language), err):
         rows[row["run"]] = row
-        if row["exit_code"] == 0 and not told:  # not only in the morning
-            told = True
+        if row["exit_code"] == 0 and not looked:  # not only in the morning
+            looked = True
             _tell_unknown(asked, list(row), options, err)
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}

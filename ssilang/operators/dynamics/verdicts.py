@@ -90,7 +90,7 @@ def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
 
 def figures_of(verdicts: Sequence[dict[str, Any]]) -> dict[str, float]:
     """Peaks by name, floors' largest accelerations as PLANCHER_1; a second footing's end in _2."""
-    found = {}
+    found: dict[str, float] = {}
     for number, verdict in enumerate(verdicts, 1):
         end = f"_{number}" if number > 1 else ""
         named = {name: peak["value"] for name, peak in verdict["peaks"].items()}

@@ -9,7 +9,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import pressure_vectors, total
 from ssilang.kernel.elements.loads.thermal import thermal_strain
-from ssilang.kernel.elements.results.second_order import green_strain, green_stress
+from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock

@@ -11,8 +11,12 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.constrained import is_closed, triangulated_with_lines
-from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.constrained import (
+    delaunay_mesh,
+    is_closed,
+    refined_triangles,
+    triangulated_with_lines,
+)
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
@@ -20,7 +24,7 @@ from ssilang.language.registry import Help, arg, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -64,7 +68,7 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="most nodes of the result"),
+    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
