@@ -29,7 +29,7 @@ from ssilang.language.registry import Help, arg, choice, flag, operator, opt, sa
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 
@@ -125,7 +125,7 @@ _FLAT = 1e-11
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
@@ -142,7 +142,7 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator(
