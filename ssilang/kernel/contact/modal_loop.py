@@ -41,7 +41,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import keep, tap
+from ssilang.kernel.stepping.verbs import end_of_step
 
 ROUNDING = 1e-12  # of the largest gap, or of a pivot
 
@@ -362,9 +362,5 @@ def run_contact(
             x.energies[LOST] += lost
             total += lost - work
         balance = total
-        copy_state(x.energies, to.energies[k])
-        if to.row[k] >= 0:
-            keep(x, to, to.row[k])
-        if to.tap.row[k] >= 0:
-            tap(x, to.tap, to.tap.row[k])
+        end_of_step(x, to, k)
     return len(to.row), worst, 0.0

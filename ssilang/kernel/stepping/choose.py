@@ -238,8 +238,6 @@ class Rule:
         Whether a run without its energies costs much less.
     factorises : bool
         Whether the step's matrix is factorised at each iteration.
-    inside : bool
-        Whether the loop compares the largest values as it steps.
     """
 
     name: str
@@ -251,7 +249,6 @@ class Rule:
     renewable: bool = False
     light: bool = False
     factorises: bool = False
-    inside: bool = False
 
 
 RULES = (
@@ -261,21 +258,21 @@ RULES = (
         "kernel.stepping.loop-adaptive",
         lambda c: c.problem.scheme.adaptive
         and not (c.problem.interface is None and c.problem.contact is None),
-        _adaptive, renewable=True, inside=True,
+        _adaptive, renewable=True,
     ),
     Rule(
         "conserving", "conserving",
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        _conserving, renewable=True, inside=True,
+        _conserving, renewable=True,
     ),
     Rule(
         "full Newton", "full Newton",
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True, inside=True,
+        _full_newton, renewable=True, factorises=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -289,7 +286,7 @@ RULES = (
         "unilateral relations",
         "kernel.stepping.loop-relations",
         lambda c: c.problem.contact is not None,
-        _condensed, renewable=True, inside=True,
+        _condensed, renewable=True,
     ),
     Rule(
         "one mode", "compiled",
@@ -331,28 +328,28 @@ RULES = (
         "small",
         "kernel.stepping.loop-dense",
         lambda c: c.small,
-        _dense, inside=True,
+        _dense,
     ),
     Rule(
         "multigrid", "multigrid",
         "multigrid is asked for, or makes few steps sooner than a factor, or memory holds none",
         "kernel.stepping.loop-multigrid",
         lambda c: c.iterated,
-        _iterated, renewable=True, inside=True,
+        _iterated, renewable=True,
     ),
     Rule(
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
         lambda c: fits(c.problem, c.effective),
-        _interleaved, inside=True,
+        _interleaved,
     ),
     Rule(
         "condensed", "condensed",
         "all others",
         "kernel.stepping.loop-condensed",
         lambda c: True,
-        _condensed, renewable=True, inside=True,
+        _condensed, renewable=True,
     ),
 )  # fmt: skip
 

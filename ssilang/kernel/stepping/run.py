@@ -204,7 +204,10 @@ class Integration:
         history = History(times, np.zeros((len(times), N_ENERGIES)))
         history.kept[0] = self.motion.energies
         try:
-            inside = self._drive is None and self._choice(times[1] - times[0]).rule.inside
+            inside = False
+            if self._drive is None:
+                loop = self._choice(times[1] - times[0]).loop
+                inside = loop.view(np.zeros(0, np.int64)).whole
             self.prepare(inside)
             kept = None if self.keeper is None else self.keeper.last()
             if kept is not None:

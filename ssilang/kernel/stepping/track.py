@@ -99,6 +99,11 @@ class View:
     map: Map | None = None
     joints: Callable[[Tap], JointRows] | None = None
 
+    @property
+    def whole(self) -> bool:
+        """Whether the loop steps the unknowns themselves: it compares their largest values too."""
+        return self.map is None
+
     def tap(self, row: IntArray, room: Room | None = None) -> Tap:
         """Room for what is kept, not set."""
         return (room or Room(0)).tap(row, self.at, self.shapes)

@@ -79,6 +79,18 @@ def _watch_one(to: Peaks, kind: int, i: int, value: float, step: float) -> None:
         to.joints[kind, i], to.joints_when[kind, i] = value, step
 
 
+@compiled_inline
+def end_of_step(x: Motion, to: Recorder, k: int) -> None:
+    """What step k leaves: its energies, its rows, what is larger than ever before."""
+    copy_state(x.energies, to.energies[k])
+    if to.row[k] >= 0:
+        keep(x, to, to.row[k])
+    if to.tap.row[k] >= 0:
+        tap(x, to.tap, to.tap.row[k])
+    if len(to.peaks.u):
+        watch(x, to.peaks, k)
+
+
 @compiled
 def motion_at(x: Motion, j: int) -> Motion:
     """One of several motions, that lie in the first direction of each array."""

@@ -23,7 +23,7 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.sparse.loop import keep_whole, support_work
+from ssilang.kernel.stepping.rests.sparse.loop import end_of_step, support_work
 from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
@@ -104,8 +104,7 @@ class ConservingLoop:
             self._advance(du, dd, mean_load, factors[k : k + 2])
             if not np.isfinite(m.u).all():
                 return k, -1, np.inf
-            recorder.energies[k] = m.energies
-            keep_whole(m, recorder, k)
+            end_of_step(m, recorder, k)
         return len(recorder.row), worst, 0.0
 
     def view(self, unknowns: IntArray) -> View:

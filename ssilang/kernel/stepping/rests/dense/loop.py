@@ -29,7 +29,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, keep, tap, watch
+from ssilang.kernel.stepping.verbs import advance, end_of_step
 
 
 class System(NamedTuple):
@@ -245,12 +245,6 @@ def run_dense(
         if not _finite(motion.u):
             return k, -1, np.inf
         _account(system, joints, motion, sweep)
-        copy_state(motion.energies, to.energies[k])
-        if to.row[k] >= 0:
-            keep(motion, to, to.row[k])
-        if to.tap.row[k] >= 0:
-            tap(motion, to.tap, to.tap.row[k])
-        if len(to.peaks.u):
-            watch(motion, to.peaks, k)
+        end_of_step(motion, to, k)
         copy_state(sweep.load1, sweep.load0)
     return len(to.row), worst, 0.0

@@ -34,7 +34,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     predict,
 )
 from ssilang.kernel.stepping.state import LOST, STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep, tap
+from ssilang.kernel.stepping.verbs import end_of_step
 
 BLOCK = 128  # coordinates whose rows of Jt stay in the nearest cache
 
@@ -159,9 +159,5 @@ def run_modal(
         if len(x.f):
             stored, lost = interface_energies(joints, x.w, x.t, x.state)
             x.energies[STORED], x.energies[LOST] = stored, lost
-        copy_state(x.energies, to.energies[k])
-        if to.row[k] >= 0:
-            keep(x, to, to.row[k])
-        if to.tap.row[k] >= 0:
-            tap(x, to.tap, to.tap.row[k])
+        end_of_step(x, to, k)
     return steps, worst, 0.0

@@ -19,7 +19,6 @@ from ssilang.kernel.contact.active_set import (
     find_active,
     list_closed,
 )
-from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.stepping.rests.modal.diagonal import (
     Sweep,
     account,
@@ -30,7 +29,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
 )
 from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
 from ssilang.kernel.stepping.state import STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep, tap
+from ssilang.kernel.stepping.verbs import end_of_step
 
 BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
 WRONG = 1e-14  # of the largest jump, or of its force: a sign that is not rounding
@@ -150,9 +149,5 @@ def run_springs(
         if not np.isfinite(size):
             return s, -1, np.inf
         account(x, sweep)
-        copy_state(x.energies, to.energies[s])
-        if to.row[s] >= 0:
-            keep(x, to, to.row[s])
-        if to.tap.row[s] >= 0:
-            tap(x, to.tap, to.tap.row[s])
+        end_of_step(x, to, s)
     return steps, worst, 0.0

@@ -43,7 +43,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
 )
 from ssilang.kernel.stepping.rests.modal.loop import BLOCK
 from ssilang.kernel.stepping.state import DAMPED, LOST, STORED, Motion, Recorder
-from ssilang.kernel.stepping.verbs import advance, keep, tap
+from ssilang.kernel.stepping.verbs import advance, end_of_step
 
 
 class Reduced(NamedTuple):
@@ -242,9 +242,5 @@ def run_reduced(
         if q:
             stored, lost = interface_energies(joints, x.w, x.t, x.state)
             x.energies[STORED], x.energies[LOST] = stored, lost
-        copy_state(x.energies, to.energies[k])
-        if to.row[k] >= 0:
-            keep(x, to, to.row[k])
-        if to.tap.row[k] >= 0:
-            tap(x, to.tap, to.tap.row[k])
+        end_of_step(x, to, k)
     return steps, worst, 0.0

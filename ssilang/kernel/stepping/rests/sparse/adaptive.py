@@ -18,7 +18,7 @@ from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import memory, recall
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, keep_whole
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, end_of_step
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Recorder, recorder_of
 from ssilang.kernel.stepping.track import View, whole_view
 
@@ -62,8 +62,7 @@ class AdaptiveLoop:
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            r.energies[k] = self.motion.energies
-            keep_whole(self.motion, r, k)
+            end_of_step(self.motion, r, k)
         return len(r.row), worst, 0.0
 
     def view(self, unknowns: IntArray) -> View:

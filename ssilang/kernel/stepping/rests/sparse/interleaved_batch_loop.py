@@ -29,7 +29,7 @@ from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     settle_interface,
 )
 from ssilang.kernel.stepping.state import Ends, Motion, Recorder
-from ssilang.kernel.stepping.verbs import keep, motion_at, recorder_at, tap
+from ssilang.kernel.stepping.verbs import end_of_step, motion_at, recorder_at
 
 
 class Batch(NamedTuple):
@@ -114,11 +114,7 @@ def _end_of_step(
     if not np.isfinite(mine.sums[4]):
         ends.steps[j], ends.turns[j], ends.residual[j] = k, -1, np.inf
         return
-    copy_state(x.energies, own.energies[k])
-    if own.row[k] >= 0:
-        keep(x, own, own.row[k])
-    if own.tap.row[k] >= 0:
-        tap(x, own.tap, own.tap.row[k])
+    end_of_step(x, own, k)
 
 
 @compiled

@@ -48,7 +48,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, from_past, keep, tap, watch
+from ssilang.kernel.stepping.verbs import advance, end_of_step, from_past
 
 
 class Sparse(NamedTuple):
@@ -411,12 +411,6 @@ def run_interleaved(
         account(plan, joints, x, products, sweep, factors, to.work, k)
         if not np.isfinite(sweep.sums[4]):
             return k, -1, np.inf
-        copy_state(x.energies, to.energies[k])
         copy_state(sweep.next_load_change, sweep.load_change)
-        if to.row[k] >= 0:
-            keep(x, to, to.row[k])
-        if to.tap.row[k] >= 0:
-            tap(x, to.tap, to.tap.row[k])
-        if len(to.peaks.u):
-            watch(x, to.peaks, k)
+        end_of_step(x, to, k)
     return steps, worst, 0.0

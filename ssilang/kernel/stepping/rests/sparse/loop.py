@@ -158,8 +158,7 @@ class SparseLoop:
             self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
             if work is not None:
                 lose(self.motion, work, before)
-            r.energies[k] = self.motion.energies
-            keep_whole(self.motion, r, k)
+            end_of_step(self.motion, r, k)
         return len(r.row), worst, 0.0
 
     def _gap(self, factors: FloatArray) -> FloatArray:
@@ -249,8 +248,9 @@ def lose(m: Motion, work: float, before: float) -> float:
     return lost
 
 
-def keep_whole(m: Motion, to: Recorder, k: int) -> None:
-    """The state of a whole problem at the end of step k into its rows, if it has any."""
+def end_of_step(m: Motion, to: Recorder, k: int) -> None:
+    """As the verb of that name, of arrays at once."""
+    to.energies[k] = m.energies
     row, tapped = to.row[k], to.tap.row[k]
     if row >= 0:
         for name in WHOLE:
