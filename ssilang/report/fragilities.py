@@ -35,6 +35,12 @@ _FEWEST = 5
 _APART = 8.0
 """Times another intensity: less than g over m/s2, more than most records of a suite differ by."""
 _CURVE = 101
+_METHODS = {"counts": "report.fragility-counts", "cloud": "report.fragility-cloud"}
+_HEADS = (
+    "report.fragility-limit", "report.fragility-intensity", "report.fragility-method",
+    "report.fragility-median", "report.fragility-interval", "report.fragility-dispersion",
+    "report.fragility-error", "report.fragility-exceeded", "report.fragility-governs",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -128,7 +134,7 @@ def fits_of(sweep: Sweep, asked: Asked) -> list[Fit]:
         _fit(sweep, limit, intensity, method)
         for limit in dict.fromkeys(asked.limits)
         for intensity in intensities_of(sweep, asked)
-        for method in ("counts", "cloud")
+        for method in _METHODS
     ]
 
 
@@ -201,11 +207,7 @@ def fragility_html(sweep: Sweep, fits: list[Fit], charts: Sequence[Chart], told:
     if not fits:
         return f'<p class="bad">{text(told("report.fragility-no-intensity"))}</p>'
     notes = "".join(f"<p class=note>{text(n)}</p>" for n in _notes(sweep, fits, told))
-    heads = [
-        told(f"report.fragility-{n}")
-        for n in ("limit", "intensity", "method", "median", "interval", "dispersion", "error",
-                  "exceeded", "governs")
-    ]  # fmt: skip
+    heads = [told(code) for code in _HEADS]
     rows = [_row(sweep, fit, told) for fit in fits]
     return notes + table(heads, rows, (5, 6)) + charts_html(charts, "fragility", told)
 
@@ -222,7 +224,7 @@ def _row(sweep: Sweep, fit: Fit, told: Teller) -> list[str]:
         shown[0] = text(told(fit.problem.code, **fit.problem.data))
     run = text(fit.worst.get("run", ""))
     link = link_to(sweep.folder, fit.worst["folder"]) if fit.worst else ""
-    method = text(told(f"report.fragility-{fit.method}"))
+    method = text(told(_METHODS[fit.method]))
     return [
         text(fit.limit).replace(" ", "&nbsp;"), text(fit.intensity), method, *shown,
         f"{fit.exceeded} / {fit.runs}", f'<a href="{link}">{run}</a>' if link else run,
@@ -299,5 +301,5 @@ def _lines(fit: Fit, x: FloatArray, d: FloatArray, told: Teller) -> Iterator[Lin
         high = min(x.max() * 3.0, max(x.max(), f.median * np.exp(2.0 * f.dispersion)))
         steep = f.median * np.exp(f.dispersion * np.linspace(-3.0, 3.0, _CURVE))
         grid = np.union1d(np.linspace(low, high, _CURVE), steep[(steep > low) & (steep < high)])
-        method = told(f"report.fragility-{fit.method}")
+        method = told(_METHODS[fit.method])
         yield Line(f"{fit.limit}, {method}", grid, f.probability(grid))
