@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -192,13 +192,10 @@ def rows_of(fits: Iterable[Fit]) -> list[dict[str, object]]:
     return [
         {
             "limit": str(fit.limit), "intensity": fit.intensity, "method": fit.method,
-            "runs": fit.runs, "exceeded": fit.exceeded,
-            "median": f and f.median, "low": f and f.bounds()[0], "high": f and f.bounds()[1],
-            "dispersion": f and f.dispersion, "dispersion_error": f and f.dispersion_error,
-            "governs": fit.worst.get("run"),
+            "runs": fit.runs, "exceeded": fit.exceeded, "governs": fit.worst.get("run"),
+            **(asdict(fit.found) if fit.found else {}),
         }
         for fit in fits
-        for f in (fit.found,)
     ]  # fmt: skip
 
 

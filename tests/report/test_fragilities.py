@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from chromium import PROGRAM, Chromium
 from scipy import stats
 
 from ssilang.cli.main import main
@@ -245,6 +246,23 @@ def test_a_suite_ends_in_its_page_and_other_limits_run_nothing_again(case, capsy
     (case / "out" / "fragility.json").write_text('{"limits": 1, "intensities": []}')
     assert main(["report", str(case / "out")]) == 2
     assert "fragility.json" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
+def test_a_browser_draws_curves_and_clouds_and_opens_the_run_that_governs(case):
+    run(case, ["drift>1", "drift<1"])
+    browser = Chromium(case / "profile")
+    try:
+        browser.open(case / "out" / "report.html", 900, 900)
+        browser.until("!!document.querySelector('#fragility figure.chart').plot")
+        drawn = "document.querySelectorAll('#fragility figure.chart canvas').length"
+        browser.run("document.querySelector('#fragility figure:last-of-type').scrollIntoView()")
+        browser.until(f"{drawn} === document.querySelectorAll('#fragility figure.chart').length")
+        browser.run("document.querySelector('#fragility a').click()")
+        browser.until("location.href.endsWith('output.txt')")
+        assert browser.console == []
+    finally:
+        browser.close()
 
 
 def test_without_limits_nothing_of_an_earlier_command_stays(case):

@@ -114,36 +114,29 @@ def of_exceedances(
     centre, scale = x.mean(), x.std()
     rows = np.column_stack([np.ones(len(x)), (x - centre) / scale])
 
-    def slopes(p: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        eta = rows @ p
+    def terms(p: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+        """What is lost of the likelihood, scores (n, 2), information (2, 2)."""
+        eta, held = rows @ p, runs - exceeded
         up, down = (np.exp(norm.logpdf(eta) - log_ndtr(s * eta)) for s in (1.0, -1.0))
-        return eta, up, down
-
-    def lost(p: FloatArray) -> float:
-        eta = rows @ p
-        return -float(exceeded @ log_ndtr(eta) + (runs - exceeded) @ log_ndtr(-eta))
-
-    def scores(p: FloatArray) -> FloatArray:
-        _, up, down = slopes(p)
-        return np.asarray((exceeded * up - (runs - exceeded) * down)[:, None] * rows)
-
-    def information(p: FloatArray) -> FloatArray:
-        eta, up, down = slopes(p)
-        weights = exceeded * up * (up + eta) + (runs - exceeded) * down * (down - eta)
-        return np.asarray(rows.T @ (weights[:, None] * rows), float)
-
-    def slope(p: FloatArray) -> FloatArray:
-        return np.asarray(-scores(p).sum(axis=0), float)
+        lost = -float(exceeded @ log_ndtr(eta) + held @ log_ndtr(-eta))
+        weights = exceeded * up * (up + eta) + held * down * (down - eta)
+        return (
+            lost,
+            (exceeded * up - held * down)[:, None] * rows,
+            rows.T @ (weights[:, None] * rows),
+        )
 
     start = np.array([float(norm.ppf(passed / total)), 1.0])
     found = minimize(
-        lost, start, jac=slope, hess=information, method="trust-exact", tol=1e-10 * total
-    ).x
+        lambda p: terms(p)[0], start, jac=lambda p: -terms(p)[1].sum(axis=0),
+        hess=lambda p: terms(p)[2], method="trust-exact", tol=1e-10 * total,
+    ).x  # fmt: skip
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")
     back = np.array([[1.0, -centre / scale], [0.0, 1.0 / scale]])
-    spread = back @ _covariance(information(found), scores(found), records) @ back.T
+    _, scores, information = terms(found)
+    spread = back @ _covariance(information, scores, records) @ back.T
     # ln median = -a / b, dispersion = 1 / b
     to = np.array([[-1.0 / b, a / b**2], [0.0, -1.0 / b**2]])
     errors = np.sqrt(np.diag(to @ spread @ to.T))
@@ -181,6 +174,7 @@ def of_cloud(
     FieldError
         For demands that have no logarithm, or do not move towards the limit with intensity.
     """
+    from scipy.linalg import block_diag
     from scipy.stats import linregress
 
     x = _logarithms(intensities, demands)
@@ -211,19 +205,13 @@ def of_cloud(
         return Fragility(median, capacity / abs(b), 0.0, 0.0, passed, n)
     rows = np.column_stack([np.ones(n), x])
     # unknowns: a, b, variance
-    information = np.zeros((3, 3))
-    information[:2, :2] = rows.T @ rows / variance
-    information[2, 2] = 0.5 * (n - 2) / variance**2
-    scores = np.column_stack(
-        [rows * (e / variance)[:, None], 0.5 * (e**2 - e @ e / n) / variance**2]
-    )
+    information = block_diag(rows.T @ rows / variance, 0.5 * (n - 2) / variance**2)
+    scores = np.column_stack([rows * e[:, None], 0.5 * (e**2 - e @ e / n) / variance]) / variance
     spread = _covariance(information, scores, records)
     dispersion = float(np.sqrt(rest)) / abs(b)
-    to = np.array(
-        [
-            [-1.0 / b, -np.log(median) / b, 0.0],
-            [0.0, -dispersion / b, 0.5 * dispersion / rest],
-        ]
+    to = (
+        np.array([[-1.0, -np.log(median), 0.0], [0.0, -dispersion, 0.5 * dispersion * b / rest]])
+        / b
     )
     errors = np.sqrt(np.diag(to @ spread @ to.T))
     return Fragility(median, dispersion, float(errors[0]), float(errors[1]), passed, n)
