@@ -27,6 +27,8 @@ from ssilang.kernel.base.errors import FieldError
 
 LEAST_RUNS = 3
 """Two parameters and a degree of freedom."""
+LEAST_RECORDS = 5
+"""Of which errors by record are given: fewer scores tell too little of their scatter."""
 _LEAST_SLOPE = 1e-6
 """Of the probit over a standard deviation of the intensities: less is none."""
 
@@ -42,7 +44,8 @@ class Fragility:
     dispersion : float
         Standard deviation of the logarithm of the intensity at which a run exceeds.
     median_error, dispersion_error : float
-        Standard errors of the median's logarithm and of the dispersion.
+        Standard errors of the median's logarithm and of the dispersion; nan of runs of fewer
+        than `LEAST_RECORDS` records at several intensities.
     exceeded, runs : int
         Runs that passed the limit, and all.
     """
@@ -237,6 +240,8 @@ def _covariance(
         return inverse
     _, which = np.unique(records, return_inverse=True)
     count = int(which.max()) + 1
+    if count < LEAST_RECORDS:
+        return np.full_like(inverse, np.nan)
     sums = np.zeros((count, scores.shape[1]))
     np.add.at(sums, which, scores)
-    return np.asarray(inverse @ (sums.T @ sums * (count / max(count - 1, 1))) @ inverse)
+    return np.asarray(inverse @ (sums.T @ sums * (count / (count - 1))) @ inverse)
