@@ -71,9 +71,7 @@ def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     with lasting():
         import ssilang.kernel.stepping.run  # noqa: F401 - used further down
-        from ssilang.kernel.base.compiled.beside import tell_ahead
         from ssilang.kernel.base.compiled.cache import is_compiled
-        from ssilang.kernel.stepping.choose import room_ahead
         from ssilang.kernel.stepping.extremes import Extremes
         from ssilang.kernel.stepping.node_track import NodeTrack
         from ssilang.kernel.stepping.problem.problem import make_problem
@@ -105,7 +103,6 @@ def zdyn(call: Call, table: Table) -> Table:
     observers += [] if record is None else record.observers
     if not is_compiled("stepping"):
         line.note("operators.dynamics.compiling")
-        tell_ahead(room_ahead(problem))
     try:
         with recorded(record):
             history = _integrated(entries, problem, observers, line, bodies)

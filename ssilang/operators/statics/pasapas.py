@@ -137,10 +137,8 @@ def _stretch(
     number: int,
 ) -> Table:
     """Steps of one stage; the state at their end."""
-    from ssilang.kernel.base.compiled.beside import BESIDE, tell_more
     from ssilang.kernel.plasticity.run import run_bulk
     from ssilang.kernel.statics.stepping import step_statics
-    from ssilang.kernel.stepping.choose import room_ahead
     from ssilang.kernel.stepping.problem.problem import make_problem
     from ssilang.kernel.stepping.run import integrate
 
@@ -151,9 +149,6 @@ def _stretch(
     if work.flag("PROCEDURE_CHARMECA"):
         bodies = loaded_bodies(work, bodies)
     problem = make_problem(inputs)
-    if BESIDE.steps:
-        BESIDE.steps = False
-        tell_more(room_ahead(problem))
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_of_connections(work, inputs)
         warn_of_start(work, problem, inputs, in_statics=not dynamic)
