@@ -79,6 +79,8 @@ def _dyne(
     system = system_of(call, tables["system"])
     links = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(links))
+    if tables.keys().isdisjoint(("start", "loads")):
+        call.warn("operators.modal.nothing-moves")
     spaces, amplitudes = _forces(call, tables.get("loads"), system, start.time, h, steps)
     problem = ModalProblem(
         system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
