@@ -130,12 +130,15 @@ def of_exceedances(
     def information(p: FloatArray) -> FloatArray:
         eta, up, down = slopes(p)
         weights = exceeded * up * (up + eta) + (runs - exceeded) * down * (down - eta)
-        return np.asarray(rows.T @ (weights[:, None] * rows))
+        return np.asarray(rows.T @ (weights[:, None] * rows), float)
 
+    def slope(p: FloatArray) -> FloatArray:
+        return np.asarray(-scores(p).sum(axis=0), float)
+
+    start = np.array([float(norm.ppf(passed / total)), 1.0])
     found = minimize(
-        lost, np.array([norm.ppf(passed / total), 1.0]), jac=lambda p: -scores(p).sum(axis=0),
-        hess=information, method="trust-exact", options={"gtol": 1e-10 * total},
-    ).x  # fmt: skip
+        lost, start, jac=slope, hess=information, method="trust-exact", tol=1e-10 * total
+    ).x
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")
@@ -241,7 +244,7 @@ def _covariance(
     information: FloatArray, scores: FloatArray, records: NDArray[np.int_] | None
 ) -> FloatArray:
     """Of the parameters: the inverse information, about the scores of whole records if named."""
-    inverse = np.linalg.inv(information)
+    inverse = np.asarray(np.linalg.inv(information), float)
     if records is None or len(set(records.tolist())) == len(records):
         return inverse
     _, which = np.unique(records, return_inverse=True)

@@ -31,10 +31,6 @@ _RECORDS = key(
         en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
         "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
         syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
-        examples=(
-            "E L = ZFRA (PROG 1. 2. 3. 4.) (PROG 0. 1. 0. 1.) ; LIST L ;\n"
-            "E L = ZFRA (PROG 1. 2. 3.) (PROG 1. 4. 9.) (PROG 3 * 10.) ; LIST L ;",
-        ),
     ),
 )
 def zfra(
@@ -63,7 +59,6 @@ def zfra(
     gives=("EVOLUTIO", "LISTREEL"),
     en="NUAG: from a cloud of demands.",
     syntax="EVOL1 LREEL1 = ZFRA 'NUAG' LREEL2 LREEL3 X1 ('DESS') ('CAPA' X2) ('SIGN' LENTI1) ;",
-    examples=("E L = ZFRA 'NUAG' (PROG 1. 2. 4.) (PROG 2. 5. 8.) 4. ; LIST L ;",),
 )
 def _cloud(
     word: str,

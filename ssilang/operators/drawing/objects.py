@@ -65,10 +65,6 @@ def is_colour(word: str) -> bool:
         "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
         "field to show on it. ET puts several shapes into one picture.",
         syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; D = DEFO L U 1. 'ROUG' ; TRAC D ;",
-        ),
     ),
 )
 def defo(
@@ -104,16 +100,6 @@ VECT = shared(
         "principal stresses, or of the one named, with a LISTMOTS of colours.",
         syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
         "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "F = MANU 'CHPO' L 2 'FX' 0. 'FY' -1. ; V = VECT F 'FORC' 'ROUG' ; TRAC V L ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "V = VECT (MANU 'CHML' M 'VX' 3. 'VY' 4.) M 0.1 (MOTS 'VX' 'VY') ; TRAC V S ;"
-            ),
-        ),
     ),
     full_name="VECTEUR",
 )
@@ -214,10 +200,6 @@ def _in_cells(
     choice("what", ("AMPL",), optional=False, en="amplification"),
     syntax="X1 = EXTR DEFO1 'AMPL' ;",
     en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
-        "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",
-    ),
 )
 def amplification(call: Call, shape: Deformed, what: str) -> float:
     """By how much the displacement is amplified."""
@@ -230,15 +212,7 @@ def amplification(call: Call, shape: Deformed, what: str) -> float:
 
 
 ANNO = shared_operator(
-    "ANNO",
-    "drawing",
-    "Makes texts that TRAC adds to a picture; ET puts several together.",
-    examples=(
-        (
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
-            "TRAC L (ANNO 'ETIQ' (0.5 0.) 'ROUG' 'N' 'middle') ;"
-        ),
-    ),
+    "ANNO", "drawing", "Makes texts that TRAC adds to a picture; ET puts several together."
 )
 
 
@@ -253,19 +227,17 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     arg("text", "MOT", en="its meaning"),
     syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
     en="CATE: a line of the legend, a colour and its meaning.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) COUL ROUG ; "
-        "TRAC L (ANNO 'CATE' 'ROUG' 'beam') ;",
-    ),
 )
 def _category(colour: str, text: str) -> Annotation:
+    if not is_colour(colour) and is_colour(text):
+        colour, text = text, colour
     return Annotation((Category(index_of(colour), str(text)),))
 
 
 @ANNO.form(
     said("ETIQ"),
     arg("point", "POINT", en="where"),
-    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
     opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
@@ -276,12 +248,18 @@ def _category(colour: str, text: str) -> Annotation:
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
 ) -> Annotation:
-    colour, place = 0, "NE"
-    for word in words[:-1]:
-        if word.strip().upper() in PLACES:
-            place = word.strip().upper()
-        elif is_colour(word):
-            colour = index_of(word)
-        else:
+    found: dict[str, str] = {}
+    for word in words:
+        side = word.strip().upper() in PLACES and "place" not in found
+        role = (
+            "place" if side else "colour" if is_colour(word) and "colour" not in found else "text"
+        )
+        if role in found:
             raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
-    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))
+        found[role] = word
+    if "text" not in found:  # the text is spelt as a side or a colour
+        role = next(r for r, word in found.items() if word is words[-1])
+        found["text"] = found.pop(role)
+    colour = index_of(found["colour"]) if "colour" in found else 0
+    place = found.get("place", "NE").strip().upper()
+    return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, flag, many, named, operator, opt
+from ssilang.language.registry import ANY, Help, many, named, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ANNULE
+from ssilang.language.values import ANNULE, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
@@ -22,7 +23,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
     help=Help(
         en="Leaves the named loop (an outer one too) or the running procedure.",
         syntax="QUIT NOM1 ;",
-        examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
     ),
 )
 def quitter(session: Session, name: str) -> NoReturn:
@@ -38,35 +38,73 @@ def quitter(session: Session, name: str) -> NoReturn:
     gives=(),
     family="control",
     full_name="ITERER",
-    help=Help(
-        en="Goes on with the next turn of the named loop.",
-        syntax="ITER NOM1 ;",
-        examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
-    ),
+    help=Help(en="Goes on with the next turn of the named loop.", syntax="ITER NOM1 ;"),
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
 
 
-@operator(
+ASSI = shared(
     "ASSI",
-    flag("every", "TOUS", en="not available"),
-    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
-    gives=(),
-    family="control",
+    "control",
     full_name="ASSISTANT",
     help=Help(
         en="Has an assistant carry out the phrase that follows: here one process does all, so the "
         "phrase simply runs.",
         syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-        examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
     ),
 )
-def assi(call: Call, every: bool, number: int | None) -> None:
+
+
+@ASSI.form(
+    said("TOUS"),
+    gives=ANY,
+    by_hand="the phrase is run once for each object of the tables in it",
+    syntax="TAB2 ... = ASSI 'TOUS' PHRASE ;",
+    en="TOUS: the phrase runs for each index of the tables ESCLAVE in it, with their objects at "
+    "that index in their place; results are tables ESCLAVE.",
+)
+def assi_all(call: Call, word: str) -> tuple[Table, ...] | None:
+    """Run the phrase for all objects of its tables."""
+    phrase = list(call.operands)
+    del call.operands[:]
+    tables = [o.value for o in phrase if isinstance(o.value, Table) and o.value.subtype == _SLAVE]
+    if not tables:
+        raise call.error("operators.session.no-slave-table")
+    indices = _indices(tables[0])
+    if any(len(_indices(t)) != len(indices) or not all(map(t.has, indices)) for t in tables):
+        raise call.error("operators.session.slave-indices")
+    made: tuple[Table, ...] | None = None
+    for index in indices:
+        operands = [
+            replace(o, value=o.value.get(index)) if any(o.value is t for t in tables) else o
+            for o in phrase
+        ]
+        results = call.session.evaluator.reduced(operands, call.span)
+        if made is None:
+            made = tuple(Table(_SLAVE) for _ in results)
+        if len(results) != len(made):
+            raise call.error("operators.session.slave-results", index=index)
+        for table, value in zip(made, results, strict=True):
+            table.set(index, value)
+    return made or None
+
+
+_SLAVE = "ESCLAVE"
+
+
+def _indices(table: Table) -> list[Any]:
+    """Indices of the objects of a table ESCLAVE."""
+    return [i for i, _ in table.items() if i != "SOUSTYPE"]
+
+
+@ASSI.form(
+    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
+    gives=(),
+)
+def assi(number: int | None) -> None:
     """The phrase goes on."""
-    if every:
-        raise call.error("operators.session.all-assistants")
 
 
 @operator(
@@ -74,9 +112,7 @@ def assi(call: Call, every: bool, number: int | None) -> None:
     gives=(),
     family="control",
     help=Help(
-        en="Ends the run; with a name, ends the block that REPE opened.",
-        syntax="FIN ; FIN NOM1 ;",
-        examples=("MESS 'last words' ; FIN ;",),
+        en="Ends the run; with a name, ends the block that REPE opened.", syntax="FIN ; FIN NOM1 ;"
     ),
 )
 def fin() -> NoReturn:
@@ -92,7 +128,6 @@ def fin() -> NoReturn:
     help=Help(
         en="A comment up to the end of the statement; a line with * in column 1 is one too.",
         syntax="COMM ... ;",
-        examples=("COMM nothing happens here ;",),
     ),
 )
 def comm(text: tuple[Any, ...]) -> None:
@@ -124,7 +159,6 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
         en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
         "optional; without type any object is taken.",
         syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
-        examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
     ),
     reads_itself="its items are names and types, with * or / between",
 )
@@ -157,7 +191,6 @@ def argu(call: Call) -> None:
     help=Help(
         en="Inside a procedure: gives results, delivered before those of FINP.",
         syntax="RESP OBJ1 OBJ2 ... ;",
-        examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
     ),
 )
 def resp(session: Session, results: tuple[Any, ...]) -> None:

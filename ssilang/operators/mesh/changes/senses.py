@@ -15,6 +15,7 @@ from ssilang.kernel.mesh.orientation import (
     orient_towards,
     reversed_line,
 )
+from ssilang.kernel.mesh.queries.partition import by_neighbours
 from ssilang.language.registry import Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
@@ -25,10 +26,6 @@ from ssilang.operators.workspace import workspace
     main("mesh", "MAILLAGE", en="mesh"),
     syntax="GEO2 = INVE GEO1 ;",
     en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = INVE (DROI 2 (0. 0.) (1. 0.)) ;"
-        " LIST (COOR 1 (L POIN 'INIT')) ;",
-    ),
 )
 def inverted(mesh: Mesh) -> Mesh:
     """Mesh turned inside out."""
@@ -52,10 +49,6 @@ def inverted(mesh: Mesh) -> Mesh:
         "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
         "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
         syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
-            " LIST (MESU S) ;",
-        ),
     ),
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
@@ -75,7 +68,6 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     help=Help(
         en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
         syntax="GEO2 = VERS GEO1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = VERS (DROI 4 (0. 0.) (1. 0.)) ;",),
     ),
 )
 def vers(mesh: Mesh) -> Mesh:
@@ -84,9 +76,10 @@ def vers(mesh: Mesh) -> Mesh:
 
 
 @ORDO.form(
-    main("mesh", "MAILLAGE", en="lines or points"),
+    main("mesh", "MAILLAGE", en="mesh"),
     syntax="MAIL2 = ORDO MAIL1 ;",
-    en="Of a mesh: lines put end to end, points by distance from the first one.",
+    en="Of a mesh: lines put end to end, points by distance from the first one, other cells from "
+    "neighbour to neighbour.",
 )
 def ordered(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""
@@ -98,8 +91,10 @@ def _ordered_block(block: CellBlock) -> CellBlock:
         at = block.coordinates[:, 0]
         order = np.argsort(np.linalg.norm(at - at[0], axis=1), kind="stable")
         return CellBlock.make(block.nodes, "POI1", block.raw[order], block.colours[order])
-    if block.kind.dimension > 1 or block.kind.joint:
+    if block.kind.joint:
         return block
+    if block.kind.dimension > 1:
+        return by_neighbours(block)
     return chained(Mesh(block.nodes, (_in_one_sense(block),))).blocks[0]
 
 
