@@ -38,7 +38,8 @@ class Argument(Translated):
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
-    with its name and its place. Numbers outside of `range` are refused, of `usual` told.
+    with its name and its place. Numbers outside of `range` are refused, of `usual` told, and those
+    not `above` the operand of that name. Words and objects that are `distinct` stand once.
     """
 
     name: str
@@ -57,6 +58,8 @@ class Argument(Translated):
     whole: bool = False
     range: Range = UNSAID
     usual: Range = UNSAID
+    above: str = ""
+    distinct: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,9 +154,14 @@ def arg(
     kind: str = "",
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    above: str = "",
+    distinct: bool = False,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual)
+    return Argument(
+        name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual, above=above,
+        distinct=distinct,
+    )  # fmt: skip
 
 
 def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Argument:
@@ -183,12 +191,14 @@ def opt(
     kind: str = "",
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    distinct: bool = False,
 ) -> Argument:
     """An optional operand."""
     return Argument(
         name, types or (ANY,), optional=True, default=default, en=en, unit=unit, kind=kind,
         range=range,
         usual=usual,
+        distinct=distinct,
     )  # fmt: skip
 
 
@@ -205,6 +215,7 @@ def many(
     whole: bool = False,
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    distinct: bool = False,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -227,6 +238,7 @@ def many(
         whole=whole,
         range=range,
         usual=usual,
+        distinct=distinct,
     )
 
 

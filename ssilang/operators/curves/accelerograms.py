@@ -17,7 +17,16 @@ from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
-from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    LIMITS,
+    one_part,
+    shade,
+    warn_of_motions,
+    warn_of_points,
+    warn_of_sampling,
+)
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 
@@ -153,7 +162,10 @@ def dspr(
     if not 1 <= power <= 26:
         raise call.error("operators.curves.power-of-two", power, power=power)
     part = one_part(call, curve)
-    f, y = power_density(part.ordinates, constant_step(part.abscissas), 2**power)
+    step = constant_step(part.abscissas)
+    warn_of_points(call, part, 2**power)
+    warn_of_sampling(call, step, highest)
+    f, y = power_density(part.ordinates, step, 2**power)
     kept = (f >= abs(lowest)) & (f <= (abs(highest) or np.inf))
     index = shade(colour, 0)
     made = CurvePart(f[kept], y[kept], "FREQ (HZ)", "DSP UN**2/HZ", part.legend, index)

@@ -26,7 +26,15 @@ from ssilang.language.registry import Help, arg, by, choice, flag, key, operator
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.signals import filt
-from ssilang.operators.curves.words import COLOUR, CURVE, check_together, one_part, shade
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    check_together,
+    one_part,
+    shade,
+    warn_of_points,
+    warn_of_sampling,
+)
 from ssilang.operators.mesh.copies.images import tour
 from ssilang.operators.workspace import workspace
 
@@ -189,6 +197,8 @@ def onde(
     step, n = constant_step(part.abscissas), 2**power
     if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
+    warn_of_points(call, part, n)
+    warn_of_sampling(call, step, highest)
     scale = scales(lowest, highest, rows, pulsation)
     found = transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)

@@ -94,6 +94,8 @@ def conc(call: Call, first: Curve, second: Curve) -> Curve:
         if bool(a.words) != bool(b.words):
             raise call.error("operators.curves.words-and-numbers")
         one, two = (a, b) if _start(a) <= _start(b) else (b, a)
+        if _start(two) < one.abscissas.max(initial=-np.inf):
+            call.warn("operators.curves.curves-overlap", last=one.abscissas[-1], first=_start(two))
         parts.append(
             dataclasses.replace(
                 a,
@@ -139,6 +141,8 @@ def lsqf(
     for p in curve.parts:
         constant_step(p.abscissas)
         wanted = count if size is None else max(count, (len(p.abscissas) - 1) // size)
+        if wanted > len(p.abscissas) - 1:
+            call.warn("operators.curves.few-samples", wanted=wanted, count=len(p.abscissas))
         x, y = energy_envelope(p.abscissas, p.ordinates, wanted)
         parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), curve.title)

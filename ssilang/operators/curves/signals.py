@@ -34,7 +34,16 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
-from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    LIMITS,
+    one_part,
+    shade,
+    warn_of_order,
+    warn_of_points,
+    warn_of_sampling,
+)
 
 
 def spectrum(
@@ -90,7 +99,10 @@ def tfr(
     if len(signal.parts) != 1:
         raise call.error("operators.curves.one-curve-at-a-time", signal, n_parts=len(signal.parts))
     part = signal.parts[0]
-    f, values = fourier(part.ordinates, constant_step(part.abscissas), 2**power)
+    step = constant_step(part.abscissas)
+    warn_of_points(call, part, 2**power)
+    warn_of_sampling(call, step, highest)
+    f, values = fourier(part.ordinates, step, 2**power)
     kept = (f >= lowest) & (f <= highest)
     shades = (shade(colour, 0), shade(second_colour, 0))
     return spectrum(f[kept], values[kept], form, shades, signal.title)
@@ -360,9 +372,11 @@ def fdt_of_times(
     if len(numbers) % 2:
         raise call.error("operators.curves.times-and-values-in-pairs", n_values=len(numbers))
     if pairs:
-        return _in_time(numbers[::2], numbers[1::2], name)
-    half = len(numbers) // 2
-    return _in_time(numbers[:half], numbers[half:], name)
+        times, values_there = numbers[::2], numbers[1::2]
+    else:
+        times, values_there = np.split(numbers, 2)
+    warn_of_order(call, times)
+    return _in_time(times, values_there, name)
 
 
 def _in_time(t: Any, y: Any, name: str) -> Curve:

@@ -57,7 +57,7 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     _ON_NODES,
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component"),
+        arg("component", "MOT", en="name of a component", distinct=True),
         arg(
             "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
         ),
@@ -189,7 +189,7 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     choice("integration", ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"),
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component"),
+        arg("component", "MOT", en="name of a component", distinct=True),
         arg("value", en="its value or object"),
         at_least=1,
     ),

@@ -50,10 +50,10 @@ _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
 
 @operator(
     "EXCO",
-    arg("wanted", "LISTMOTS", en="components wanted"),
+    arg("wanted", "LISTMOTS", en="components wanted", distinct=True),
     _LENIENT,
     _FIELD,
-    opt("new", "LISTMOTS", en="their new names"),
+    opt("new", "LISTMOTS", en="their new names", distinct=True),
     NATURE,
     gives=Like("field"),
     family="fields",
@@ -122,7 +122,7 @@ def _extracted(
 
 _NEW_NAMES = (
     arg("old", "LISTMOTS", en="names to change"),
-    arg("new", "LISTMOTS", en="new names"),
+    arg("new", "LISTMOTS", en="new names", distinct=True),
     _FIELD,
     NATURE,
 )

@@ -98,6 +98,8 @@ def _additional(
     groups = {"DEPL": NODE_TRANSLATIONS[mode], "ROTA": NODE_ROTATIONS[mode]}
     said = [n for name in names for n in groups.get(name, (name,))]
     nodes = nodes_of(place)
+    if not len(nodes):
+        call.warn("operators.matrices.at-no-node")
     chosen = dict.fromkeys(said or NODE_TRANSLATIONS[mode])
     values = {n: np.full(len(nodes), amount) for n in chosen}
     return nodal_diagonal(place.nodes, nodes, values, kind)

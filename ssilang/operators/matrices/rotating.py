@@ -12,9 +12,10 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import Help, choice, flag, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 
-_VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
+_VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s", usual=NOT_ZERO)
 
 
 @operator(

@@ -31,7 +31,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -77,7 +77,7 @@ def _held(*centre: Argument) -> tuple[Entry, ...]:
         key(
             "direction",
             "DIRECTION",
-            arg("vector", "POINT", "CHPOINT"),
+            arg("vector", "POINT", "CHPOINT", usual=NOT_ZERO),
             en="along a vector, or a field of vectors",
         ),
         key(

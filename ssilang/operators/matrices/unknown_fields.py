@@ -44,6 +44,8 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
         raise call.error("operators.matrices.which-values")
     value = values["value"] if values.word == "UNIFORME" else None
     numbering = numbering_of(matrix)
+    if not numbering.size:
+        call.warn("operators.matrices.at-no-node")
     generator = session_generator(call, None)
     made = {}
     for name in numbering.unknowns:

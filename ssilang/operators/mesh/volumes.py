@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -152,7 +152,7 @@ def volu(
     said("TRANSLATION"),
     _BASE,
     *_CUTS,
-    arg("vector", "POINT", en="vector", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
 )
 def translated(
     call: Call,

@@ -358,6 +358,8 @@ def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
             if node in inside
         }
     )
+    if not pairs:
+        call.warn("operators.modal.no-conditions-there")
     table = Table("LIAISONS_STATIQUES")
     for number, (node, unknown) in enumerate(pairs, start=1):
         entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}

@@ -80,6 +80,8 @@ def _dyne(
     if "system" not in tables:
         raise call.error("operators.modal.dyne-wants-table-base")
     system = system_of(call, tables["system"])
+    if tables.keys().isdisjoint(("start", "loads", "links")):
+        call.warn("operators.modal.nothing-moves")
     damping = damping_of(call, tables.get("damping"), system)
     return _integrated(call, tables, system, damping, ModalSteps(h, steps, every, scheme))
 

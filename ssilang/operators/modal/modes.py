@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from ssilang.kernel.matrices.assembly import (
     assemble,
     is_symmetric,
@@ -60,6 +62,7 @@ def _vibr(
     warn_connections(call.session, call.span, "VIBR", stiffness)
     warn_repeated(call.session, call.span, "VIBR", mass, "MASS")
     _warn_negative_mass(call, mass)
+    _warn_masses_alone(call, stiffness, mass)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
@@ -72,8 +75,19 @@ def _vibr(
         elif highest:
             modes = modes[-highest:]
     else:
-        modes = modes_near(stiffness, mass, _wanted(call, method), solver_of(call.session))
+        wanted = _wanted(call, method)
+        modes = modes_near(stiffness, mass, wanted, solver_of(call.session))
+        if len(wanted) == 1 and len(modes) < wanted[0][1]:
+            call.warn("operators.modal.fewer-modes", asked=wanted[0][1], found=len(modes))
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
+
+
+def _warn_masses_alone(call: Call, stiffness: Matrix, mass: Matrix) -> None:
+    """Tell of masses at nodes that the stiffness does not know."""
+    alone = np.setdiff1d(numbering_of(mass).nodes, numbering_of(stiffness).nodes)
+    if len(alone) and mass.inertial:
+        node = mass.table.told(int(alone[0]))
+        call.warn("operators.dynamics.masses-alone", count=len(alone), node=node)
 
 
 def _warn_negative_mass(call: Call, mass: Matrix) -> None:
@@ -207,7 +221,7 @@ operator(
     flag("multiple", "MULT", en="accepted, changes nothing"),
     flag("table", "TBAS", en="a table: the default"),
     flag("largest", "LM", en="accepted, changes nothing"),
-    many("matrices", "RIGIDITE", en="stiffness, mass, and damping"),
+    many("matrices", "RIGIDITE", en="stiffness, mass, and damping", distinct=True),
     opt(
         "signed",
         "LOGIQUE",

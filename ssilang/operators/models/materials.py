@@ -55,7 +55,7 @@ _AXES = (
 _MODEL = arg("model", "MMODEL", en="model")
 _PAIRS = each(
     "pairs",
-    arg("name", "MOT", kind="parameter", en="parameter"),
+    arg("name", "MOT", kind="parameter", en="parameter", distinct=True),
     arg("value", *_VALUES, en="its value", range=ANY_NUMBER),
 )
 

@@ -83,8 +83,16 @@ def _reso(
         if count := imposed_outside(load, known):
             call.warn("operators.statics.imposed-elsewhere", count=count)
     solutions = tuple(solve(matrix, loads, options))
+    for load, solution in zip(loads, solutions, strict=True):
+        if _is_anywhere(load) and not _is_anywhere(solution):
+            call.warn("operators.statics.nothing-moves")
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def _is_anywhere(field: NodeField) -> bool:
+    """Whether a field has other values than zeros, multipliers left out."""
+    return any(p.values.any() for n, p in field.components.items() if n != "LX")
 
 
 def _report_solver(call: Call, matrix: Matrix, options: SolveOptions) -> None:

@@ -9,6 +9,7 @@ from ssilang.kernel.mesh.changes.cut_open import cut_open
 from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
@@ -33,16 +34,20 @@ def _ids(item: Mesh | Point) -> IntArray:
     ),
 )
 def elim(
-    session: Session, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
+    call: Call, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
 ) -> Mesh | Point:
     """Merge close nodes; gives the first object back."""
-    ws = workspace(session)
+    ws = workspace(call.session)
     ids = _ids(first)
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
     if second is None:
         merge_close(ws.nodes, ids, near)
     else:
-        merge_between(ws.nodes, ids, _ids(second), near)
+        others = _ids(second)
+        apart = not np.isin(ids, others).any()
+        merge_between(ws.nodes, ids, others, near)
+        if apart and not np.isin(_ids(first), _ids(second)).any():
+            call.warn("operators.mesh.nothing-merged", distance=near)
     return first
 
 

@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
@@ -113,7 +113,7 @@ def lign(
     said("TRAN"),
     COUNT,
     START,
-    arg("vector", "POINT", en="vector to the end"),
+    arg("vector", "POINT", en="vector to the end", usual=NOT_ZERO),
     SIZES,
 )
 def segment(

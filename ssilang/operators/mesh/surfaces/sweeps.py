@@ -24,7 +24,6 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
@@ -36,6 +35,7 @@ from ssilang.operators.mesh.lines.ends import (
     chosen_family,
     count_and_angle,
     cuts_of,
+    warn_of_flat_cells,
 )
 from ssilang.operators.workspace import workspace
 
@@ -84,7 +84,9 @@ def _swept(
     path = path_of(line)
     layers = layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
     surface = chosen_family(workspace(call.session)).need_surface()
-    return grown(mesh, sweep_line(line, path, layers, surface))
+    made = sweep_line(line, path, layers, surface)
+    warn_of_flat_cells(call, made)
+    return grown(mesh, made)
 
 
 @operator(
@@ -92,7 +94,7 @@ def _swept(
     _SWEPT,
     LAYERS,
     SIZES,
-    arg("vector", "POINT", en="vector", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
     family="mesh",
     full_name="TRANSLATION",
     help=Help(
@@ -210,8 +212,10 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
         syntax="SURF1 = LIG1 GENE LIG2 ;",
     ),
 )
-def gene(session: Session, line: Mesh, way: Mesh) -> Mesh:
+def gene(call: Call, line: Mesh, way: Mesh) -> Mesh:
     """Sweep a line along another line."""
     path, layers = generator_path(way)
-    surface = chosen_family(workspace(session)).need_surface()
-    return sweep_line(line, path, layers, surface)
+    surface = chosen_family(workspace(call.session)).need_surface()
+    made = sweep_line(line, path, layers, surface)
+    warn_of_flat_cells(call, made)
+    return made
