@@ -366,6 +366,10 @@ class HelpTable:
     rows: tuple[tuple[str, ...], ...]
 
 
+Tables = Callable[[str], Sequence[HelpTable]]
+"""Makes tables in 'en' or 'fr'."""
+
+
 @dataclass(frozen=True, slots=True)
 class Help(Translated):
     """Help of an operator, shown by INFO, `ssilang help` and the manual.
@@ -378,7 +382,7 @@ class Help(Translated):
     en: str
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
-    tables: Callable[[str], Sequence[HelpTable]] | None = None
+    tables: Tables | None = None
     in_french: str = ""
 
     @property
@@ -650,7 +654,9 @@ def operator(
     name: str,
     *entries: Entry,
     family: str,
-    help: Help,
+    en: str,
+    syntax: str = "",
+    tables: Tables | None = None,
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
@@ -669,6 +675,8 @@ def operator(
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
+    en, syntax, tables
+        Its help, see `Help`.
     gives : str, sequence of str, Like, or By, optional
         Types of the results; by default what the function's annotation says.
     reads_itself : str
@@ -682,7 +690,10 @@ def operator(
     """
 
     def add(function: Function) -> Operator:
-        made = shared(name, family, help, aliases=aliases, terminal=terminal, full_name=full_name)
+        made = shared(
+            name, family, en, syntax, tables,
+            aliases=aliases, terminal=terminal, full_name=full_name,
+        )  # fmt: skip
         made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
 
@@ -692,14 +703,17 @@ def operator(
 def shared(
     name: str,
     family: str,
-    help: Help,
+    en: str,
+    syntax: str = "",
+    tables: Tables | None = None,
     *,
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
 ) -> Operator:
-    """Register an operator whose forms stand in several families."""
-    made = Operator(name, family, help, [], tuple(aliases), terminal, full_name or name)
+    """Register an operator whose forms stand in several families; `form` adds one."""
+    about = Help(en, syntax, tables=tables)
+    made = Operator(name, family, about, [], tuple(aliases), terminal, full_name or name)
     for word in (name, *aliases):
         OPERATORS[word] = made
     return made

@@ -21,7 +21,6 @@ from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
-    Help,
     arg,
     choice,
     each,
@@ -348,13 +347,11 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
     arg("model", "MMODEL", en="model"),
     choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
     family="fields",
-    help=Help(
-        en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
-        "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
-        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-        "HOTANGEN).",
-        syntax="CHAM1 = ZERO MODL1 MOT1 ;",
-    ),
+    en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
+    "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
+    "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
+    "HOTANGEN).",
+    syntax="CHAM1 = ZERO MODL1 MOT1 ;",
 )
 def zero(call: Call, model: Model, word: str | None) -> CellField:
     """Zeros."""

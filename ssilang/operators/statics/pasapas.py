@@ -20,7 +20,7 @@ from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
 from ssilang.kernel.statics.thermal_load import check_strains, split_strains
 from ssilang.kernel.stepping.times import nearest
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
@@ -70,10 +70,8 @@ if TYPE_CHECKING:
     "ZPAS",
     arg("table", "TABLE", en="table of PASAPAS"),
     family="statics",
-    help=Help(
-        en="Load steps of the table of PASAPAS, which is the procedure to call.",
-        syntax="ZPAS TAB1 ;",
-    ),
+    en="Load steps of the table of PASAPAS, which is the procedure to call.",
+    syntax="ZPAS TAB1 ;",
 )
 def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""

@@ -22,7 +22,7 @@ from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import reversed_line
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
@@ -97,10 +97,8 @@ def _swept(
     arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
     family="mesh",
     full_name="TRANSLATION",
-    help=Help(
-        en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
-        syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
-    ),
+    en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
+    syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
 )
 def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
     """Sweep a line along a vector."""
@@ -118,11 +116,9 @@ def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point
     AXIS,
     family="mesh",
     full_name="ROTATION",
-    help=Help(
-        en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
-        "(3D). " + _LAYERS_EN,
-        syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
-    ),
+    en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
+    "(3D). " + _LAYERS_EN,
+    syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
 )
 def rota(
     call: Call,
@@ -155,12 +151,10 @@ def turning(
     arg("goal", "MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
     family="mesh",
     full_name="REGLER",
-    help=Help(
-        en="Ruled surface between two lines with the same cells, described in the same sense. "
-        + _LAYERS_EN
-        + " If the second is a surface its side 1 is reached.",
-        syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
-    ),
+    en="Ruled surface between two lines with the same cells, described in the same sense. "
+    + _LAYERS_EN
+    + " If the second is a surface its side 1 is reached.",
+    syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
 )
 def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
     """Sweep a line to another one."""
@@ -206,11 +200,9 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
     arg("way", "MAILLAGE", en="line along which it goes"),
     family="mesh",
     full_name="GENERATRICE",
-    help=Help(
-        en="Surface swept by a line moved parallel to itself along another line, one layer for "
-        "each of its cells.",
-        syntax="SURF1 = LIG1 GENE LIG2 ;",
-    ),
+    en="Surface swept by a line moved parallel to itself along another line, one layer for "
+    "each of its cells.",
+    syntax="SURF1 = LIG1 GENE LIG2 ;",
 )
 def gene(call: Call, line: Mesh, way: Mesh) -> Mesh:
     """Sweep a line along another line."""
