@@ -45,3 +45,27 @@ def test_a_spring_stands_on_a_point_as_on_its_cell(mode, tmp_path):
     )
     assert result.exit_code == 0, result.message
     assert result.session.root.find("X") == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("cells", "element"), [("TRI3", "DKT"), ("TRI3", "COQ3"), ("QUA4", "COQ4")]
+)
+def test_least_squares_on_shells_keep_means_and_what_is_linear(cells, element, tmp_path):
+    result = run_text(
+        f"""
+        OPTI DIME 3 MODE TRID ELEM {cells} ; U = (2. 0. 1.) ; V = (0. 3. 0.) ; O = (0. 0. 0.) ;
+        S = (DROI 6 O U) TRAN 6 V ; M = MODE S 'MECANIQUE' 'ELASTIQUE' '{element}' ;
+        T = (DROI 2 O U) TRAN 3 V ; N = MODE T 'MECANIQUE' 'ELASTIQUE' '{element}' ;
+        X Y Z = COOR S ; L = (2. * X) - (3. * Y) + (4. * Z) + 1. ;
+        A = PROI 'MINI' N (CHAN 'CHAM' L M) ;
+        XT YT ZT = COOR T ; LT = (2. * XT) - (3. * YT) + (4. * ZT) + 1. ;
+        D = MAXI (A - (CHAN 'CHAM' LT N)) 'ABS' ;
+        C = CHAN 'CHAM' (X * X) M ; B = PROI 'MINI' N C 4 ;
+        I1 = INTG N B ; I2 = INTG M C ;
+        """,
+        output_directory=tmp_path,
+    )
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert find("D") < 1e-9
+    assert find("I1") == pytest.approx(find("I2"), rel=2e-2)
