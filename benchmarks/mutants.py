@@ -416,15 +416,13 @@ def project(folder: Path) -> Path:
     return folder
 
 
-def clean(copy_of: Path, kept: Path) -> None:
-    """Remove compiled code that mutants left."""
+def unchanged(copy_of: Path) -> set[str]:
+    """Folders of compiled code of the modules as they are: others are left by mutants."""
     told = subprocess.run(
         [sys.executable, "-c", GOOD], cwd=copy_of, env=os.environ | {"PYTHONPATH": str(copy_of)},
         capture_output=True, text=True, check=True,
     )  # fmt: skip
-    for folder in kept.glob("ssilang/compiled/*"):
-        if folder.name not in told.stdout.split():
-            shutil.rmtree(folder)
+    return set(told.stdout.split())
 
 
 def warm_up(kept: Path) -> None:
@@ -443,7 +441,7 @@ def try_all(asked: list[Fault], seconds: float, folder: Path, kept: Path) -> Cou
     texts = {f: set(re.findall(r"[\w.*]+", (ROOT / f).read_text(encoding="utf-8"))) for f in files}
     equivalent = tomllib.loads(EQUIVALENT.read_text(encoding="utf-8"))["equivalent"]
     same = {(e["path"], e["old"].strip(), e["new"].strip()): e["reason"] for e in equivalent}
-    callers = Callers()
+    good, callers = unchanged(copy_of), Callers()
     tests = [near(fault, texts, callers) for fault in asked]
     warm_up(kept)
     first = sorted({f for of_one in tests for f in of_one[:1]})
@@ -465,7 +463,9 @@ def try_all(asked: list[Fault], seconds: float, folder: Path, kept: Path) -> Cou
                 alone = judged(copy_of, [test[1]], seconds)
                 said = said if alone.startswith("passed") else f"passes not without it: {alone}"
             word = "noticed" if re.match("assertion|crash|time", said) else "SURVIVED"
-            clean(copy_of, kept)
+            for folder in kept.glob("ssilang/compiled/*"):
+                if folder.name not in good:
+                    shutil.rmtree(folder)
         count[said.split()[0] if word == "noticed" else word] += 1
         print(f"{word} {time.monotonic() - started:.0f} s  {fault}\n-> {said}", flush=True)
     return count

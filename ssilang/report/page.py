@@ -29,7 +29,8 @@ from ssilang.report.html import (
 )
 from ssilang.report.results import Results, read_results
 from ssilang.report.scenes import SceneError, packed_scene
-from ssilang.report.sweep_page import is_sweep, read_sweep, sweep_page
+from ssilang.report.sweep_page import sweep_page
+from ssilang.report.sweep_table import is_sweep, read_sweep
 from ssilang.report.verdict import verdict_html
 
 LARGEST = 20_000_000

@@ -100,7 +100,7 @@ def test_allow_opens_a_folder(outside):
 
 @pytest.mark.parametrize("word", ["EXTE", "CHAU", "VENV"])
 def test_no_operator_talks_to_the_system(outside, word):
-    result = run(f"X = {word} 'ls' ;", outside)
+    result = run(f"X = {word} 'ls' ; MESS X ;", outside)
     assert result.exit_code == 1
     assert "out of ssilang's scope" in result.message
 

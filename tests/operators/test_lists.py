@@ -70,8 +70,15 @@ def test_end_of_steps_is_repeated_at_least_once(refused):
 
 @pytest.mark.parametrize("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
                                    "0. PAS -1. GEOM 2. 8."])  # fmt: skip
-def test_steps_that_never_reach_their_end_are_refused(steps, refused):
-    assert "do not lead from" in refused(f"L = PROG {steps} ;")
+def test_steps_that_never_reach_their_end_leave_start_and_end(steps):
+    start, end = steps.split()[0], steps.split()[-1]
+    result = run_text(f"L = PROG {steps} 7. ;")
+    assert list(result.session.root.find("L").values) == [float(start), float(end), 7.0]
+    assert [w.code for w in result.session.warnings] == ["operators.lists.steps-left-out"]
+
+
+def test_integer_steps_that_lead_away_are_refused(refused):
+    assert "do not lead from" in refused("L = LECT 0 PAS -1 5 ;")
 
 
 def test_step_that_does_not_divide_is_refused_for_integers(refused):

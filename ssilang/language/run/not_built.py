@@ -47,9 +47,7 @@ def put_off(statement: Statement, error: SsiError, names: Iterable[str]) -> NotB
         Names that have a value, and those of procedures.
     """
     targets = statement.targets
-    if error.code != "unknown-operator" or error.calls or not targets:
-        return None
-    if "read_here" in error.data:  # of an earlier statement: its result is read in this one
+    if error.code != "unknown-operator" or error.calls or not targets or "read_here" in error.data:
         return None
     known = find_cast3m_word(str(error.data["name"]))
     if known is None or known.kind != "operator" or find_operator(known.name) is not None:

@@ -98,10 +98,6 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         "number of sines (slices of 0.1 Hz by default), 'INIT' start of the random numbers.",
         syntax="EVOL1 EVOL2 EVOL3 = SIAR EVOL4 (EVOL5 LREEL1) (X1) ('TINI' X2) ('ACCE') ('VITE') "
         "('DEPL') ('NCOU' N1) ('NPOI' N2) ('NSIN' N3) ('INIT' N4) ;",
-        examples=(
-            "S = EVOL 'MANU' 'FREQ' (PROG 0.5 10.) 'DSP' (PROG 0.1 0.1) ; "
-            "A = SIAR S 8. 'ACCE' 'INIT' 3 ; LIST (DIME (EXTR A 'ORDO')) ;",
-        ),
     ),
 )
 def siar(
@@ -205,7 +201,6 @@ def _bands(
         "square given to the neighbours ('AMPL': the share sin^2 of an angle drawn between 0 and "
         "X1 degrees; the sum of squares stays), or both. 'INIT' starts the random numbers.",
         syntax="LREEL1 = PERT LREEL2 ('SIGN') ('AMPL' X1) ('INIT' N1) ;",
-        examples=("LIST (SOMM ((PERT (PROG 1. 2. 3.) 'AMPL' 30. 'INIT' 1) ** 2)) ;",),
     ),
 )
 def pert(
@@ -285,11 +280,6 @@ def pert(
         "a stationary signal.",
         syntax="EVOL1 = PRNS EVOL2 EVOL3 LREEL1 (LREEL2) (X1) ('ACCE' | 'VITE' | 'DEPL') "
         "('PERI' | 'FREQ') (COUL1) ('NBPR' N1) ('NBIN' N2) ('TPLU' X2) ('PREC' X3) ('NBDE') ;",
-        examples=(
-            "S = EVOL 'MANU' 'FREQ' (PROG 0.5 20.) 'DSP' (PROG 0.1 0.1) ; LT = PROG 0. 2. 8. 10. ; "
-            "M = EVOL 'MANU' 'TEMP' LT 'MODU' (PROG 0. 1. 1. 0.) ; "
-            "LIST (PRNS S M (PROG 0.5 20.) 0.05 (PROG 0.1 0.5) 'FREQ') ;",
-        ),
     ),
 )
 def prns(

@@ -146,12 +146,6 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
 }
 
-_MODE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; "
-    "T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; "
-    "Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ; "
-)
-
 
 @operator(
     "EVOL",
@@ -180,15 +174,6 @@ _MODE = (
         "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
         "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
         "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
-        examples=(
-            "E = EVOL 'ROUG' 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; LIST E ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; "
-            "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
-            _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
-            _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 "
-            "0.1 ; LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
-            _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
-        ),
     ),
     reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
 )

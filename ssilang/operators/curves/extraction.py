@@ -98,19 +98,6 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
     "MOT1 = EXTR EVOL1 'LEGX' | 'LEGY' | 'LEGE' | 'COUL' (N1) ;",
     en="Of curves: abscissas or ordinates as a list (also by the name of an axis), some of the "
     "curves, some of their points, names of axes, colours.",
-    examples=(
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'ORDO') ;",
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'APRE' 1. 'ZERO') ;",
-        (
-            "E = (EVOL 'ROUG' 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 5. 6. 7.)) ET\n"
-            "(EVOL 'VERT' 'MANU' 't' (PROG 0. 1. 2.) 'v' (PROG 8. 9. 7.)) ;\n"
-            "LIST (EXTR E 'ABSC' 2) ; LIST (EXTR E 'v') ; LIST (EXTR E 'COUL') ;\n"
-            "F = EXTR E 'COUR' 2 ; LIST (EXTR F 'ORDO') ; F = EXTR E 'COUR' 'u' ;\n"
-            "LIST (EXTR (EXTR F 'PAS' 2) 'ABSC') ; LIST (EXTR (EXTR F 'AVAN' 1.) 'ORDO') ;\n"
-            "LIST (EXTR (EXTR F 'COMP' 'INDI' 2 3 'ZERO') 'ABSC') ;\n"
-            "MESS (EXTR E 'LEGX') (EXTR E 'LEGY' 2) (EXTR E 'LEGE' 1) (EXTR E 'COUL' 1) ;"
-        ),
-    ),
 )
 def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
     """A part of curves, by a word."""
@@ -247,7 +234,6 @@ def copy_curves(curve: Curve) -> Curve:
     flag("absolute", "ABSO", en="by absolute values"),
     syntax="EVOL2 = ORDO EVOL1 ('CROI' | 'DECR') ('ABSO') ;",
     en="Of curves: points in order of abscissas.",
-    examples=("LIST (ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.))) ;",),
 )
 def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
     """Points in order of abscissas."""
@@ -271,7 +257,6 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
     syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",
     en="TITR, LEGE, NOMABS, NOMORD change the title, the legend, the names of the axes of curves "
     "(of curve N1 only).",
-    examples=("E = CHAN 'LEGE' (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.)) 'measured' ; LIST E ;",),
 )
 def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
     """Other titles, legends, names of axes."""
@@ -312,7 +297,6 @@ def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     gives=_EXTREME,
     syntax="N1 X1 Y1 = MAXI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the largest ordinate; of several, lists.",
-    examples=("I X Y = MAXI (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 3. 9. 1.)) ; LIST Y ;",),
 )
 def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     """The largest ordinate."""

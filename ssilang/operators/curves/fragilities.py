@@ -10,17 +10,20 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances
 from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 
 _POINTS = 121
-_INTENSITIES = arg("intensities", "LISTREEL", en="intensities")
-_RECORDS = key("records", "SIGN", arg("records", "LISTENTI"), en="record of each, by number")
+_INTENSITIES = arg("intensities", "LISTREEL", en="intensities", range=POSITIVE)
+_RECORDS = key(
+    "records", "SIGN", arg("records", "LISTENTI", range=ANY_NUMBER), en="record of each, by number"
+)
 
 
 @operator(
     "ZFRA",
     _INTENSITIES,
-    arg("exceeded", "LISTREEL", en="runs that exceed at each"),
-    opt("runs", "LISTREEL", en="runs at each, 1 without it"),
+    arg("exceeded", "LISTREEL", en="runs that exceed at each", range=NOT_NEGATIVE),
+    opt("runs", "LISTREEL", en="runs at each, 1 without it", range=POSITIVE),
     _RECORDS,
     family="signals",
     gives=("EVOLUTIO", "LISTREEL"),
@@ -28,10 +31,6 @@ _RECORDS = key("records", "SIGN", arg("records", "LISTENTI"), en="record of each
         en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
         "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
         syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
-        examples=(
-            "E L = ZFRA (PROG 1. 2. 3. 4.) (PROG 0. 1. 0. 1.) ; LIST L ;\n"
-            "E L = ZFRA (PROG 1. 2. 3.) (PROG 1. 4. 9.) (PROG 3 * 10.) ; LIST L ;",
-        ),
     ),
 )
 def zfra(
@@ -46,15 +45,20 @@ def zfra(
 @zfra.form(
     said("NUAG"),
     _INTENSITIES,
-    arg("demands", "LISTREEL", en="demand of each run"),
-    arg("limit", "FLOTTANT", en="demand that counts"),
+    arg("demands", "LISTREEL", en="demand of each run", range=ANY_NUMBER),
+    arg("limit", "FLOTTANT", en="demand that counts", range=ANY_NUMBER),
     flag("below", "DESS", en="lower demands exceed"),
-    key("capacity", "CAPA", arg("x", "FLOTTANT"), default=0.0, en="dispersion of the capacity"),
+    key(
+        "capacity",
+        "CAPA",
+        arg("x", "FLOTTANT", range=NOT_NEGATIVE),
+        default=0.0,
+        en="dispersion of the capacity",
+    ),
     _RECORDS,
     gives=("EVOLUTIO", "LISTREEL"),
     en="NUAG: from a cloud of demands.",
     syntax="EVOL1 LREEL1 = ZFRA 'NUAG' LREEL2 LREEL3 X1 ('DESS') ('CAPA' X2) ('SIGN' LENTI1) ;",
-    examples=("E L = ZFRA 'NUAG' (PROG 1. 2. 4.) (PROG 2. 5. 8.) 4. ; LIST L ;",),
 )
 def _cloud(
     word: str,

@@ -113,19 +113,6 @@ ipol = operator(
         syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
         "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
         "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
-        examples=(
-            "LIST (IPOL 1.5 (PROG 0. 1. 2.) (PROG 0. 10. 30.)) ;",
-            "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
-            "LIST (IPOL 'TOUS' 0.5 (PROG 0. 1. 0.) (PROG 2. 4. 8.)) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (2. 0.) ; C = COOR 1 L ;\n"
-                "P = IPOL (COOR 'CURV' L) 0.7 ; LIST (COOR 1 P) ;\n"
-                "T = TABL 'RESULTAT' ; T . 1.5 = C ; T . 3. = 4. * C ;\n"
-                "LIST (MAXI (IPOL T 2.)) ;\n"
-                "N = NUAG 'COMP' 'X' (PROG 0. 2.) 'COMP' 'F' (PROG 1. 5.) ;\n"
-                "LIST (IPOL N (NOMC 'X' C) 'GRILL') ;"
-            ),
-        ),
     ),
 )(_interpolate)
 
@@ -235,8 +222,8 @@ def _through(field: Any, curve: Curve) -> Any:
 
 
 for _kind in ("CHPOINT", "MCHAML"):
-    rule("*", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
-    rule("*", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
+    rule("* /", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
+    rule("* /", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
 
 
 # ---- integrals ----------------------------------------------------------------------------------
@@ -269,7 +256,6 @@ _PLACE = ("ENTIER", "LISTENTI")
     en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
     "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
     "list. Without 'BORN' abscissas may go back: a loop gives the area inside it.",
-    examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
 )
 def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
     """Integrals of curves."""
@@ -313,7 +299,6 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     help=Help(
         en="Primitive of curves by trapezes, zero at the first abscissa.",
         syntax="EVOL2 = PRIM EVOL1 ;",
-        examples=("LIST (PRIM (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 1.))) ;",),
     ),
 )
 def prim(curve: Curve) -> Curve:

@@ -40,12 +40,7 @@ from ssilang.operators.workspace import workspace
     en="A record itself, filtered by Butterworth's of order N1 (4): without what is slower than F1 "
     "('PHAU') or faster than F2 ('PBAS'). Forth and back, without phase, both corners count "
     "twice (half the amplitude there); 'CAUS': one pass (0.707 there), with a phase.",
-    syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;",
-    examples=(
-        "T = PROG 0. PAS 0.01 4. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (SIN (T * 3600.)) ;\n"
-        "B = FILT A 'PHAU' 0.2 'PBAS' 2. ; LIST ((MAXI (EXTR B 'ORDO')) < 0.01) ;",
-    ),
-)  # fmt: skip
+    syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;")  # fmt: skip
 def filtered_records(
     call: Call, curve: Curve, order: int, low: float | None, high: float | None, causal: bool
 ) -> Curve:
@@ -72,10 +67,6 @@ def filtered_records(
     en="Two horizontal components of a record along axes turned by an angle in degrees, from x to "
     "y.",
     syntax="EVOL1 EVOL2 = TOUR EVOL3 EVOL4 FLOT1 ;",
-    examples=(
-        "T = PROG 0. 0.1 ; X = EVOL 'MANU' T (PROG 0. 2.) ; Y = EVOL 'MANU' T (PROG 0. 1.) ;\n"
-        "A B = TOUR X Y 90. ; LIST (EXTR A 'ORDO') ; LIST (EXTR B 'ORDO') ;",
-    ),
 )
 def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> tuple[Curve, Curve]:
     """Turn two components."""
@@ -102,14 +93,7 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
         en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
         "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
         "part of the target.",
-        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
-        examples=(
-            "T = PROG 0. PAS 0.02 8. ; B = SIN (22.5 * T) ;\n"
-            "A = EVOL 'MANU' 'TEMP' T 'ACCE' (B * (SIN (T * 700.))) ;\n"
-            "C = EVOL 'MANU' 'FREQ' (PROG 1. 2. 4.) 'ACCE' (PROG 2. 3. 2.) ;\n"
-            "D X = ZOND A C ; LIST (X < 0.05) ;",
-        ),
-    ),
+        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;"),
 )  # fmt: skip
 def zond(
     call: Call, record: Curve, target: Curve, damping: float, tolerance: float
@@ -182,10 +166,6 @@ def zond(
         syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
         "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
         "('EPSI' X5) ('PULS' X4) (COUL1) ;",
-        examples=(
-            "T = PROG 0. PAS 0.02 NPAS 511 ; S = EVOL 'MANU' 'TEMP' T 'A' (3. * (SIN (720. * T))) "
-            "; R = ONDE 9 S 'CRMO' 'FMIN' 1. 'FMAX' 4. ; LIST (DIME R) ;",
-        ),
     ),
 )
 def onde(

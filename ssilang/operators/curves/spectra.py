@@ -64,10 +64,6 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         "start (0); exact for a signal linear between its points.",
         "EVOL2 = OSCI EVOL1 'AMOR' A1 'FREQ' F1 ('TEMPS' LREEL1) ('DEPL' X0) ('VITE' V0) "
         "('COUL' MOT1) ;",
-        (
-            "T1 = PROG 0. PAS 0.01 1. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (0. * T1) ;"
-            " X1 = OSCI G1 'AMOR' 0.05 'FREQ' 2. 'DEPL' 1. ; LIST (EXTR X1 'ORDO') ;",
-        ),
     ),
 )
 def osci(
@@ -131,12 +127,6 @@ def osci(
         "EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
         "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;\nEVOL2 = SPO EVOL1 EVOL3 'ROTD' LREEL4 'AMOR' LREEL1 "
         "('FREQ' LREEL2) ('COUL' MOT2) 'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
-        (
-            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
-            " LIST (SPO G1 (0. * G1) 'ROTD' (PROG 50. 100.) 'AMOR' 0.05 'FREQ' (PROG 2.) 'ACCE') ;",
-            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
-            " S1 = SPO G1 'AMOR' (PROG 0.05) 'FREQ' (PROG 1. 2. 4.) 'ACCE' ; LIST S1 ;",
-        ),
     ),
 )
 def spo(
@@ -227,7 +217,6 @@ operator(
         "Eigenvalues, increasing, of the tridiagonal matrix of given diagonal and sub-diagonal and "
         "of ones above the diagonal.",
         "LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
-        ("LIST (VALP (PROG 2. 2.) (PROG 1.)) ;",),
     ),
 )(_valp)
 
@@ -375,12 +364,6 @@ operator(
         "and the spectrum is that of the limits.",
         "EVOL3 = SPON ('DEMA') 'SIGN' EVOL1 'SPEL' EVOL2 'DEPL'|'VITE'|'ACCE' 'AMOR' LREEL1 "
         "'CINE'|'ISOT'|'ELAS' LREEL2 ('COUL' COUL1) 'DEPL'|'VITE'|'ACCE' ;",
-        (
-            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
-            " X1 = PROG 0.05 ; S1 = SPO G1 'AMOR' X1 'FREQ' (PROG 1. 2. 4.) 'ACCE' ;"
-            " LIST (SPON 'DEMA' 'SIGN' G1 'SPEL' S1 'ACCE' 'AMOR' X1 'CINE' (PROG 2. 0.1)"
-            " 'ACCE') ;",
-        ),
     ),
 )(_spon)
 
@@ -444,8 +427,4 @@ enve.extend_help(
     syntax="TAB1 = ENVE TAB2 ;",
     en="Of a table of spectra (at 1, 2 ... tables with SPECTRE, curves, and AMORTISSEMENT, their "
     "dampings): a table with the envelope, the largest ordinate for each damping.",
-    examples=(
-        "T = TABL ; T . 1 = TABL ; T . 1 . 'SPECTRE' = EVOL 'MANU' (PROG 1. 2.) (PROG 3. 4.) ; "
-        "T . 1 . 'AMORTISSEMENT' = PROG 0.05 ; E = ENVE T ; LIST (E . 'AMORTISSEMENT') ;",
-    ),
 )

@@ -30,10 +30,6 @@ from ssilang.operators.workspace import workspace
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
     en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
     "(the first ones of a LISTMOTS, which may be longer); without a colour, in that of OPTI COUL.",
-    examples=(
-        "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG 1. 2.) ; F = (E ET E) COUL (MOTS ROUG VERT) ; "
-        "DESS F ;",
-    ),
 )
 def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
     if given is None:

@@ -65,10 +65,6 @@ def is_colour(word: str) -> bool:
         "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
         "field to show on it. ET puts several shapes into one picture.",
         syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; D = DEFO L U 1. 'ROUG' ; TRAC D ;",
-        ),
     ),
 )
 def defo(
@@ -104,16 +100,6 @@ VECT = shared(
         "principal stresses, or of the one named, with a LISTMOTS of colours.",
         syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
         "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "F = MANU 'CHPO' L 2 'FX' 0. 'FY' -1. ; V = VECT F 'FORC' 'ROUG' ; TRAC V L ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "V = VECT (MANU 'CHML' M 'VX' 3. 'VY' 4.) M 0.1 (MOTS 'VX' 'VY') ; TRAC V S ;"
-            ),
-        ),
     ),
     full_name="VECTEUR",
 )
@@ -214,10 +200,6 @@ def _in_cells(
     choice("what", ("AMPL",), optional=False, en="amplification"),
     syntax="X1 = EXTR DEFO1 'AMPL' ;",
     en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
-        "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",
-    ),
 )
 def amplification(call: Call, shape: Deformed, what: str) -> float:
     """By how much the displacement is amplified."""
@@ -230,15 +212,7 @@ def amplification(call: Call, shape: Deformed, what: str) -> float:
 
 
 ANNO = shared_operator(
-    "ANNO",
-    "drawing",
-    "Makes texts that TRAC adds to a picture; ET puts several together.",
-    examples=(
-        (
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
-            "TRAC L (ANNO 'ETIQ' (0.5 0.) 'ROUG' 'N' 'middle') ;"
-        ),
-    ),
+    "ANNO", "drawing", "Makes texts that TRAC adds to a picture; ET puts several together."
 )
 
 
@@ -253,10 +227,6 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     arg("text", "MOT", en="its meaning"),
     syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
     en="CATE: a line of the legend, a colour and its meaning.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) COUL ROUG ; "
-        "TRAC L (ANNO 'CATE' 'ROUG' 'beam') ;",
-    ),
 )
 def _category(colour: str, text: str) -> Annotation:
     return Annotation((Category(index_of(colour), str(text)),))

@@ -178,11 +178,6 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
         "TRAC (N1 | LISTREEL1) CHPO1 (MAIL1 | DEFO1) (MAIL2) (VEC1) ('LEGE' T) ('NOLE') ... ;\n"
         "TRAC (N1 | LISTREEL1) MODEL1 MCHAML1 (DEFO1) (MAIL1) ... ; TRAC 'ARET' MAIL1 MAIL2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "S = TRAN L 3 (0. 1.) ; TRAC S 'NOEU' 'TITR' 'A square' ;",
-            "OPTI DIME 2 ELEM SEG2 ; TRAC (DROI 4 (0. 0.) (1. 0.)) 'COUL' 'ROUG' ;",
-        ),
     ),
 )
 def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:

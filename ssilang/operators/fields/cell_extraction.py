@@ -118,10 +118,6 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
     "mesh, names of components or constituents, of the components that vary (COVA: curves, "
     "clouds), of what they depend on (DEVA), number of zones.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "A = MATE M 'YOUN' 2. 'NU' 0.3 'SECT' 1. ; LIST (EXTR A 'YOUN' 1 3 1) ;",
-    ),
 )
 def extr_value(
     call: Call,

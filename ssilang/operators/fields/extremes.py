@@ -147,7 +147,6 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
         gives="FLOTTANT|ENTIER",
         syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
         en=f"Of numbers: the {en}.",
-        examples=(f"LIST ({name} 3. -7. 5.) ;",),
     )(partial(_of_numbers, largest=largest))
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
@@ -156,7 +155,6 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
         syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
         en=f"Of a list: the {en} value; of several, item by item.",
-        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
     )(partial(_of_lists, largest=largest))
     operator.form(
         main("value", "CHPOINT", en="field at nodes"),
@@ -167,11 +165,6 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
         syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
         en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
         "fields at nodes, value by value.",
-        examples=(
-            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ; "
-            "U = MANU 'CHPO' L 2 'UX' 3. 'UY' -5. ; "
-            f"LIST ({name} U (MOTS 'UX')) ; LIST ({name} 'ABS' U 'SANS' (MOTS 'UX')) ;",
-        ),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells"),
@@ -194,10 +187,6 @@ _add_forms(MINI, False, "smallest")
         en="Nodal field divided by its value of largest size, which becomes 1; among the "
         "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
         syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
-            "LIST (MINI (MAX1 (X - 4.))) ;",
-        ),
     ),
 )
 def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | None) -> NodeField:
@@ -222,10 +211,6 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
         "The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
         "of the fields in cells E1 and E2 (strains), component by component.",
         "X1 = PILE MCHAML1 MCHAML2 CRIT ;",
-        (
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
-            "E = CHAN 'CHAM' (COOR 1 S) S ; LIST (PILE (0. * E) E 0.5) ;",
-        ),
     ),
 )
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:

@@ -38,10 +38,6 @@ _ODD = {
         "hoop ones, sin(n a) for UT and the shears RT ZT; for a negative n sin(|n| a) and "
         "cos(|n| a).",
         syntax="CH2 = DFOU CH1 X1 ;",
-        examples=(
-            "OPTI DIME 2 MODE FOUR 2 ; P = 1. 0. ; "
-            "U = MANU 'CHPO' P 2 'UR' 3. 'UT' 4. ; LIST (DFOU U 90.) ;",
-        ),
     ),
 )
 def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | CellField:

@@ -53,31 +53,6 @@ _TOLERANCE = opt(
         "model, which is told, and raises SOUC.",
         syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
         "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "P = 0.3 0.4 ; C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ; "
-            "LIST (EXTR (PROI (MANU 'POI1' P) C) 'SCAL' P) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "T = (DROI 3 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; N = MODE T 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) M ;\n"
-                "LIST (MAXI (PROI N C)) ; LIST (MAXI (PROI N C 'NOEU')) ;\n"
-                "LIST (MAXI (PROI N C 'GRAV')) ;\n"
-                "LIST (MAXI (PROI N C 'RIGI')) ; LIST (MAXI (PROI N C 'MASS')) ;\n"
-                "LIST (MAXI (PROI N C 'STRE')) ; LIST (MAXI (PROI N C 'MINI' 3)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "T = (DROI 3 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ;\n"
-                "LIST (MAXI (PROI T C 'NOEU')) ; LIST (MAXI (PROI T C 'GRAV')) ;\n"
-                "LIST (MAXI (PROI T C 'RIGI')) ; LIST (MAXI (PROI T C 'MASS')) ;\n"
-                "LIST (MAXI (PROI T C 'STRE')) ;"
-            ),
-        ),
     ),
 )
 def proi(

@@ -25,12 +25,6 @@ SORT = shared_operator(
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
     "folder. The extension may be left out.",
     "SORTIR",
-    examples=(
-        (
-            "OPTI DIME 3 ELEM TRI3 ; T = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
-            "OPTI SORT 'one' ; SORT 'STL ' T ; M = LIRE 'STL' 'one.stl' ; LIST (NBEL M) ;"
-        ),
-    ),
 )
 
 
@@ -72,7 +66,6 @@ _NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
     en="EXCE: a CSV table with a column for each list of the objects (LISTREEL LISTENTI LISTMOTS "
     "EVOLUTION TABLE), headed by the curves' axis names and the tables' indices. NCOL columns "
     "at most side by side, DIGI decimals. Further SORT statements append.",
-    examples=("OPTI SORT 'valeurs.csv' ; SORT 'EXCE' (PROG 1. 2. 3.) 'SEPA' 'VIRG' ;",),
 )
 def _exce(
     call: Call,
@@ -123,7 +116,6 @@ def _columns(value: Any, name: str, units: UnitSystem | None) -> list[Column]:
     by_hand=TEXT_IS_FREE,
     syntax="SORT 'CHAI' OBJ1 (OBJ2 ...) ;",
     en="CHAI: a line of text, written as MESS writes it. Further SORT statements append.",
-    examples=("OPTI SORT 'notes.txt' ; SORT 'CHAI' 'x =' 2.5 ;",),
 )
 def _chai(call: Call, word: str) -> None:
     text = read_text(call)
@@ -139,7 +131,6 @@ def _chai(call: Call, word: str) -> None:
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
     "and the tolerance on their distance if there are any.",
-    examples=("SORT 'BILA' 'two and two' (2. + 2.) 4. 1.E-12 ;",),
 )
 def _bila(
     call: Call, name: str, value: float, expected: float | None, tolerance: float | None

@@ -43,10 +43,6 @@ from ssilang.operators.workspace import workspace
     en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
     "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
     "structure to those written since OPTI SORT, TEMP adds the value 'time'.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; "
-        "SORT 'AVS ' L 'TEMP' 1.5 ;",
-    ),
 )
 def _avs(
     call: Call,
@@ -98,10 +94,6 @@ _MESH = arg("mesh", "MAILLAGE", en="mesh")
     syntax="SORT 'ABAQ' MAIL1 ;",
     en="ABAQ: the nodes and cells of a mesh of solids as an Abaqus deck (.inp); in two dimensions "
     "OPTI MODE says which: CPS, CPE or CAX.",
-    examples=(
-        "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "OPTI SORT 'ring' ; SORT 'ABAQ' S ; OPTI ACQU 'ring.inp' ; LIST (ACQU 'BRUT') ;",
-    ),
 )
 def _abaq(call: Call, mesh: Mesh) -> None:
     ws = workspace(call.session)
@@ -118,10 +110,6 @@ def _abaq(call: Call, mesh: Mesh) -> None:
     syntax="SORT 'NAS' MAIL1 ;",
     en="NAS: the nodes and cells of a mesh as Nastran bulk data (.bdf), a property number for "
     "each kind of cells.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "OPTI SORT 'plate' ; SORT 'NAS' S ; OPTI ACQU 'plate.bdf' ; LIST (ACQU 'BRUT') ;",
-    ),
 )
 def _nas(call: Call, mesh: Mesh) -> None:
     lines = nastran_lines(parted(mesh)[0])
@@ -145,10 +133,6 @@ def _nas(call: Call, mesh: Mesh) -> None:
     "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
     "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
     "of the node).",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; K = APPU 'UX' 400. P ; OPTI SORT 'k' ; "
-        "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",
-    ),
 )
 def _mat(
     call: Call,
@@ -183,10 +167,6 @@ def _mat(
     syntax="SORT MAIL1 ('NOOP') ;",
     en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
     "ssilang's own that LIRE reads; SAUV saves everything else too.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; SORT L ; "
-        "OPTI LECT 'line' ; LIRE L ; MESS (NBEL L) ;",
-    ),
 )
 def _sort_mesh(call: Call, mesh: Mesh, kept: bool) -> None:
     frame = call.session.frame
@@ -219,10 +199,6 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
     gives="TABLE|",
     syntax="TAB1 = LIRE FIC1 ;",
     en="A file by its ending (LIRE 'm.msh'): as MESH.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-        "OPTI SORT 'plate.inp' ; SORT 'MESH' S ; T = LIRE 'plate.inp' ; LIST (T . 'MAILLAGE') ;",
-    ),
 )
 def _lire_file(call: Call, file: str) -> Table | None:
     if "." in file:  # which no name has

@@ -88,14 +88,6 @@ class _Said:
     "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
     "models (material) whose names the script has, the field data says which is which. "
     "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; "
-        "OPTI SORT 'beam' ; SORT 'VTK ' L 'BEAM' U 'DEPL' 'TEMP' 0.5 ;",
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'bar' ; REPE BT 3 ; "
-        "T = MANU 'CHPO' L 1 'T' (100. * &BT) ; SORT 'VTK ' L T 'VTKHDF' 'TEMP' (0.1 * &BT) ; "
-        "FIN BT ;",
-    ),
 )
 def _vtk(call: Call, word: str) -> None:
     said = _read(call)

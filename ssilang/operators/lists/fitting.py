@@ -37,10 +37,6 @@ _GAIN = 1e-12
         "derivatives for a first set of parameters, those for which the sum of (weight * "
         "difference) ** 2 is least, the function taken for linear. Repeated, it serves for others.",
         syntax="LREE1 = MOCA LREE2 LREE3 LREE4 LREE5 (LREE6 ...) ('POIDS' LREE7) ;",
-        examples=(
-            "X = PROG 0. 1. 2. ; Y = PROG 1. 3. 5. ; U = PROG 3*1. ; "
-            "LIST (MOCA (PROG 0. 0.) Y (0. * X) U X) ;",
-        ),
     ),
 )
 def moca(
@@ -105,12 +101,6 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
         "The procedure is given the points and the parameters; it gives the values and their "
         "derivatives by the parameters in one list, point after point.",
         syntax="LREE1 X1 = LEVM 'ABSC' LREE2 'ORDO' LREE3 'SIGM' LREE4 'PARA' LREE5 'PROC' PROC1 ;",
-        examples=(
-            "DEBP EXPO X1*LISTREEL P1*LISTREEL ; K1 = EXTR P1 1 ; Y1 = EXP (K1 * X1) ; "
-            "FINP Y1 (X1 * Y1) ;\n"
-            "P C = LEVM 'ABSC' (PROG 1. 2.) 'ORDO' (PROG 2. 4.) 'SIGM' (PROG 1. 1.) "
-            "'PARA' (PROG 0.2) 'PROC' EXPO ; LIST P ;",
-        ),
     ),
 )
 def levm(
@@ -184,10 +174,6 @@ def _damped(
         "lists or nodal fields), the result the steps H1 to Hn, [J^T J + nu I] H = - J^T f. "
         "'AMOR' gives nu (Levenberg and Marquardt), else 0.",
         syntax="TAB2 = GANE TAB1 ('AMOR' X1) ;",
-        examples=(
-            "T = TABL 'VECTEUR' ; T . 0 = PROG 1. 3. ; T . 1 = PROG 1. 1. ; "
-            "H = GANE T ; LIST (H . 1) ;",
-        ),
     ),
 )
 def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:

@@ -34,15 +34,6 @@ DANS = shared(
         "('SEQU') or in any order ('QUEL').",
         syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
         "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
-        examples=(
-            "SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\n"
-                "LIST (DANS (L POIN 1) L) ; LIST (DANS (0. 7.) L) ;\n"
-                "LIST (DANS (LECT 2 3) (LECT 0 1 2 3)) ;\n"
-                "LIST (DANS 'QUEL' (PROG 3. 2.) (PROG 1. 2. 3.)) ;"
-            ),
-        ),
     ),
 )
 _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")
@@ -123,7 +114,6 @@ Subtracted = ListReel | ListEnti | ListMots
     help=Help(
         en="The items of a list that are not in a second one.",
         syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
-        examples=("LIST ((LECT 1 2 3 4) SAUF (LECT 2 4)) ;",),
     ),
 )
 def sauf(
@@ -143,7 +133,6 @@ def sauf(
     arg("second", "LISTREEL", en="second list", range=ANY_NUMBER),
     syntax="LREE3 = LREE1 INTE LREE2 ;",
     en="Two lists of reals: the values of the first that the second holds as well.",
-    examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
 )
 def common_reals(first: ListReel, second: ListReel) -> ListReel:
     """Values in both lists, in the order of the first."""

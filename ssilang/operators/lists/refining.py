@@ -29,12 +29,6 @@ RAFF = shared(
         "SURE cells of the mesh (the node, then those that it follows; ELEM 'SURE' takes them); "
         "RELA with a model of the mesh makes the relations that tie them.",
         "LREE2 = RAFF LREE1 N1 | FLOT1 ;\nGEO2 = RAFF GEO1 CHPO1 ;",
-        (
-            "LIST (RAFF (PROG 0. 1. 3.) 2) ; LIST (RAFF (PROG 0. 1. 3.) 0.5) ;",
-            "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"
-            " T = RAFF S (0.3 + (COOR 1 S)) ; MO = MODE T MECANIQUE ELASTIQUE ; R = RELA MO ;"
-            " MESS (NBEL T) (NBEL (T ELEM 'SURE')) (MESU (DIFF T (T ELEM 'SURE'))) ;",
-        ),
     ),
     full_name="RAFFINER",
 )

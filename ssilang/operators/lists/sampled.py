@@ -27,7 +27,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
         "zero ('INVE') or the mean of the two neighbours ('IVIN') put after each value, up to an "
         "even length 2 n or, for odd n, 2 n - 1.",
         syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
-        examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
     ),
 )
 def diad(way: str, values: ListReel) -> ListReel:
@@ -53,7 +52,6 @@ def diad(way: str, values: ListReel) -> ListReel:
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
         syntax="X1 = LTL LREEL1 (LREEL2) (X2 (X3)) ;",
-        examples=("LIST (LTL (PROG 1. 2.) (PROG 3. 4.) 10.) ;",),
     ),
 )
 def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float) -> float:
@@ -87,7 +85,6 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
         "default) or zero ('PADD').",
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
-        examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),
 )
 def cvol(
@@ -153,13 +150,6 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         "to x, the gamma function ('GAMMA').",
         syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
-        examples=(
-            "LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",
-            (
-                "LIST (FONC 'BESS' 'J0' (PROG 0. 1. 2.)) ;\n"
-                "LIST (FONC 'FRES' 'CX' (PROG 0. 1. 2.)) ;"
-            ),
-        ),
     ),
 )
 def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
@@ -182,7 +172,6 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
         "polynomial of degree N1 and the two ends, and their weights: N1 + 1 of each.",
         syntax="LREEL1 LREEL2 = ZLEG N1 ;",
-        examples=("X W = ZLEG 2 ; LIST X ; LIST W ;",),
     ),
 )
 def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:

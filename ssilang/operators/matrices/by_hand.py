@@ -73,11 +73,6 @@ def _sign(words: Sequence[str]) -> Keyword:
     "node (or one list a node), then its terms row by row, all or the lower triangle, in one list "
     "or one a row. A field gives a diagonal, or the column (row) of one unknown. A list of fields "
     "gives the columns of a matrix on modal unknowns.",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ;"
-        " M1 = MANU 'RIGI' 'TYPE' 'MASSE' P1 (MOTS 'UX' 'UY') (PROG 3. 0. 3.) ;"
-        " LIST (EXTR M1 'DIAG') ;",
-    ),
 )
 def repeated(
     call: Call,
@@ -177,10 +172,6 @@ def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
     many("places", "POINT", "MAILLAGE", at_least=1, en="points"),
     syntax="GEO1 = MANU 'SUPE' | 'MULT' P1 (P2 ...) | GEO2 ;",
     en="'SUPE' and 'MULT' make one cell of all the points given, to carry a matrix by hand.",
-    examples=(
-        "OPTI DIME 2 ; G1 = MANU 'SUPE' (0. 0.) (1. 0.) (2. 0.) ; LIST (NBEL G1) ;"
-        " R1 = MANU 'RIGI' G1 (MOTS 'ALFA') (PROG 1. 0. 2. 0. 0. 3.) ;",
-    ),
 )
 def one_cell(call: Call, word: str, places: tuple[Mesh | Point, ...]) -> Mesh:
     """One cell of all the points."""
@@ -213,10 +204,6 @@ def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
         "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
         "(SCAL) and the dual (the same).",
         syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (4. 0.) ; X = COOR 1 L ; "
-            "W = MANU 'CHPO' L 1 'SCAL' 1. ; LIST ((MFIL W 1.5) * (X * X)) ;",
-        ),
     ),
 )
 def mfil(
@@ -246,10 +233,6 @@ def mfil(
         en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
         "M_DAMPIN and M_DAMP_K.",
         syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
-        examples=(
-            "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
-            "LIST (EXTR (ZXXT (SUIT V) (PROG 3.)) 'DIAG') ;",
-        ),
     ),
 )
 def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
@@ -267,10 +250,6 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
         en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
         "all its nodes.",
         syntax="RIG1 = XXT CHPO1 (X1) ;",
-        examples=(
-            "OPTI DIME 2 ; V = MANU 'CHPO' (0. 0.) 2 'FX' 1. 'FY' 2. 'NATURE' 'DISCRET' ; "
-            "LIST (EXTR (XXT V 3.) 'DIAG') ;",
-        ),
     ),
 )
 def xxt(field: NodeField, factor: float) -> Matrix:
@@ -288,10 +267,6 @@ def xxt(field: NodeField, factor: float) -> Matrix:
     help=Help(
         en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
         syntax="RIG1 = CABL GEO1 X1 X2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; "
-            "LIST (EXTR (CABL L 10. 1.) 'DIAG') ;",
-        ),
     ),
 )
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:

@@ -72,7 +72,7 @@ def _warn_doubled_supports(
 
 
 def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:
-    from ssilang.kernel.statics.negative import negative_unknowns
+    from ssilang.kernel.statics.stability import negative_unknowns
 
     if found := negative_unknowns(matrix):
         node, name, value = found[0]

@@ -44,23 +44,6 @@ SUPE = shared(
         "SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
         "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
         "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
-        (
-            "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 8 (4. 0.)) TRAN 2 (0. 1.) ; "
-            "MO = MODE S MECANIQUE ELASTIQUE ; L = COTE 2 S ; R = (RIGI MO (MATE MO YOUN 1.E3 NU "
-            "0.3)) ET (BLOQ 'DEPL' (COTE 4 S)) ; SU = SUPE 'RIGI' 'NOMU' R L ; F = FORC (0. "
-            "-1.) L ; "
-            "U = RESO (EXTR SU 'RIGI') (SUPE 'CHAR' SU F) ; V = SUPE 'DEPL' SU U F ; "
-            "LIST (MAXI (ABS (V - (RESO R F))) 'AVEC' (MOTS 'UX' 'UY')) ;",
-            (
-                "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;\n"
-                "S = ((0. 0.) DROI 8 (4. 0.)) TRAN 2 (0. 1.) ;\n"
-                "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "A = MATE MO 'YOUN' 1.E3 'NU' 0.3 'RHO' 2. ;\n"
-                "R = (RIGI MO A) ET (BLOQ 'DEPL' (COTE 4 S)) ;\n"
-                "SU = SUPE 'RIGI' R (COTE 2 S) ; LIST (TYPE (SUPE 'MASSE' SU (MASS MO A))) ;\n"
-                "LIST (TYPE (EXTR SU 'RIGI')) ; LIST (NBNO (EXTR SU 'ELEM')) ;"
-            ),
-        ),
     ),
 )
 _ELEMENT = arg("element", "SUPERELE", en="super-element")
@@ -157,9 +140,6 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     return say("operators.matrices.super-element", masters=masters, inner=inner)
 
 
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
-
-
 @operator(
     "CMCT",
     arg("matrix", "RIGIDITE", en="relations C"),
@@ -170,16 +150,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
         "without the unknowns that the relations give by the others.",
         syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
-        examples=(
-            _TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; "
-            "D = MANU 'CHPO' (P ET Q) 1 'UX' 0.5 ; LIST (EXTR (CMCT C D) 'DIAG') ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ;\n"
-                "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ;\n"
-                "C = RELA 2. 'UX' P '+' 3. 'UX' Q ;\n"
-                "LIST (EXTR (CMCT K C) 'DIAG') ;"
-            ),
-        ),
     ),
 )
 def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:

@@ -349,12 +349,6 @@ def _restart(run: ModalRun, system: System) -> Table:
     return filled("REPRISE", entries)
 
 
-_EXAMPLE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 39.4784176 P1 ; "
-    "B1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 1. P1) ; "
-    "P2 = B1 . 'MODES' . 1 . 'POINT_REPERE' ; "
-    "TI = TABL 'INITIAL' ; TI . 'DEPLACEMENT' = MANU 'CHPO' P2 1 'ALFA' 1. ; "
-)
 _FORM = operator(
     "DYNE",
     choice("scheme", SCHEMES, optional=False, en="how time is stepped"),
@@ -385,16 +379,6 @@ _FORM = operator(
         "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
         "TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
         "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
-        (
-            _EXAMPLE + "R = DYNE 'DE_VOGELAERE' B1 TI 100 0.01 ; "
-            "LIST (MAXI (R . 51 . 'DEPLACEMENT')) ;",
-            _EXAMPLE + "L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; "
-            "L1 . 'SUPPORT' = P1 ; L1 . 'NORMALE' = -1. 0. ; L1 . 'RAIDEUR' = 4.E3 ; "
-            "L1 . 'JEU' = 0. ; TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ; "
-            "TL . 'LIAISON_B' . 1 = L1 ; TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ;"
-            " TS . 'LIAISON_B' . L1 = VRAI ; R = DYNE 'DE_VOGELAERE' B1 TI TL TS 400 1.E-3 ; "
-            "LIST (MAXI (R . L1 . 'FORCE_DE_CHOC') 'ABS') ;",
-        ),
     ),
 )(_dyne)
 
@@ -407,17 +391,6 @@ _FORM = operator(
     "projected on the modes (CHARGEMENT), DEPLACEMENTS . 0 and VITESSES . 0, NOMBRE_PAS, "
     "PAS_DE_TEMPS and PAS_DE_SORTIE; TEMPS, DEPLACEMENTS, VITESSES and LIAISONS are written into "
     "it.",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM POI1 ; P = 0. 0. ; Q = 0. 0. ; "
-        "U = MANU 'CHPO' P 1 'UX' 1. ; G = MANU 'POI1' Q ; H = MANU 'POI1' P ; "
-        "M = MODE G 'MECANIQUE' 'ELASTIQUE' 'MODAL' ; A = MATE M 'FREQ' 1. 'MASS' 1. 'DEFO' U ; "
-        "L = MODE H 'LIAISON' 'POINT_PLAN' ; "
-        "B = MATE L 'NORM' (-1. 0.) 'RAID' 4.E3 'JEU' 0. ; T = TABL 'PASAPAS' ; "
-        "T . 'MODELE' = M ET L ; T . 'CARACTERISTIQUES' = A ET B ; T . 'DEPLACEMENTS' = TABL ; "
-        "T . 'DEPLACEMENTS' . 0 = MANU 'CHPO' Q 1 'ALFA' 1. ; T . 'NOMBRE_PAS' = 400 ; "
-        "T . 'PAS_DE_TEMPS' = 1.E-3 ; T . 'SORTIE' = TABL ; T . 'SORTIE' . L = VRAI ; "
-        "DYNE 'DE_VOGELAERE' T ; LIST (MAXI (T . 'LIAISONS' . L . 'FORCE_DE_CHOC') 'ABS') ;",
-    ),
 )
 def _of_models(call: Call, scheme: bool, table: Table) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""

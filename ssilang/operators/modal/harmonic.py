@@ -71,12 +71,6 @@ operator(
         "rows.",
         "RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
         "LREEL1) (LOG1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
-            " Z1 = (IMPE K1) ET (IMPE M1 5.) ET (IMPE C1 5.) ;"
-            " U1 = RESO Z1 (MANU 'CHPO' P1 1 'FX' 1. 'NATURE' 'DISCRET') ; LIST U1 ;",
-        ),
     ),
 )(_impe)
 
@@ -119,10 +113,5 @@ operator(
         "the N1 first couples. With the basis of the projection the shapes are physical. A "
         "positive imaginary part of f means decay.",
         "BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
-            " B1 = VIBC M1 K1 C1 ; LIST (B1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
-        ),
     ),
 )(_vibc)

@@ -255,17 +255,5 @@ operator(
         "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'IRAM' F1 N1 RIG1 MASS1 (AMO1) ('LM') ;\nSOL1 = VIBR ... 'SOLU' ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; T1 = VIBR 'SIMU' 1. 1 K1 M1 ;"
-            " LIST (T1 . 'MODES' . 1 . 'FREQUENCE') ;"
-            " LIST (TIRE (VIBR 'SIMU' 1. 1 K1 M1 'SOLU') 'FREQ') ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = (APPU 'UX' 400. P1) ET (APPU 'UY' 900. "
-            "P1) ; M1 = MASS 'DEPL' 4. P1 ;\n"
-            "T1 = VIBR 'PROCHE' (PROG 1.5 2.5) K1 M1 ; LIST (T1 . 'MODES' . 2 . 'FREQUENCE') ;\n"
-            "T1 = VIBR 'INTERVALLE' 1. 2. K1 M1 ; LIST (DIME (T1 . 'MODES')) ;\n"
-            "T1 = VIBR 'IRAM' 2. 1 K1 M1 (0.01 * K1) ;\n"
-            "LIST (T1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
-        ),
     ),
 )(_vibr)

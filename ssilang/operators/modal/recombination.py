@@ -28,7 +28,6 @@ _INDEX = {
     "DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION", "CONT": "DEPLACEMENT",
     "REAC": "DEPLACEMENT",
 }  # fmt: skip
-_AXES = ("UX", "UY", "UZ")
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,20 +283,6 @@ reco = operator(
         "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
         "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
-            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (RECO Q1 T1) ; LIST (EXTR (RECO (SUIT Q1 (2. * Q1)) T1 1) 2) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; TI = TABL 'INITIAL' ;"
-            " TI . 'VITESSE' = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " R = DYNE 'DE_VOGELAERE' T1 TI 20 0.01 ; LIST (RECO R T1 0.15 'VITE') ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
-            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (MAXI (EXTR (RECO (SUIT Q1 (2. * Q1)) T1) 2)) ;",
-        ),
     ),
 )(_reco)
 

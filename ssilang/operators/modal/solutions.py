@@ -21,10 +21,6 @@ from ssilang.operators.modal.modes import Solution, directions, filled
 from ssilang.operators.statics.loads_in_time import tire
 from ssilang.operators.workspace import workspace
 
-_EXAMPLE = (
-    "OPTI DIME 2 ; P = 0. 0. ; U = MANU 'CHPO' P 2 'UX' 1. 'UY' 0. ; "
-    "V = MANU 'CHPO' P 2 'UX' 0. 'UY' 1. ; S = (MANU 'MODE' 1.5 2. U) ET (MANU 'MODE' 3. 4. V) ; "
-)
 _MAIN = arg("solution", "SOLUTION", en="modes")
 
 
@@ -40,7 +36,6 @@ _MAIN = arg("solution", "SOLUTION", en="modes")
     opt("stresses", "MCHAML", en="its stresses"),
     syntax="SOL1 = MANU 'MODE' ('NUME' N1) FLOT1 FLOT2 (FLOT3 FLOT4 FLOT5) CHPO1 (CHEL1) ;",
     en="MODE: an object SOLUTION of one mode, with a point of its own that marks it.",
-    examples=(_EXAMPLE + "LIST (TIRE S 'FREQ' 'RANG' 1) ;",),
 )
 def by_hand(
     call: Call,
@@ -74,8 +69,7 @@ def join_solutions(first: Solution, second: Solution) -> Solution:
     return Solution((*first.modes, *second.modes))
 
 
-@DIME.form(main("solution", "SOLUTION", en="modes"), en="Of a SOLUTION: its number of modes.",
-           examples=(_EXAMPLE + "LIST (DIME S) ;",))  # fmt: skip
+@DIME.form(main("solution", "SOLUTION", en="modes"), en="Of a SOLUTION: its number of modes.")
 def count_modes(solution: Solution) -> int:
     """Number of modes."""
     return len(solution.modes)
@@ -103,10 +97,6 @@ _ALONG = {"QX": 1, "QY": 2, "QZ": 3}
     syntax="OBJ1 = TIRE SOL1 MOT1 ('RANG' | 'CAS' | 'NUME' N1) ;",
     en="Of a SOLUTION: frequency (FREQ), generalised mass (MGEN) and displacements (QX QY QZ), "
     "point that marks it (POIN), shape (DEPL), stresses (CONT) of a mode.",
-    examples=(
-        _EXAMPLE + "LIST (TIRE S 'MGEN') ; LIST (TIRE S 'MGEN' 'CAS' 1) ; "
-        "LIST (TIRE S 'MGEN' 'NUME' 1) ; LIST (MAXI (TIRE S 'DEPL' 'RANG' 2)) ;",
-    ),
 )
 def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -> Any:
     """What one mode holds."""
@@ -136,12 +126,6 @@ def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -
     _MAIN,
     syntax="SOL2 = SIGS MODL1 MAT1 (CAR1) SOL1 ;",
     en="Of a SOLUTION: its modes with their stresses.",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; A = MATE M 'YOUN' 3. 'NU' 0. 'SECT' 1. ; "
-        "U = MANU 'CHPO' (L POIN 2) 2 'UX' 1. 'UY' 0. ; S = SIGS M A (MANU 'MODE' 1. 1. U) ; "
-        "LIST (MAXI (TIRE S 'CONT')) ;",
-    ),
 )
 def stressed(
     call: Call, model: Model, material: tuple[CellField, ...], solution: Solution
@@ -160,5 +144,4 @@ def stiffness_of_modes(call: Call, solution: Solution) -> Matrix:
 rigi.extend_help(
     "RIG1 = RIGI SOL1 ;  (SOLUTION)",
     "Of a SOLUTION: generalised stiffnesses on the diagonal.",
-    (_EXAMPLE + "LIST (MAXI (EXTR (RIGI S) 'DIAG')) ;",),
 )

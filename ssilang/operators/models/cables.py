@@ -46,11 +46,6 @@ _ENTRIES = {
         "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
         "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
         syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0 0) (50 0) ; M = MODE L MECANIQUE ELASTIQUE "
-            "BARR ; A = MATE M 'YOUN' 1.9E11 'NU' 0.3 'SECT' 1.E-3 ; T = TABL ; "
-            "T . 'PHIF' = 0.003 ; LIST (MINI (PREC M A 1.E5 T)) ;",
-        ),
     ),
 )
 def prec(
@@ -131,7 +126,6 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
         en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
         "'CONTACT' 'FROTTANT' does without).",
         syntax="GEO1 = IMPF GEO2 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
     ),
 )
 def impf(mesh: Mesh) -> Mesh:

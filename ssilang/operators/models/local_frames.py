@@ -48,12 +48,6 @@ from ssilang.operators.workspace import workspace
 Frames = Callable[[Zone, Support], FloatArray]
 Surface = Callable[[Zone, Support], SurfaceAxes]
 
-_EXAMPLE = (
-    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
-    "U = (NOMC 'UX' (COOR 1 S)) ET (NOMC 'UY' (COOR 2 S)) ; "
-)
-
 
 _CENTRE = arg("centre", "POINT", en="centre")
 _ON_AXIS = arg("on_axis", "POINT", en="point of the axis")
@@ -112,31 +106,6 @@ _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, 
         "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
         "CHAM3 = RTEN CHAM1 MODL1 GRAD1 ('RTAR' | 'RART') ;\n"
         "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
-        examples=(
-            _EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",
-            (
-                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
-                "V = ((DROI 1 (1 0 0) (2 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 1) ;\n"
-                "M = MODE V 'MECANIQUE' 'ELASTIQUE' ; A = MATE M 'YOUN' 2. 'NU' 0.3 ;\n"
-                "X Y Z = COOR V ; U = (NOMC 'UX' X) ET (NOMC 'UY' Y) ET (NOMC 'UZ' Z) ;\n"
-                "S = SIGM M A U ; O = 0 0 0 ; D = 0 0 1 ;\n"
-                "LIST (MAXI (RTEN S M 'CYLI' O D)) ; LIST (MAXI (RTEN S M 'SPHE' O D)) ;\n"
-                "LIST (MAXI (RTEN S M 'TORI' O D)) ;\n"
-                "LIST (MAXI (RTEN S M 'TORI' 'CIRC' O D (3 0 0))) ;\n"
-                "R = GRAD M ((NOMC 'UX' Y) ET (NOMC 'UY' (-1. * X)) ET (NOMC 'UZ' Z)) ;\n"
-                "LIST (MAXI (RTEN S M R)) ; LIST (MAXI (RTEN S M R 'RART')) ;\n"
-                "LIST (MAXI (EXCO 'UY' (RTEN U (0 1 0) (0 0 1)))) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM QUA4 ;\n"
-                "P = (DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0) ;\n"
-                "M = MODE P 'MECANIQUE' 'ELASTIQUE' 'COQ4' ;\n"
-                "A = MATE M 'YOUN' 2. 'NU' 0. 'EPAI' 0.5 ;\n"
-                "S = SIGM M A (NOMC 'UX' (COOR 1 P)) ;\n"
-                "LIST (MAXI (EXCO 'N11' (RTEN S M (1 0 0)))) ;\n"
-                "LIST (MAXI (EXCO 'N22' (RTEN S M (0 1 0)))) ;"
-            ),
-        ),
     ),
 )
 def rten(
@@ -251,12 +220,6 @@ def _round(call: Call, frame: Chosen) -> Frames:
     help=Help(
         en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
         syntax="CHAM1 = VLOC MODL1 MAT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ORTHOTROPE ; A = MATE M 'YG1' 2. 'YG2' 1. 'YG3' 1. "
-            "'NU12' 0.1 'NU23' 0. 'NU13' 0. 'G12' 1. 'DIRECTION' (0. 2.) ; "
-            "LIST (MAXI (EXCO 'V1Y' (VLOC M A))) ;",
-        ),
     ),
 )
 def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
@@ -294,12 +257,6 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
         "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
         "other side ('INFE').",
         syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
-            "M = MODE L MECANIQUE ELASTIQUE POUT ; A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 1. "
-            "'INRZ' 0.1 'DY' 0.5 ; U = RESO ((RIGI M A) ET (BLOQ P 'UX' 'UY' 'RZ')) "
-            "(FORC (0. 1.) Q) ; LIST (MAXI (CALP M (SIGM M A U) A)) ;",
-        ),
     ),
 )
 def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
@@ -326,7 +283,6 @@ def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
         en="Frenet frame along lines, as a nodal field: tangent TX TY (TZ), normal NX NY (NZ) and, "
         "in 3D, binormal BX BY BZ. In 2D the normal is the tangent turned by a quarter turn.",
         syntax="CHPO1 = FREN LIG1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; F = FREN (DROI 4 (0. 0.) (1. 0.)) ; LIST (TYPE F) ;",),
     ),
 )
 def fren(session: Session, line: Mesh) -> NodeField:
@@ -359,10 +315,6 @@ _BEAMS = ("beam", "timoshenko", "pipe")
         "beams, components VX VY (VZ), or VR VZ about an axis; as long as the Jacobian there, or "
         "of length 1 with 'NORM'. Other elements give nothing.",
         syntax="CHAM1 = VSUR MODL1 ('NORM') ;",
-        examples=(
-            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
-            "V = VSUR (MODE S MECANIQUE ELASTIQUE COQ4) 'NORM' ; MESS (MAXI (EXCO 'VZ' V)) ;",
-        ),
     ),
 )
 def vsur(model: Model, unit: bool) -> CellField:

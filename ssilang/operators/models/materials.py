@@ -103,30 +103,6 @@ def _tables(language: str) -> Sequence[HelpTable]:
         "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
         syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
         tables=_tables,
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
-            "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
-            "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (1. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE'\n"
-                "'ORTHOTROPE' ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'PERP' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'INCL' 60. 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'RADI' (0. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;"
-            ),
-        ),
     ),
 )
 def mate(call: Call, **said: Any) -> CellField:
@@ -157,10 +133,6 @@ def material_names(zone: Zone) -> tuple[str, ...]:
         en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
         "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
         syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
-            "; A = (MATE M 'YOUN' 2.E11 'NU' 0.3) ET (CARA M 'SECT' 0.01) ; LIST (TYPE A) ;",
-        ),
     ),
 )
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:

@@ -163,43 +163,6 @@ MODE = shared(
         "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'FROCABLE' (MODL2) GEO2 ;\n"
         "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;\n"
         "MODL1 = MODE GEO1 'LIAISON' 'POINT_PLAN' | 'POINT_POINT' | ... ('FROTTEMENT' | ...) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
-            "M = MODE L 'MECANIQUE' 'ELASTIQUE' ; LIST (TYPE M) ;\n"
-            "A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 2. ;\n"
-            "U = NOMC 'UX' (COOR 1 L) ; LIST (MAXI (EXCO 'EFFX' (SIGM M A U))) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
-                "A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ;\n"
-                "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; LIST (NBEL (EXTR M 'MAIL')) ;\n"
-                "N = MODE A 'CONTACT' 'UNILATERAL' B ; LIST (TYPE N) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ;\n"
-                "M = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS 'UX') ;\n"
-                "A = MATE M 'RAID' 400. 'VISC' 12. ;\n"
-                "T = VIBR 'IRAM' 5. 1 (RIGI M A) (MASS 'UX' 1. P) (AMOR M A) ;\n"
-                "LIST (T . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'J2' 'BARR' ;\n"
-                "A = MATE M 'YOUN' 100. 'NU' 0.3 'SECT' 1. 'SIG0' 1. 'SIGI' 2. 'KISO' 0. "
-                "'VELO' 1.E3 ;\n"
-                "B = BLOQ 'UX' 'UY' L ; D = DEPI B (MANU 'CHPO' (L POIN 2) 'UX' 0.1) ;\n"
-                "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;\n"
-                "T . 'BLOCAGES_MECANIQUES' = B ; T . 'TEMPS_CALCULES' = PROG 0. 1. ;\n"
-                "T . 'CHARGEMENT' = CHAR 'DIMP' D (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;\n"
-                "PASAPAS T ; LIST (MAXI (T . 'CONTRAINTES' . 1)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = MANU 'SEG2' (0. 0.) (0. 0.1) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ;\n"
-                "A = MATE M 'D11' 4. 'D21' 1. 'D22' 3. 'D33' 2. 'DIRECTION' (0. 1.) ;\n"
-                "U = MANU 'CHPO' (L POIN 2) 'UX' 0. 'UY' 1. 'RZ' 0. ;\n"
-                "F = (RIGI M A) * U ; LIST (MAXI (EXCO 'FY' F)) ; LIST (MAXI (EXCO 'FX' F)) ;"
-            ),
-        ),
     ),
 )
 
@@ -263,11 +226,6 @@ def contact(
         en="with friction, plastic ...",
     ),
     arg("mesh", "MAILLAGE", en="its point, a cell POI1"),
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM POI1 ; G = MANU 'POI1' (1. 0.) ; "
-        "M = MODE G 'LIAISON' 'CERCLE_PLAN' 'FROTTEMENT' ; LIST (NBEL (EXTR M 'MAIL')) ; "
-        "LIST (EXTR M 'MATE') ;",
-    ),
 )
 def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh) -> Model:
     """A model of links, one for each point."""

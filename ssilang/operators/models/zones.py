@@ -43,12 +43,6 @@ from ssilang.language.values import ListMots, Table
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIFF, ENLE, EXTR, INTE, listing
 
-_EXAMPLE = (
-    "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-    "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-)
-
-
 _WORD = arg("word", "MOT", en="word to remove")
 
 
@@ -58,7 +52,6 @@ _WORD = arg("word", "MOT", en="word to remove")
     syntax="MODL2 = ENLE MODL1 'FORM' | 'COMP' MOT1 ;",
     en="Of a model: without the zones of a formulation (FORM) or a behaviour (COMP); the model "
     "itself if there are none.",
-    examples=(_EXAMPLE + "LIST (DIME (EXTR (ENLE MO 'COMP' 'PLASTIQUE') 'CONT')) ;",),
 )
 def without(call: Call, model: Model, what: Chosen | None) -> Model:
     """A model without some zones."""
@@ -80,7 +73,6 @@ def without(call: Call, model: Model, what: Chosen | None) -> Model:
     of=("MMODEL",),
     syntax="MODL2 = CHAN 'CONS' MODL1 MOT1 ;",
     en="CONS changes the constituent of a model.",
-    examples=(_EXAMPLE + "M2 = CHAN 'CONS' MO 'SOIL' ;",),
 )
 def change_constituent(call: Call, model: Model, constituent: str) -> Model:
     """Another constituent."""
@@ -174,10 +166,6 @@ def _names(kind: str, en: str) -> list[Entry]:
     "formulation, constituent or element, or the names of the components of its stresses (CONT), "
     "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
     "(GRAD), principal stresses (CONP), internal variables of a plastic law (VARI).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",
-    ),
 )
 def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
@@ -232,17 +220,7 @@ _FIRST = main("first", "MMODEL", en="model")
 _SECOND = arg("second", "MMODEL", en="other model")
 
 
-@DIFF.form(
-    _FIRST,
-    _SECOND,
-    syntax="MOD3 = MOD1 DIFF MOD2 ;",
-    en="Of models: zones of one only.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; T = S PLUS (2. 0.) ;"
-        " A = MODE S MECANIQUE ELASTIQUE ; B = MODE T MECANIQUE ELASTIQUE ;"
-        " C = (A ET B) DIFF A ; LIST (NBEL (EXTR C 'MAIL')) ;",
-    ),
-)
+@DIFF.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 DIFF MOD2 ;", en="Of models: zones of one only.")
 def difference_of_models(first: Model, second: Model) -> Model:
     """Zones of one of two models only."""
     left = [z for z in first.zones if not _found_in(z, second)]
@@ -288,10 +266,6 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
         "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
         "rectangle that has the larger radius of gyration of the section.",
         "MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
-        (
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 0.3) ; "
-            "LIST (MINI (TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE))) ;",
-        ),
     ),
 )
 def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:

@@ -67,7 +67,6 @@ def _whole(call: Call, values: Any) -> Any:
         "cut ('TRONCATURE', by default), below ('INFERIEUR'), above ('SUPERIEUR'), nearest "
         "('PROCHE').",
         syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
-        examples=("LIST (ENTI 'PROCHE' -3.5) ;", "LIST (ENTI (PROG 1.2 2.7)) ;"),
     ),
 )
 def enti(call: Call, way: str, value: Any) -> Any:
@@ -102,7 +101,6 @@ def enti(call: Call, way: str, value: Any) -> Any:
     help=Help(
         en="Real of an integer, of each item of a list, or written in a word.",
         syntax="OBJ2 = FLOT OBJ1 ;",
-        examples=("LIST (FLOT 3) ;", "LIST (FLOT '-1.5E2') ;"),
     ),
 )
 def flot(call: Call, value: Any) -> Any:
@@ -122,7 +120,6 @@ def flot(call: Call, value: Any) -> Any:
         en="Whether a real, or all values of a field, are numbers (neither infinite nor "
         "undefined).",
         syntax="LOG1 = VERI X1 | CHPO1 ;",
-        examples=("SI (VERI 3.) ; MESS 'a number' ; FINSI ;",),
     ),
 )
 def veri(value: Any) -> bool:

@@ -165,7 +165,6 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
         help=Help(
             _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
             f"OBJ2 = {_name} OBJ1 ;",
-            (f"LIST ({_example}) ;",),
         ),
     )(partial(_run, _name, _function))
 
@@ -178,7 +177,6 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
         en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
         "sin(t) / sqrt(2 pi t).",
         syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
-        examples=("C S = IFRE 1.5 ; MESS C S ;",),
     ),
 )
 def ifre(limit: float) -> tuple[float, float]:
@@ -201,7 +199,6 @@ def ifre(limit: float) -> tuple[float, float]:
         en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
         "between -180 and 180.",
         syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
-        examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
     ),
 )
 def atg(call: Call, first: Any, second: Any) -> Any:

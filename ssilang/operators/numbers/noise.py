@@ -48,10 +48,6 @@ BRUI = shared(
         "a list of integers. A run repeated gives the same values; a last integer skips terms.",
         syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
         "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
-        examples=(
-            "LIST (DIME (BRUI 'BLAN' 'GAUS' 0. 1. 10)) ;",
-            "LIST (DIME (BRUI 'BLAN' 'POIS' 4 10)) ;",
-        ),
     ),
     full_name="BRUIT",
 )

@@ -28,13 +28,6 @@ RACP = shared(
         "an interval (the word VIDE if there is none).",
         syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
         "X1 = RACP 'INTE' X2 X3 LREE1 ;",
-        examples=(
-            "LIST (RACP (PROG 6. -5. 1.)) ;",
-            (
-                "R I = RACP 'IMAG' (PROG 1. 0. 1.) ; LIST R ; LIST I ;\n"
-                "LIST (RACP 'INTE' 0. 2. (PROG -2. 0. 1.)) ;"
-            ),
-        ),
     ),
     full_name="RACPOL",
 )
@@ -108,7 +101,6 @@ def _real_roots(roots: ComplexArray) -> FloatArray:
         en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "
         "real roots first, in growing order.",
         syntax="XR1 XI1 XR2 XI2 XR3 XI3 = DEG3 A0 A1 A2 A3 ;",
-        examples=("R1 I1 R2 I2 R3 I3 = DEG3 -6. 11. -6. 1. ; LIST R1 ; LIST R2 ; LIST R3 ;",),
     ),
 )
 def deg3(

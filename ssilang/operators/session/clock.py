@@ -38,15 +38,6 @@ TEMP = shared(
         "Phrases of numbers alone run no operator.",
         syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
         "TAB1 = TEMP 'NOEC' ;",
-        examples=(
-            "TEMP 'ZERO' ; N = TEMP 'HORL' ;",
-            (
-                "TEMP 'ZERO' ; L = PROG 1. 2. ; M = PROG 3. ; T = TEMP 'NOEC' ;\n"
-                "LIST (T . 'APPELS' . 'PROG') ; LIST ((T . 'TEMPS_CPU' . 'INITIAL') >EG 0) ;\n"
-                "TEMP 'IMPR' 'APPE' ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\n"
-                "TEMP 'IMPR' ; TEMP 'PLAC' ;"
-            ),
-        ),
     ),
     full_name="TEMPS",
 )
@@ -140,7 +131,6 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
         "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
         syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
         "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
-        examples=("LIST (DATE 'CONVERSION' 123456.789) ;",),
     ),
 )
 def date(call: Call, letters: bool, part: str | None, seconds: float | None) -> Any:

@@ -26,12 +26,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import MODEL
 
-_BAR = (
-    "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
-    "M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BARR ; "
-    "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ; "
-)
-
 
 def _strains_of(zone: Zone, field: CellField) -> FloatArray:
     """Strains (n_cells, n_strains, n_points) at 'STRESSES', zero where absent."""
@@ -109,11 +103,6 @@ _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
         "(strains, parameters), one field with the stresses, internal variables and inelastic "
         "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
         syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
-        examples=(
-            _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; Z = ZERO M 'DEFORMATIONS' ; "
-            "C = COMP M (A ET Z) (A ET (EPSI M U)) ; LIST (MAXI (EXCO 'EFFX' C)) ; "
-            "LIST (MAXI (EXCO 'EISS' C)) ;",
-        ),
     ),
 )
 def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
@@ -190,11 +179,6 @@ for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
             "internal variables at the end and the step of inelastic strain. Joints take the step "
             "of jump; their open points start from the largest opening.",
             syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
-            examples=(
-                _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; "
-                f"S V E = {_name} M (ZERO M 'CONTRAINTES') (ZERO M 'VARINTER') (EPSI M U) A ; "
-                "LIST (MAXI S) ;",
-            ),
         ),
     )(_flow)
 
@@ -297,18 +281,6 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
         "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
         syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
         "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "K = KTAN M S (ZERO M 'VARINTER') A ; LIST (TYPE K) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ;\n"
-                "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ;\n"
-                "S = (ZERO M 'CONTRAIN') ET (ZERO M 'VARINTER') ET (ZERO M 'DEFORMAT') ET A ;\n"
-                "E = (MANU 'CHML' M 'EPSS' 1.E-3 'TYPE' 'DEFORMATIONS' 'STRESSES') ET A ;\n"
-                "LIST (TYPE (KTAN 'PERT' M S E)) ;"
-            ),
-        ),
     ),
 )
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
@@ -377,10 +349,6 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
         en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
         "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
         syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "H = HOTA M S (ZERO M 'VARINTER') A ; LIST (EXTR H 'COMP') ;",
-        ),
     ),
 )
 def hota(call: Call, **state: Any) -> CellField:
@@ -400,10 +368,6 @@ def hota(call: Call, **state: Any) -> CellField:
         "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
         "Drucker-Prager laws, joints.",
         syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "LIST (MAXI (CRIT M S (ZERO M 'VARINTER') A)) ;",
-        ),
     ),
 )
 def crit(call: Call, **state: Any) -> CellField:
@@ -430,10 +394,6 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
         "the hardening slope where a point has yielded and stands on the surface (to a precision, "
         "1.E-3), Young's modulus elsewhere.",
         syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "LIST (MAXI (MOTA M S (ZERO M 'VARINTER') A)) ;",
-        ),
     ),
 )
 def mota(call: Call, **state: Any) -> CellField:

@@ -316,14 +316,6 @@ LIST = shared(
         "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
         "behind a procedure: the line, or the first and the last line.",
         syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
-        examples=(
-            "LIST (PROG 1. 2. 3.) ;",
-            "X = 3 ; LIST *ENTIER ;",
-            "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
-            "LIST *'ENTIER' ; A = 3 ; LIST ;",
-            "LIST 'RESU' ;",
-            "I = 2 ; T = TEXT I 'TIMES' 3 ; LIST T ;",
-        ),
     ),
     full_name="LISTE",
     terminal=True,

@@ -23,7 +23,6 @@ from ssilang.operators.workspace import workspace
     help=Help(
         en="Prints words and numbers on one line, written as CHAI writes them.",
         syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-        examples=("X = 2. ; MESS 'x = ' X ;", "MESS 'count' 12*20 ;"),
     ),
     reads_itself=TEXT_IS_FREE,
 )
@@ -84,11 +83,6 @@ ERRE = shared(
         "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
         "goes on.",
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-        examples=(
-            "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
-            "ERRE -21 ; MESS 'goes on' ;",
-            "ERRE 'stdlib.impedsol-no-radiation' 'VERTICAL' 'DISQUE' ; MESS 'goes on' ;",
-        ),
     ),
     full_name="ERREUR",
 )
@@ -149,11 +143,7 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
     choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
-    help=Help(
-        en="Prints blank lines ('PAGE': one).",
-        syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
-        examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
-    ),
+    help=Help(en="Prints blank lines ('PAGE': one).", syntax="SAUT (N1) 'LIGN' | 'PAGE' ;"),
 )
 def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
@@ -169,7 +159,6 @@ def saut(call: Call, count: int, what: str | None) -> None:
     help=Help(
         en="Sets the title of the pictures and curves made from now on.",
         syntax="TITR OBJ1 (OBJ2 ...) ;",
-        examples=("TITR 'Settlement of the footing' ;",),
     ),
     reads_itself=TEXT_IS_FREE,
 )

@@ -18,13 +18,6 @@ FEWEST = 4
     help=Help(
         en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
         syntax="TAB2 = ZPML TAB1 ;",
-        examples=(
-            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 2 (DROI 6 (0. 0.) (6. 0.)) (0. -2.) ;"
-            " I = S ELEM 'APPUYE' 'STRICTEMENT' ((COOR 1 S) POIN 'INFERIEUR' 2.01) ;"
-            " T = TABL ; T . 'INTERIEUR' = I ; T . 'MODELE' = MODE (S DIFF I) MECANIQUE ELASTIQUE ;"
-            " T . 'CARACTERISTIQUES' = MATE (T . 'MODELE') 'YOUN' 2.E8 'NU' 0.3 'RHO' 2000. ;"
-            " P = ZPML T ; LIST (EXTR (P . 'AMOR') 'COMP') ;",
-        ),
     ),
 )
 def zpml(call: Call, table: Table) -> Table:

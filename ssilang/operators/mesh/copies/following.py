@@ -46,22 +46,6 @@ _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="object
         syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
-            " P = L POIN 'FINAL' ; Q = P DEDU 'TRAN' L M ; LIST (COOR 1 Q) ;",
-            (
-                "OPTI DIME 2 ELEM QUA4 ;\n"
-                "L = DROI 2 (0. 0.) (1. 0.) ; S = L TRAN 2 (0. 1.) ;\n"
-                "C = CONT S ; C2 = C PLUS (0.5 0.) ;\n"
-                "T = DEDU S C C2 ; LIST (MINI (COOR 1 T)) ;\n"
-                "U = DEDU S (C2 MOIN C) ; LIST (MAXI U) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "L = DROI 4 (0. 0.) (1. 0.) ; M = L TOUR 90. (0. 0.) ;\n"
-                "Q = (L POIN 'FINA') DEDU 'ROTA' 90. (0. 0.) L M ; LIST (COOR 2 Q) ;"
-            ),
-        ),
     ),
 )
 def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:

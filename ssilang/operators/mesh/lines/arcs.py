@@ -66,11 +66,6 @@ from ssilang.operators.workspace import workspace
         syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 (1. 0.) (0. 0.) (0. 1.) ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 'ROTA' 180. (1. 0.) (0. 0.) ;",
-            "OPTI DIME 2 ELEM SEG3 ; L = CERC 8 'PASS' (1. 0.) (0. 1.) (-1. 0.) ;",
-        ),
     ),
 )
 def cerc(
@@ -131,7 +126,6 @@ def turned_point(
     help=Help(
         en="Circular arc through three points. " + SIZES_EN,
         syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
     ),
 )
 def cer3(
@@ -158,7 +152,6 @@ def cer3(
         en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
         "the circle and are tangent to it. " + SIZES_EN,
         syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ; L = PARC 2 (1. 0.) (0. 0.) (0. 1.) ; LIST (COOR 1 L) ;",),
     ),
 )
 def parc(
@@ -203,10 +196,6 @@ def parc(
         en="Rounds the corner between two lines, the second following the first, by an arc of a "
         "given radius. Gives the first line cut short, the arc and the second line cut short.",
         syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 1. 0. ; L = DROI 5 (0. 0.) P ; M = DROI 5 P (1. 1.) ;"
-            " A B C0 = L CONG 4 0.3 M ; LIST (MESU B) ;",
-        ),
     ),
 )
 def cong(

@@ -82,10 +82,6 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
     "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
     "end, towards POIN2.",
-    examples=(
-        "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
-        " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",
-    ),
 )
 def crossing(
     call: Call,

@@ -47,9 +47,6 @@ Support = Point | Mesh | NodeField | Model
     syntax="CHPO1 ... = COOR (N1) GEO1 ('CURV') ;",
     en="Of a mesh or a nodal field: nodal fields of component SCAL; 'CURV': the length along a "
     "line from its start.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; LIST (MAXI X) ;",
-    ),
     gives="CHPOINT",
 )
 @COOR.form(
@@ -57,7 +54,6 @@ Support = Point | Mesh | NodeField | Model
     _AXIS,
     syntax="X1 (Y1 (Z1)) = COOR (N1) POIN1 ;",
     en="Of a point: one coordinate (number DIME + 1 is the density), or all of them.",
-    examples=("OPTI DIME 2 ; X Y = COOR (1. 2.) ; LIST Y ;",),
     gives="FLOTTANT",
 )
 def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField | CellField:

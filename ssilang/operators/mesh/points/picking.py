@@ -101,49 +101,6 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
         "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
         "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
         "POIN1 = POIN X1 (Y1 (Z1)) ('DENS' D1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; P = L POIN 'PROC' (0.3 1.) ;"
-            " LIST (COOR 1 P) ;",
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
-            " Q = S POIN 'DROI' (0. 0.) (0. 1.) 1E-3 ; LIST (NBNO Q) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
-                "L = DROI 4 (0. 0.) (2. 0.) ; X = COOR 1 L ;\n"
-                "MESS (COOR 1 (L POIN 2)) (COOR 1 (L POIN 'INIT')) (COOR 1 (L POIN 'FINA')) ;\n"
-                "Q = 1. 0. ;\n"
-                "J = (DROI 1 Q (1. 1.)) ET (DROI 1 Q (0. 0.)) ET (DROI 1 Q (2. 0.)) ;\n"
-                "MESS (NBNO (J POIN 'JONC')) ;\n"
-                "P = POIN 1. 2. 'DENS' 0.1 ; MESS (COOR 2 P) ;\n"
-                "N = POIN (PROG 1. 2. 3.) (PROG 0. 0. 1.) ; MESS (NBNO N) ;\n"
-                "MESS (NBNO (X POIN 'MAXI')) (NBNO (X POIN 'MINI')) (NBNO (X POIN 'SUPE'\n"
-                "0.4)) ;\n"
-                "MESS (NBNO (X POIN 'EGSU' 0.5)) (NBNO (X POIN 'EGAL' 1.)) (NBNO (X POIN\n"
-                "'EGIN' 0.5)) ;\n"
-                "MESS (NBNO (X POIN 'INFE' 0.5)) (NBNO (X POIN 'DIFF' 1.)) (NBNO (X POIN\n"
-                "'COMP' 0.4 1.2)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ;\n"
-                "X = COOR 1 (MANU 'CHML' (MODE S 'MECANIQUE' 'ELASTIQUE') 'SCAL' 1.) ;\n"
-                "MESS (NBNO (X POIN 'MAXI')) (NBNO (X POIN 'MINI')) (NBNO (X POIN 'SUPE'\n"
-                "0.4)) ;\n"
-                "MESS (NBNO (X POIN 'EGSU' 0.5)) (NBNO (X POIN 'EGAL' 1.)) (NBNO (X POIN\n"
-                "'EGIN' 0.5)) ;\n"
-                "MESS (NBNO (X POIN 'INFE' 0.5)) (NBNO (X POIN 'DIFF' 1.)) (NBNO (X POIN\n"
-                "'COMP' 0.4 1.2)) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM CUB8 ;\n"
-                "V = ((DROI 2 (0 0 0) (2 0 0)) TRAN 2 (0 2 0)) VOLU 2 'TRAN' (0 0 2) ;\n"
-                "O = 0 0 0 ; Z = 0 0 1 ; A = 1 0 0 ;\n"
-                "MESS (NBNO (V POIN 'PLAN' O A (0 1 0) 0.01)) (NBNO (V POIN 'SPHE' O A\n"
-                "0.01)) ;\n"
-                "MESS (NBNO (V POIN 'CYLI' O Z A 0.01)) (NBNO (V POIN 'CONE' O Z (1 0 1)\n"
-                "0.01)) ;\n"
-                "MESS (NBNO (V POIN 'TORE' O Z (1.5 0 0) A 0.01)) ;"
-            ),
-        ),
     ),
 )
 def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:

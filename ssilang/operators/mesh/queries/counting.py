@@ -29,7 +29,6 @@ from ssilang.operators.dispatch import listing
     help=Help(
         en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
         syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBEL (DROI 4 (0. 0.) (1. 0.))) ;",),
     ),
 )
 def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
@@ -44,11 +43,7 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     "NBNO",
     arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
-    help=Help(
-        en="Number of nodes of a mesh.",
-        syntax="N1 = NBNO GEO1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBNO (DROI 4 (0. 0.) (1. 0.))) ;",),
-    ),
+    help=Help(en="Number of nodes of a mesh.", syntax="N1 = NBNO GEO1 ;"),
 )
 def nbno(mesh: Mesh | Point) -> int:
     """Count nodes."""
@@ -67,10 +62,6 @@ def nbno(mesh: Mesh | Point) -> int:
         en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
         "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
         syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",
-            ("OPTI DIME 2 ELEM SEG2 ;\nLIST (MAXI (MESU 'DENS' (DROI 4 (0. 0.) (1. 0.)))) ;"),
-        ),
     ),
 )
 def mesu(mesh: Mesh, what: str | None) -> float:
@@ -137,10 +128,6 @@ def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
         en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
         "nodes of the first belong to the second.",
         syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L1 = DROI 2 A (1. 0.) ; L2 = DROI 2 A (0. 1.) ; "
-            "L3 = L1 ET L2 ; LIST (REFE L3) ; LIST (L1 REFE L2) ;",
-        ),
     ),
 )
 def refe(small: Mesh, large: Mesh) -> bool:

@@ -51,14 +51,6 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
         syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
         "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; "
-            "LIST (MAXI (INDI T 'ASPE')) ;",
-            (
-                "OPTI DIME 2 ELEM TRI3 ;\n"
-                "T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; LIST (MAXI (INDI 'TOPO' T 1.)) ;"
-            ),
-        ),
     ),
 )
 def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
@@ -146,11 +138,6 @@ _CHECKS = (
         "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
         "names MESH1 MESH2 ..., NODE1 ...",
         syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; M = L ET (INVE L) ; VERM M ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\n"
-            "M = VERM (L ET (INVE L)) 'CORR' ; LIST (NBEL M) ;",
-        ),
     ),
 )
 def verm(session: Session, mesh: Mesh) -> None:

@@ -54,10 +54,6 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     _SECOND,
     syntax="GEO3 = GEO1 DIFF GEO2 ;",
     en="Of meshes: cells (same type, same nodes) of one only.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
-        " LIST (NBEL (A DIFF B)) ;",
-    ),
 )
 def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
     """Symmetric difference of two meshes."""
@@ -70,10 +66,6 @@ def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
     _ALLOWED,
     syntax="GEO3 = GEO1 INTE GEO2 ('NOVERIF') ;",
     en="Of meshes: cells (same type, same nodes) that both hold. 'NOVERIF' allows an empty result.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
-        " LIST (NBEL (A INTE B)) ;",
-    ),
 )
 def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> Mesh:
     """Common cells of two meshes."""
@@ -92,11 +84,6 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
     en="With 'GEOM', of two surfaces of TRI3 in space: both surfaces with their triangles cut "
     "where the surfaces cross, then the lines where they cross, by nodes of the first surface and "
     "by nodes of the second. Parts where the surfaces lie in one plane give no line.",
-    examples=(
-        "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
-        " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"
-        " C D L M = INTE 'GEOM' A B ; MESS (NBEL C) (NBEL D) (MESU L) ;",
-    ),
 )
 def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Surfaces cut along their common lines, and these lines."""
@@ -121,10 +108,6 @@ _NONE = np.empty(0, dtype=np.int64)
         "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
         "same within the distance given, else within a tenth of the density in force.",
         syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ; "
-            "M N = VISA 1.E-6 A B ; MESS (NBNO M) ;",
-        ),
     ),
 )
 def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -> tuple[Mesh, Mesh]:

@@ -26,11 +26,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
         en="What a plane through three points cuts out of a mesh in space: triangles in volumes, "
         "lines in surfaces, points in lines. Quadratic cells are cut as linear ones.",
         syntax="GEO2 = COUP GEO1 P1 P2 P3 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; "
-            "V = S VOLU 2 'TRAN' (0. 0. 1.) ; "
-            "C = COUP V (0. 0. 0.3) (1. 0. 0.3) (0. 1. 0.3) ; MESS (MESU C) ;",
-        ),
     ),
 )
 def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
@@ -60,11 +55,6 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
         "holds its inverse, both in the sense of the first. Only nodes on the contour count. A "
         "line that the axis of revolution closes may be cut too.",
         syntax="MAIL4 MAIL5 MAIL6 = FUIT MAIL1 MAIL2 MAIL3 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = DROI 6 (0. 0.) (3. 0.) ; B = DROI 2 (3. 0.) (3. 1.) ; "
-            "C = DROI 6 (3. 1.) (0. 1.) ; D = DROI 2 (0. 1.) (0. 0.) ; L = A ET B ET C ET D ; "
-            "ELIM 1.E-6 L ; E F G = FUIT L (A POIN 4) C ; MESS (NBEL F) (NBEL G) (MESU E) ;",
-        ),
     ),
 )
 def fuit(contour: Mesh, first: Mesh | Point, second: Mesh | Point) -> tuple[Mesh, Mesh, Mesh]:
@@ -100,11 +90,6 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
         "the value. The cells are POI1 SEG2 TRI3 TET4; QUA4 and linear volumes are first cut into "
         "triangles and tetrahedra.",
         syntax="MAIL1 = ISOV CHAM1 ('EGAL'|'EGINFE'|'EGSUPE') FLOT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; S = (DROI 3 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ; "
-            "C = CHAN 'CHAM' (COOR 1 S) S ; MESS (MESU (ISOV C 0.4)) ; "
-            "MESS (MESU (ISOV C 'EGINFE' 0.4)) ;",
-        ),
     ),
 )
 def isov(field: CellField, side: str, value: float) -> Mesh:

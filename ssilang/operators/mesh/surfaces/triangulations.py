@@ -11,8 +11,12 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.constrained import is_closed, triangulated_with_lines
-from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.constrained import (
+    delaunay_mesh,
+    is_closed,
+    refined_triangles,
+    triangulated_with_lines,
+)
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
@@ -37,10 +41,6 @@ from ssilang.operators.workspace import workspace
         "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
         "points: TRI3 in 2D, TET4 in 3D.",
         syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; L = P D 3 (1. 0.) D 3 (0. 1.) D 3 P ;"
-            " LIST (MESU (TRIA L)) ;",
-        ),
     ),
 )
 def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
@@ -74,10 +74,6 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
         "nodes) by new points inside; the contour is kept.",
         syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; P = 0. 0. ; L = P D 8 (1. 0.) D 8 (0. 1.) D 8 P ;"
-            " S = TRIA L ; T = RAFT S (MANU 'CHPO' S 1 'SCAL' 0.15) ; LIST (MESU T) ;",
-        ),
     ),
 )
 def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
@@ -103,12 +99,6 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
         "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
         syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 2 (0. 1.) (1. 1.) ;"
-            " LIST (NBEL (COUT L M)) ;",
-            "OPTI DIME 2 ELEM QUA8 ; O = 0. 0. ; A = CERC 6 (1. 0.) O (0. 1.) ;"
-            " LIST (MESU (COUT O A)) ;",
-        ),
     ),
 )
 def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
@@ -132,10 +122,6 @@ def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
         "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
         "numbers, 'VOIS', the points of the cells beside it.",
         syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L = A D 1 (2. 0.) D 1 (2. 1.) D 1 (0. 1.) D 1 A ; "
-            "P = 0.5 0.5 ; T = VORO (P ET (1.5 0.5)) L ; LIST (MESU (T . 'CELL' . P . 'VISU')) ;",
-        ),
     ),
 )
 def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
