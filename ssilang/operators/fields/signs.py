@@ -236,8 +236,8 @@ def _cell_number(
     def made(values: Any) -> Any:
         if values.dtype != object:
             return _with_number(sign, values, value, left)
-        pair = (value, values) if left else (values, value)
-        return cell_algebra.of_objects(sign, *pair, _of_objects)
+        a, b = (value, values) if left else (values, value)
+        return cell_algebra.of_objects(sign, a, b, _of_objects)
 
     return cell_algebra.applied(field, made, names, objects=True)
 

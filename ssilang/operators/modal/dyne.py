@@ -400,7 +400,9 @@ def _of_models(call: Call, scheme: bool, table: Table) -> None:
     plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"))
     results, named = results_of_models(call, entries, plan)
     made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
-    for step, time in enumerate(results.get(Mot("TEMPS_DE_SORTIE")).values):
+    times = results.get(Mot("TEMPS_DE_SORTIE"))
+    assert isinstance(times, ListReel)
+    for step, time in enumerate(times.values):
         made["TEMPS"].set(step, float(time))
         entry = results.get(step + 1)
         for name in ("DEPLACEMENT", "VITESSE"):

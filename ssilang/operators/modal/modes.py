@@ -56,7 +56,9 @@ def _vibr(
     made = _modes(call, method, lowest, highest, matrices, signed)
     if not solution:
         return made
-    return Solution(tuple(m for i, m in made.get(Mot("MODES")).items() if isinstance(i, int)))
+    modes = made.get(Mot("MODES"))
+    assert isinstance(modes, Table)
+    return Solution(tuple(m for _, m in modes.items() if isinstance(m, Table)))
 
 
 def _modes(

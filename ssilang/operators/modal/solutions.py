@@ -11,7 +11,7 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import Chosen, arg, key, main, many, opt, said, select
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot
+from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
@@ -111,7 +111,8 @@ def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -
         )
     name = word.rstrip().upper()[:4]
     if name in _ALONG:
-        held = modes[-1].get(Mot("DEPLACEMENTS_GENERALISES")).get(_ALONG[name])
+        along = modes[-1].get(Mot("DEPLACEMENTS_GENERALISES"))
+        held = along.get(_ALONG[name]) if isinstance(along, Table) else None
     else:
         held = modes[-1].get(Mot(_ENTRIES.get(name, name)))
     if held is None:
@@ -138,7 +139,8 @@ def stressed(
 @rigi.form(_MAIN)
 def stiffness_of_modes(call: Call, solution: Solution) -> Matrix:
     """Generalised stiffnesses on the diagonal."""
-    return modal_stiffness(call, solution.table, None)
+    made: Matrix = modal_stiffness(call, solution.table, None)
+    return made
 
 
 rigi.extend_help(
