@@ -71,7 +71,7 @@ def meant_truth(entry: TableEntry, value: Any) -> Any:
     return _TRUTH_WORDS.get(str(value).upper().rstrip(), value)
 
 
-def truth_told(procedure: str, where: tuple[object, ...], meant: bool) -> dict[str, object]:
+def truth_told(procedure: str, where: tuple[object, ...], meant: object) -> dict[str, object]:
     """Data of the warning of a word that means a LOGIQUE."""
     word = "VRAI" if meant else "FAUX"
     return {"procedure": procedure, "operator": procedure, "where": shown(where), "word": word}

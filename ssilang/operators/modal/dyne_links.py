@@ -92,8 +92,8 @@ class Seen:
         mode, axis, arm = self.spin
         angles = values[:, mode]
         turned = np.outer(np.cos(angles), arm) + np.outer(np.sin(angles), np.cross(axis, arm))
-        along = np.outer(1.0 - np.cos(angles), (axis @ arm) * axis)
-        return np.asarray(moved + turned - arm + along)
+        moved += turned - arm + np.outer(1.0 - np.cos(angles), (axis @ arm) * axis)
+        return moved
 
 
 Named = tuple[str, int, Seen | int]
