@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from ssilang.io.errors import InputError
 from ssilang.io.file_names import inside
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances
+from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
@@ -192,13 +192,10 @@ def rows_of(fits: Iterable[Fit]) -> list[dict[str, object]]:
     return [
         {
             "limit": str(fit.limit), "intensity": fit.intensity, "method": fit.method,
-            "runs": fit.runs, "exceeded": fit.exceeded,
-            "median": f and f.median, "low": f and f.bounds()[0], "high": f and f.bounds()[1],
-            "dispersion": f and f.dispersion, "dispersion_error": f and f.dispersion_error,
-            "governs": fit.worst.get("run"),
+            "runs": fit.runs, "exceeded": fit.exceeded, "governs": fit.worst.get("run"),
+            **(asdict(fit.found) if fit.found else {}),
         }
         for fit in fits
-        for f in (fit.found,)
     ]  # fmt: skip
 
 
@@ -218,6 +215,8 @@ def _row(sweep: Sweep, fit: Fit, told: Teller) -> list[str]:
         low, high = f.bounds()
         shown = [f"{f.median:.4g}", f"{low:.4g} … {high:.4g}", f"{f.dispersion:.3g}",
                  f"{f.dispersion_error:.2g}"]  # fmt: skip
+        if np.isnan(f.median_error):
+            shown[1], shown[3] = text(told("report.fragility-few", count=LEAST_RECORDS)), ""
         if fit.method == "cloud" and fit.exceeded in (0, fit.runs):
             shown[1] += f" ({text(told('report.fragility-beyond'))})"
     elif fit.problem is not None:

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from chromium import PROGRAM, Chromium
 from scipy import stats
 
 from ssilang.cli.main import main
@@ -95,6 +96,13 @@ def test_standard_errors_are_those_of_records(tmp_path):
     assert more.median == pytest.approx(one.median)
     assert more.median_error == pytest.approx(one.median_error / 3**0.5, rel=0.05)
     assert same.median_error == pytest.approx(one.median_error, rel=1e-6)
+
+
+def test_few_records_have_no_errors_on_the_page(tmp_path):
+    made = sweep_of(tmp_path, suite(n=4, scales=[1, 1.5, 2.5, 4]))
+    page = fragility_html(made, fits_of(made, Asked(read_limits("drift>1"), ["PGA"])), [], TOLD)
+    assert page.count("fewer than 5 records: no error") == 2
+    assert "nan" not in page
 
 
 def test_points_of_a_picture_are_the_shares_that_were_counted(tmp_path):
@@ -245,6 +253,23 @@ def test_a_suite_ends_in_its_page_and_other_limits_run_nothing_again(case, capsy
     (case / "out" / "fragility.json").write_text('{"limits": 1, "intensities": []}')
     assert main(["report", str(case / "out")]) == 2
     assert "fragility.json" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
+def test_a_browser_draws_curves_and_clouds(case):
+    run(case, ["drift>1", "drift<1"])
+    browser = Chromium(case / "profile")
+    try:
+        browser.open(case / "out" / "report.html", 900, 900)
+        browser.until("!!document.querySelector('#fragility figure.chart').plot")
+        drawn = "document.querySelectorAll('#fragility figure.chart canvas').length"
+        browser.run("document.querySelector('#fragility figure:last-of-type').scrollIntoView()")
+        browser.until(f"{drawn} === document.querySelectorAll('#fragility figure.chart').length")
+        link = browser.run("document.querySelector('#fragility a').href")
+        assert link.startswith((case / "out" / "runs").as_uri())
+        assert browser.console == []
+    finally:
+        browser.close()
 
 
 def test_without_limits_nothing_of_an_earlier_command_stays(case):

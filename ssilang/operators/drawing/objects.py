@@ -229,13 +229,15 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     en="CATE: a line of the legend, a colour and its meaning.",
 )
 def _category(colour: str, text: str) -> Annotation:
+    if not is_colour(colour) and is_colour(text):
+        colour, text = text, colour
     return Annotation((Category(index_of(colour), str(text)),))
 
 
 @ANNO.form(
     said("ETIQ"),
     arg("point", "POINT", en="where"),
-    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
     opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
@@ -246,12 +248,18 @@ def _category(colour: str, text: str) -> Annotation:
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
 ) -> Annotation:
-    colour, place = 0, "NE"
-    for word in words[:-1]:
-        if word.strip().upper() in PLACES:
-            place = word.strip().upper()
-        elif is_colour(word):
-            colour = index_of(word)
-        else:
+    found: dict[str, str] = {}
+    for word in words:
+        side = word.strip().upper() in PLACES and "place" not in found
+        role = (
+            "place" if side else "colour" if is_colour(word) and "colour" not in found else "text"
+        )
+        if role in found:
             raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
-    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))
+        found[role] = word
+    if "text" not in found:  # the text is spelt as a side or a colour
+        role = next(r for r, word in found.items() if word is words[-1])
+        found["text"] = found.pop(role)
+    colour = index_of(found["colour"]) if "colour" in found else 0
+    place = found.get("place", "NE").strip().upper()
+    return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, flag, many, named, operator, opt
+from ssilang.language.registry import ANY, Help, many, named, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ANNULE
+from ssilang.language.values import ANNULE, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
@@ -44,12 +45,9 @@ def iterer(name: str) -> NoReturn:
     raise NextTurn(name)
 
 
-@operator(
+ASSI = shared(
     "ASSI",
-    flag("every", "TOUS", en="not available"),
-    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
-    gives=(),
-    family="control",
+    "control",
     full_name="ASSISTANT",
     help=Help(
         en="Has an assistant carry out the phrase that follows: here one process does all, so the "
@@ -57,10 +55,56 @@ def iterer(name: str) -> NoReturn:
         syntax="OBJ1 ... = ASSI N1 PHRASE ;",
     ),
 )
-def assi(call: Call, every: bool, number: int | None) -> None:
+
+
+@ASSI.form(
+    said("TOUS"),
+    gives=ANY,
+    by_hand="the phrase is run once for each object of the tables in it",
+    syntax="TAB2 ... = ASSI 'TOUS' PHRASE ;",
+    en="TOUS: the phrase runs for each index of the tables ESCLAVE in it, with their objects at "
+    "that index in their place; results are tables ESCLAVE.",
+)
+def assi_all(call: Call, word: str) -> tuple[Table, ...] | None:
+    """Run the phrase for all objects of its tables."""
+    phrase = list(call.operands)
+    del call.operands[:]
+    tables = [o.value for o in phrase if isinstance(o.value, Table) and o.value.subtype == _SLAVE]
+    if not tables:
+        raise call.error("operators.session.no-slave-table")
+    indices = _indices(tables[0])
+    if any(len(_indices(t)) != len(indices) or not all(map(t.has, indices)) for t in tables):
+        raise call.error("operators.session.slave-indices")
+    made: tuple[Table, ...] | None = None
+    for index in indices:
+        operands = [
+            replace(o, value=o.value.get(index)) if any(o.value is t for t in tables) else o
+            for o in phrase
+        ]
+        results = call.session.evaluator.reduced(operands, call.span)
+        if made is None:
+            made = tuple(Table(_SLAVE) for _ in results)
+        if len(results) != len(made):
+            raise call.error("operators.session.slave-results", index=index)
+        for table, value in zip(made, results, strict=True):
+            table.set(index, value)
+    return made or None
+
+
+_SLAVE = "ESCLAVE"
+
+
+def _indices(table: Table) -> list[Any]:
+    """Indices of the objects of a table ESCLAVE."""
+    return [i for i, _ in table.items() if i != "SOUSTYPE"]
+
+
+@ASSI.form(
+    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
+    gives=(),
+)
+def assi(number: int | None) -> None:
     """The phrase goes on."""
-    if every:
-        raise call.error("operators.session.all-assistants")
 
 
 @operator(

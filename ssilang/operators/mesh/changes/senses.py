@@ -15,6 +15,7 @@ from ssilang.kernel.mesh.orientation import (
     orient_towards,
     reversed_line,
 )
+from ssilang.kernel.mesh.queries.partition import by_neighbours
 from ssilang.language.registry import Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
@@ -75,9 +76,10 @@ def vers(mesh: Mesh) -> Mesh:
 
 
 @ORDO.form(
-    main("mesh", "MAILLAGE", en="lines or points"),
+    main("mesh", "MAILLAGE", en="mesh"),
     syntax="MAIL2 = ORDO MAIL1 ;",
-    en="Of a mesh: lines put end to end, points by distance from the first one.",
+    en="Of a mesh: lines put end to end, points by distance from the first one, other cells from "
+    "neighbour to neighbour.",
 )
 def ordered(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""
@@ -89,8 +91,10 @@ def _ordered_block(block: CellBlock) -> CellBlock:
         at = block.coordinates[:, 0]
         order = np.argsort(np.linalg.norm(at - at[0], axis=1), kind="stable")
         return CellBlock.make(block.nodes, "POI1", block.raw[order], block.colours[order])
-    if block.kind.dimension > 1 or block.kind.joint:
+    if block.kind.joint:
         return block
+    if block.kind.dimension > 1:
+        return by_neighbours(block)
     return chained(Mesh(block.nodes, (_in_one_sense(block),))).blocks[0]
 
 

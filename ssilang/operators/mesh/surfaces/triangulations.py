@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -10,6 +12,8 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
+from ssilang.kernel.mesh.queries.quality import quality_in_metric
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
 from ssilang.kernel.mesh.surfaces.constrained import (
     delaunay_mesh,
@@ -17,15 +21,16 @@ from ssilang.kernel.mesh.surfaces.constrained import (
     refined_triangles,
     triangulated_with_lines,
 )
-from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
+from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data, fill_surface
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
-from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.kernel.mesh.volumes.volume import fill_volume
+from ssilang.language.registry import Help, arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.workspace import workspace
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.operators.workspace import Workspace, workspace
 
 
 @operator(
@@ -48,6 +53,11 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     ws = workspace(session)
     if mesh.dimension == 0:
         return delaunay_mesh(mesh, ws.dimension, ws.colour)
+    return _of_given_points(mesh, ws)
+
+
+def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
+    """Triangles inside lines, whose points alone are their corners."""
     if not is_closed(mesh):
         return triangulated_with_lines(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
@@ -59,6 +69,53 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     return Mesh.of(mesh.nodes, "TRI3", ids[table], ws.colour)
 
 
+@tria.form(
+    said("TOPO"),
+    arg("boundary", "MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
+    choice("points", ("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
+    opt("parameters", "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"),
+    syntax="MAIL1 = TRIA 'TOPO' MAIL2 ('AJNO' | 'NOAJ') (TAB1) ;",
+    en="TOPO: triangles inside lines, tetrahedra inside a surface, with new points inside for the "
+    "size of the boundary ('NOAJ', in the plane: without). The boundary is kept. The table gets "
+    "the mesh, by how much it misses the volume, the number of its flat cells, and the least, "
+    "mean and largest quality (INDI 'TOPO').",
+)
+def tria_topo(
+    call: Call, session: Session, boundary: Mesh, points: str, parameters: Table | None
+) -> Mesh:
+    """Fill a boundary with simplices."""
+    ws = workspace(session)
+    plane = boundary.dimension == 1
+    if not plane and points == "NOAJ":
+        raise call.error("operators.mesh.volume-needs-points", boundary)
+    if not plane:
+        made = fill_volume(boundary, ws.colour)
+    elif points == "NOAJ":
+        made = _of_given_points(boundary, ws)
+    else:
+        chart = plane_chart(*contour_chart_data(boundary))
+        made = fill_surface(boundary, chart, "TRI3", ws.colour)
+    if parameters is not None:
+        wanted = enclosed_area(boundary) if plane else enclosed_volume(boundary)
+        (block,) = made.blocks
+        measures, quality = cell_measures(block), quality_in_metric(block.coordinates, None)
+        told: dict[str, Any] = {
+            "curtopo": made,
+            "dvol": float(measures.sum()) - abs(wanted),
+            "nnul": int((measures <= _FLAT * measures.mean()).sum()),
+            "miq": float(quality.min()),
+            "moq": float(quality.mean()),
+            "maq": float(quality.max()),
+        }
+        for name, value in told.items():
+            parameters.set(Mot(name), value)
+    return made
+
+
+_FLAT = 1e-11
+"""Share of the mean cell below which one counts as flat."""
+
+
 @operator(
     "RAFT",
     arg("mesh", "MAILLAGE", en="plane triangles"),
@@ -68,7 +125,7 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
@@ -85,7 +142,7 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator(
