@@ -120,3 +120,14 @@ def content(value):
     if hasattr(value, "items"):
         return [(str(index), content(one)) for index, one in value.items()]
     return list(value.values) if hasattr(value, "values") else value
+
+
+@pytest.mark.parametrize("lengths", [(3, 1, 2), (1, 2, 3), (2, 2, 5)])
+def test_lines_of_unequal_lengths_come_back_as_they_are(lengths, tmp_path):
+    rows = [[10.0 * k + i for i in range(n)] for k, n in enumerate(lengths, 1)]
+    (tmp_path / "c.csv").write_text("\n".join(";".join(map(str, r)) for r in rows) + "\n")
+    read = f"LIRE 'CSV' '{tmp_path / 'c.csv'}'"
+    by_line, by_column = found(f"A = {read} 'LIGN' ; B = {read} ;", "A", "B", folder=tmp_path)
+    assert [list(by_line.get(k).values) for k in range(1, 4)] == rows
+    columns = [[r[i] for r in rows if i < len(r)] for i in range(max(lengths))]
+    assert [list(by_column.get(k).values) for k in range(1, max(lengths) + 1)] == columns
