@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.recording import thinned_drawing
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel, Table
 from ssilang.messages.message import Teller, teller
@@ -38,11 +38,9 @@ _TOP = 1000.0
     arg("given", "TABLE", en="what @BILANSSI was given"),
     arg("found", "TABLE", en="what it found"),
     family="dynamics",
-    help=Help(
-        en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
-        "its curves into the run's report.",
-        syntax="ZBIL TAB1 TAB2 ;",
-    ),
+    en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
+    "its curves into the run's report.",
+    syntax="ZBIL TAB1 TAB2 ;",
 )
 def zbil(session: Session, given: Table, found: Table) -> None:
     """Keep a verdict."""
@@ -90,7 +88,7 @@ def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
 
 def figures_of(verdicts: Sequence[dict[str, Any]]) -> dict[str, float]:
     """Peaks by name, floors' largest accelerations as PLANCHER_1; a second footing's end in _2."""
-    found = {}
+    found: dict[str, float] = {}
     for number, verdict in enumerate(verdicts, 1):
         end = f"_{number}" if number > 1 else ""
         named = {name: peak["value"] for name, peak in verdict["peaks"].items()}

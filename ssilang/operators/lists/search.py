@@ -13,7 +13,6 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
     Chosen,
-    Help,
     Like,
     arg,
     choice,
@@ -67,12 +66,10 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
-    help=Help(
-        en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
-        "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
-        "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
-        syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
-    ),
+    en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
+    "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
+    "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
+    syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
 )
 def posi(
     call: Call, item: Any, where: Any, every: bool, fold: bool, tolerance: float | None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import ANY, Help, many, named, operator, opt, said, shared
+from ssilang.language.registry import ANY, many, named, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
@@ -20,10 +20,8 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
     gives=(),
     family="control",
     full_name="QUITTER",
-    help=Help(
-        en="Leaves the named loop (an outer one too) or the running procedure.",
-        syntax="QUIT NOM1 ;",
-    ),
+    en="Leaves the named loop (an outer one too) or the running procedure.",
+    syntax="QUIT NOM1 ;",
 )
 def quitter(session: Session, name: str) -> NoReturn:
     """Leave a loop or a procedure."""
@@ -38,7 +36,8 @@ def quitter(session: Session, name: str) -> NoReturn:
     gives=(),
     family="control",
     full_name="ITERER",
-    help=Help(en="Goes on with the next turn of the named loop.", syntax="ITER NOM1 ;"),
+    en="Goes on with the next turn of the named loop.",
+    syntax="ITER NOM1 ;",
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
@@ -49,11 +48,9 @@ ASSI = shared(
     "ASSI",
     "control",
     full_name="ASSISTANT",
-    help=Help(
-        en="Has an assistant carry out the phrase that follows: here one process does all, so the "
-        "phrase simply runs.",
-        syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-    ),
+    en="Has an assistant carry out the phrase that follows: here one process does all, so the "
+    "phrase simply runs.",
+    syntax="OBJ1 ... = ASSI N1 PHRASE ;",
 )
 
 
@@ -111,9 +108,8 @@ def assi(number: int | None) -> None:
     "FIN",
     gives=(),
     family="control",
-    help=Help(
-        en="Ends the run; with a name, ends the block that REPE opened.", syntax="FIN ; FIN NOM1 ;"
-    ),
+    en="Ends the run; with a name, ends the block that REPE opened.",
+    syntax="FIN ; FIN NOM1 ;",
 )
 def fin() -> NoReturn:
     """End the run."""
@@ -125,10 +121,8 @@ def fin() -> NoReturn:
     many("text", "*", "TEXTE", en="whatever is said"),
     family="control",
     full_name="COMMENTAIRE",
-    help=Help(
-        en="A comment up to the end of the statement; a line with * in column 1 is one too.",
-        syntax="COMM ... ;",
-    ),
+    en="A comment up to the end of the statement; a line with * in column 1 is one too.",
+    syntax="COMM ... ;",
 )
 def comm(text: tuple[Any, ...]) -> None:
     """Swallow the statement."""
@@ -155,11 +149,9 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
     "ARGU",
     family="control",
     full_name="ARGUMENT",
-    help=Help(
-        en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
-        "optional; without type any object is taken.",
-        syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
-    ),
+    en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
+    "optional; without type any object is taken.",
+    syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
     reads_itself="its items are names and types, with * or / between",
 )
 def argu(call: Call) -> None:
@@ -188,10 +180,8 @@ def argu(call: Call) -> None:
     many("results", en="results, in order"),
     family="control",
     full_name="RESPRO",
-    help=Help(
-        en="Inside a procedure: gives results, delivered before those of FINP.",
-        syntax="RESP OBJ1 OBJ2 ... ;",
-    ),
+    en="Inside a procedure: gives results, delivered before those of FINP.",
+    syntax="RESP OBJ1 OBJ2 ... ;",
 )
 def resp(session: Session, results: tuple[Any, ...]) -> None:
     """Queue results."""

@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.orientation import (
     reversed_line,
 )
 from ssilang.kernel.mesh.queries.partition import by_neighbours
-from ssilang.language.registry import Help, arg, choice, main, operator, opt
+from ssilang.language.registry import arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.workspace import workspace
@@ -43,13 +43,11 @@ def inverted(mesh: Mesh) -> Mesh:
     opt("target", "POINT", en="direction, or point"),
     family="mesh",
     full_name="ORIENTER",
-    help=Help(
-        en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
-        "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
-        "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
-        "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
-        syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
-    ),
+    en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
+    "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
+    "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
+    "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
+    syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
     """Orient cells."""
@@ -65,10 +63,8 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     arg("mesh", "MAILLAGE", en="lines or surfaces"),
     family="mesh",
     full_name="VERSENS",
-    help=Help(
-        en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
-        syntax="GEO2 = VERS GEO1 ;",
-    ),
+    en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
+    syntax="GEO2 = VERS GEO1 ;",
 )
 def vers(mesh: Mesh) -> Mesh:
     """Check the sense of description."""

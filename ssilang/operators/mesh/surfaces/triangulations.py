@@ -25,11 +25,11 @@ from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_da
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
 from ssilang.kernel.mesh.volumes.volume import fill_volume
-from ssilang.language.registry import Help, arg, choice, flag, operator, opt, said
+from ssilang.language.registry import arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 
@@ -40,13 +40,11 @@ from ssilang.operators.workspace import Workspace, workspace
     opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     full_name="TRIANGULATION",
-    help=Help(
-        en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
-        "refines them); lines that end inside, lie free there or cut the domain in parts are "
-        "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
-        "points: TRI3 in 2D, TET4 in 3D.",
-        syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
-    ),
+    en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
+    "refines them); lines that end inside, lie free there or cut the domain in parts are "
+    "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
+    "points: TRI3 in 2D, TET4 in 3D.",
+    syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
 )
 def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     """Triangulate a contour or points."""
@@ -125,13 +123,11 @@ _FLAT = 1e-11
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
-    help=Help(
-        en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
-        "nodes) by new points inside; the contour is kept.",
-        syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
-    ),
+    en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
+    "nodes) by new points inside; the contour is kept.",
+    syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
 )
 def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
     """Refine triangles."""
@@ -142,7 +138,7 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator(
@@ -151,12 +147,10 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
     family="mesh",
     full_name="COUTURE",
-    help=Help(
-        en="Triangles between two lines described in the same sense, whatever their numbers of "
-        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
-        "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
-        syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
-    ),
+    en="Triangles between two lines described in the same sense, whatever their numbers of "
+    "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
+    "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
+    syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
 )
 def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     """Stitch lines together, or join cells to a point."""
@@ -172,14 +166,12 @@ def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     opt("weights", "CHPOINT", en="weights of the points", unit="m"),
     family="mesh",
     full_name="VORONOI",
-    help=Help(
-        en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
-        "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
-        "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
-        "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
-        "numbers, 'VOIS', the points of the cells beside it.",
-        syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
-    ),
+    en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
+    "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
+    "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
+    "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
+    "numbers, 'VOIS', the points of the cells beside it.",
+    syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
 )
 def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
     """Cells, edges and neighbours."""
