@@ -172,7 +172,7 @@ class TableCheck:
             entry = self.declared.at(path, index)
             meant = value if entry is None else meant_truth(entry, value)
             if meant is not value:
-                told = truth_told(self.declared.name, (*where, index), meant)
+                told = truth_told(self.declared.name, (*where, index), meant is True)
                 self.session.warn("word-of-truth", self.place, **told)
                 table.set(index, meant)
 
