@@ -198,12 +198,11 @@ def _compile_ahead(source: Source) -> None:
     code = source.code.upper()
     if "JOINT" not in code or not ("DYNAMIC" in code or "PASAPAS" in code):
         return
-    from ssilang.kernel.base.compiled.beside import BESIDE, tell_ahead
+    from ssilang.kernel.base.compiled.beside import tell_ahead
     from ssilang.kernel.base.compiled.cache import is_compiled
 
     if not is_compiled("interface"):
         tell_ahead("interface")
-        BESIDE.steps = "DYNAMIC" in code
 
 
 def _run_options(options: argparse.Namespace) -> RunOptions:

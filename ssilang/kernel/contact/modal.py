@@ -58,7 +58,7 @@ def contact_loop(
     if effective.inverse.singular:
         return None
     modes = modes_of(problem, effective)
-    if modes is None or problem.contact is None:
+    if modes is None or len(modes.sense) or problem.contact is None:
         return None
     stops = _stops(problem, problem.contact, modes, closed, effective.dt)
     rows, m = _rows(stops), len(problem.contact)

@@ -310,7 +310,7 @@ def _total(energies: FloatArray) -> float:
 def run_contact(
     stops: Stops, rows: ActiveSet, x: Motion, room: Room, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
-    """As `run_modal`, with relations in place of joints."""
+    """As `run_reduced`, with relations in place of joints."""
     n, diagonal, sweep, v1 = stops.newmark, stops.diagonal, room.sweep, room.v
     m, r = stops.G.shape
     start = r - r  # not a literal: that is a type, and code, of its own

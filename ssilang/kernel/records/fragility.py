@@ -131,18 +131,13 @@ def of_exceedances(
 
     start = np.array([float(norm.ppf(passed / total)), 1.0])
 
-    def lost(p: FloatArray) -> float:
-        return terms(p)[0]
-
     def slope(p: FloatArray) -> FloatArray:
         return np.asarray(-terms(p)[1].sum(axis=0), float)
 
-    def curvature(p: FloatArray) -> FloatArray:
-        return np.asarray(terms(p)[2], float)
-
     found = minimize(
-        lost, start, jac=slope, hess=curvature, method="trust-exact", tol=1e-10 * total
-    ).x
+        lambda p: terms(p)[0], start, jac=slope,
+        hess=lambda p: terms(p)[2], method="trust-exact", tol=1e-10 * total,
+    ).x  # fmt: skip
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")
@@ -186,6 +181,7 @@ def of_cloud(
     FieldError
         For demands that have no logarithm, or do not move towards the limit with intensity.
     """
+    from scipy.linalg import block_diag
     from scipy.stats import linregress
 
     x = _logarithms(intensities, demands)
@@ -216,8 +212,7 @@ def of_cloud(
         return Fragility(median, capacity / abs(b), 0.0, 0.0, passed, n)
     rows = np.column_stack([np.ones(n), x])
     # unknowns: a, b, variance
-    information = np.diag([0.0, 0.0, 0.5 * (n - 2) / variance**2])
-    information[:2, :2] = rows.T @ rows / variance
+    information = block_diag(rows.T @ rows / variance, [[0.5 * (n - 2) / variance**2]])
     scores = np.column_stack([rows * e[:, None], 0.5 * (e**2 - e @ e / n) / variance]) / variance
     spread = _covariance(information, scores, records)
     dispersion = float(np.sqrt(rest)) / abs(b)

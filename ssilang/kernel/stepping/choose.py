@@ -16,13 +16,11 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
-from ssilang.kernel.stepping.problem.rayleigh import split_damping
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.iterated import (
     IteratedSolver,
@@ -94,7 +92,7 @@ class Case:
 
     @cached_property
     def modal(self) -> SmallLoop | None:
-        """The loop on all modes of a small problem, if its damping is diagonal in them."""
+        """The loop on all modes of a small problem, if it has some."""
         if not self.small:
             return None
         from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
@@ -122,28 +120,6 @@ def _supports_are_still(problem: Problem) -> bool:
     return supports_are_still(problem)
 
 
-def room_ahead(problem: Problem) -> str:
-    """Room of `ahead.toml` with the loop that a problem most likely gets, seen before it starts."""
-    if problem.contact is not None:
-        return "relations"
-    if not problem.small:
-        return "sparse"
-    if not _supports_are_still(problem) or _has_dashpots(problem):
-        return "dense"
-    from ssilang.kernel.stepping.rests.modal.modes import way_ahead
-
-    return way_ahead(problem)
-
-
-def _has_dashpots(problem: Problem) -> bool:
-    """Whether damping is no combination of mass and stiffness: it is not diagonal in modes then."""
-    T = problem.constraints.T
-    if problem.C.nnz == 0 or T.shape[1] < 2:
-        return False
-    C, M, K = (sp.csr_array(T.T @ A @ T) for A in (problem.C, problem.M, problem.K))
-    return split_damping(C, M, K)[2].nnz > 0
-
-
 def _adaptive(case: Case) -> Loop:
     from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 
@@ -169,12 +145,6 @@ def _by(way: str) -> Callable[[Case], Loop]:
         return case.modal.using(way)
 
     return make
-
-
-def _still(case: Case) -> Loop:
-    from ssilang.kernel.stepping.rests.dense.still_supports import ReducedLoop
-
-    return ReducedLoop(case.problem, case.motion, case.effective)
 
 
 def _dense(case: Case) -> Loop:
@@ -292,15 +262,8 @@ RULES = (
         "one mode", "compiled",
         "small, diagonal damping, one mode that moves and at most one joint that only opens",
         "kernel.stepping.loop-one-mode",
-        lambda c: c.modal is not None and c.modal.active == 1,
+        lambda c: c.modal is not None and c.modal.line is not None,
         _by("one_mode"), light=True,
-    ),
-    Rule(
-        "one spring", "compiled",
-        "small, diagonal damping, a few modes and at most one joint that only opens",
-        "kernel.stepping.loop-one-spring",
-        lambda c: c.modal is not None and c.modal.active > 1,
-        _by("one_spring"), light=True,
     ),
     Rule(
         "springs", "compiled",
@@ -311,23 +274,16 @@ RULES = (
     ),
     Rule(
         "modes", "compiled",
-        "small, diagonal damping, supports at rest",
+        "small, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
         _by("modes"),
     ),
     Rule(
-        "still supports", "compiled",
-        "small, supports at rest",
-        "kernel.stepping.loop-still-supports",
-        lambda c: c.small and _supports_are_still(c.problem),
-        _still,
-    ),
-    Rule(
         "dense", "compiled",
         "small",
         "kernel.stepping.loop-dense",
-        lambda c: c.small,
+        lambda c: c.small and c.problem.numbering.size <= SMALL,
         _dense,
     ),
     Rule(

@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
-from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.registry import arg, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
@@ -28,11 +28,9 @@ _RECORDS = key(
     _RECORDS,
     family="signals",
     gives=("EVOLUTIO", "LISTREEL"),
-    help=Help(
-        en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
-        "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
-        syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
-    ),
+    en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
+    "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
+    syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
 )
 def zfra(
     call: Call,

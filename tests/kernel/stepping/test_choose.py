@@ -53,7 +53,7 @@ def name_of(problem: Problem, full: bool = False, renewable: bool = False) -> st
     [
         (masses(2), "springs"),
         (masses(2, shear=1e5), "modes"),
-        (masses(2, dashpot=True), "still supports"),
+        (masses(2, dashpot=True), "modes"),
         (masses(scheme=Scheme(conserving=True)), "conserving"),
         (masses(scheme=Scheme(adaptive=True)), "adaptive"),
     ],

@@ -55,7 +55,6 @@ class Beside:
 
     def __init__(self) -> None:
         self.found: list[Task] | None = None  # in the other process: of what it compiles
-        self.steps = False  # whether steps in time follow, whatever comes first
         self._told: set[str] = set()
         self._own: set[str] = set()  # taken by this process
         self._rooms: set[str] = set()  # told of

@@ -11,24 +11,15 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 from numba.core import types
 
-import ssilang
 from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import Beside, task_of, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.factors.kept import new_factors
-from ssilang.kernel.interface.laws.columns import LawCode
-from ssilang.kernel.stepping.choose import room_ahead
-from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.rests.modal import modes
-from ssilang.kernel.stepping.run import Integration, integrate
-from tests.kernel.stepping.rests.modal.test_one_mode import SPRINGS, both
-from tests.kernel.stepping.test_track import bouncing
-from tests.references.rocking_beam import rocking
+from ssilang.kernel.stepping.run import integrate
 from tests.references.soil_block import soil_block
 
 ROOMS = [
@@ -37,11 +28,7 @@ ROOMS = [
     "blocks",
     "iterated",
     "solvers.cholesky",
-    "sparse",
-    "modes",
-    "springs",
 ]
-ROOMS += ["springs", "one_mode", "one_spring", "dense", "relations"]
 CASES = Path(__file__).parents[4] / "cases"
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="starts no second process elsewhere")
 
@@ -228,24 +215,12 @@ def test_a_run_loads_what_the_other_has_compiled_and_leaves_nobody_behind(tmp_pa
     assert not list(tmp_path.glob("ssilang-compiling-*"))
 
 
-SMALL = (6, 3, 2)
-PROBLEMS = {
-    "sparse": lambda: soil_block(steps=5),
-    "modes": lambda: soil_block(steps=5, size=SMALL),
-    "springs": lambda: rocking(Scheme(), 5),
-    "dense": lambda: soil_block(steps=5, size=SMALL, moving=True),
-}
-"""Problems by the loop that they get."""
-
-
 @pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_types_that_are_told_ahead_are_those_of_a_run():
     """Else the other process compiles in vain: correct `ahead.toml`."""
-    for make in PROBLEMS.values():
-        integrate(make())
+    integrate(soil_block(steps=5))
+    integrate(soil_block(steps=5, size=(6, 3, 2)))
     integrate(soil_block(steps=2, size=(36, 2, 34)))  # many jumps
-    both(Scheme(), SPRINGS["no tension"], 5, 1e-3)  # a mode, and a few, on a spring
-    ssilang.run(CASES / "published" / "rocking_block.ssi")  # relations
     tasks = [pickle.loads(task) for room in ROOMS for _, task in tasks_ahead(room)]
     called = set()
     for module, name, words, args, _ in tasks:
@@ -259,27 +234,6 @@ def test_types_that_are_told_ahead_are_those_of_a_run():
         "multiply",
         "energies_of_points",
     }
-
-
-LOOPS = [(room, PROBLEMS[room], {"sparse": "dissection"}.get(room, room)) for room in PROBLEMS]
-LOOPS.append(("dense", lambda: bouncing(dashpot=True), "still supports"))
-
-
-@pytest.mark.parametrize(("room", "problem", "name"), LOOPS, ids=[made[2] for made in LOOPS])
-def test_the_loop_of_a_problem_is_foreseen(room, problem, name):
-    problem = problem()
-    assert room_ahead(problem) == room
-    rule = Integration(problem)._choice(problem.times[1] - problem.times[0]).rule
-    assert rule.name == name
-
-
-def test_a_macro_element_is_no_spring(monkeypatch):
-    problem = bouncing(feet=1)
-    assert room_ahead(problem) == "one_mode"
-    points = problem.interface.points
-    points = points._replace(codes=np.full_like(points.codes, LawCode.STRIP))
-    monkeypatch.setattr(modes, "joints_of", lambda problem: points)
-    assert room_ahead(problem) == "modes"
 
 
 def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):

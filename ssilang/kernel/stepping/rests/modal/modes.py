@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.active_set import ActiveSet
-from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
@@ -24,28 +23,29 @@ from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
 from ssilang.kernel.stepping.rests.dense.still_supports import keep_reactions, supports_are_still
-from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal, sweep_of
-from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
-from ssilang.kernel.stepping.rests.modal.one_mode import carry, run_one_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, step_one_spring
-from ssilang.kernel.stepping.rests.modal.springs import (
-    run_springs,
-    springs_of,
+from ssilang.kernel.stepping.rests.modal.diagonal import sweep_of
+from ssilang.kernel.stepping.rests.modal.one_mode import Mode, Spring, carry, run_one_mode
+from ssilang.kernel.stepping.rests.modal.springs import OnSprings, run_springs, springs_of
+from ssilang.kernel.stepping.rests.reduced.damping import split
+from ssilang.kernel.stepping.rests.reduced.loop import (
+    Reduced,
+    dashpots_of,
+    reduced_step,
+    run_reduced,
 )
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, Tap, recorder_of
 from ssilang.kernel.stepping.track import JointRows, Matrix, View, expand
 
 DIAGONAL = 1e-13  # of the step's matrix: damping off the diagonal that rounding leaves
 NOTHING = 1e-14  # of the largest: a part of a mode that is rounding
-LINE_MODES = 8  # most modes of the loop of one spring
 
 
 @dataclass(frozen=True, eq=False)
 class Modes:
     """Coordinates z, `u = X z` (n, r), in which mass, damping and stiffness are diagonal.
 
-    `start` gives z from the motions that the supports leave; `P` is the inverse of the step's
-    matrix, `J` (q, r) the interface, `forces` (n_loads, r) the loads.
+    `T` and `inner` give z from the motions that the supports leave. `J` (q, r) is the interface,
+    `forces` (n_loads, r) the loads. What of the damping is not diagonal is `B^T sense B`, B (d, r).
     """
 
     X: FloatArray
@@ -56,6 +56,8 @@ class Modes:
     k: FloatArray
     J: FloatArray
     forces: FloatArray
+    B: FloatArray
+    sense: FloatArray
 
     @property
     def size(self) -> int:
@@ -68,33 +70,50 @@ class Modes:
 
 
 def modes_of(problem: Problem, effective: Effective) -> Modes | None:
-    """All modes of a step's problem; None if its damping has no common modes, or a support moves.
+    """All modes of a step's problem; None if it has none, or a support moves.
 
-    They are orthonormal in the step's matrix, which is regular also where the mass is not.
+    They are orthonormal in the step's matrix, which is regular also where the mass is not. Where
+    the damping is not diagonal in them, they are those of the problem without the part of it that
+    is no sum of mass and stiffness.
     """
     import scipy.linalg as la
 
     if effective.R.any() or not supports_are_still(problem):
         return None
-    T = problem.constraints.T.toarray()
-    A, M, C, K = (T.T @ (x @ T) for x in (effective.A, problem.M, problem.C, problem.K))
+    Y = problem.constraints.T
+    M, C, K = (sp.csr_array(Y.T @ x @ Y) for x in (problem.M, problem.C, problem.K))
+    A, n = (Y.T @ effective.A @ Y).toarray(), newmark_of(problem.scheme, effective.dt)
+    T: FloatArray = Y.toarray()
+    B, sense = np.zeros((0, len(A))), np.zeros(0)
     try:
-        m, inner = la.eigh(M, A)
+        m, inner = la.eigh(M.toarray(), A)
+        c = inner.T @ (C @ inner)
+        if not _is_diagonal(c, effective.dt):
+            damping = split(C, M, K, len(A))
+            if damping is None:
+                return None
+            m, inner = la.eigh(M.toarray(), A - n.damping * damping.rest.toarray())
+            c = inner.T @ ((C - damping.rest) @ inner)
+            if not _is_diagonal(c, effective.dt):
+                return None
+            B, sense = damping.on(np.eye(len(A)))
     except la.LinAlgError:
-        return None
-    c = inner.T @ C @ inner
-    if np.abs(c - np.diag(np.diag(c))).max(initial=0.0) > DIAGONAL * max(effective.dt, 1e-300):
         return None
     m[np.abs(m) <= NOTHING * np.abs(m).max(initial=0.0)] = 0.0
     X = T @ inner
     J = np.zeros((0, len(m))) if problem.interface is None else problem.interface.J @ X
     return Modes(
-        X, T, inner, m, np.diag(c).copy(), np.einsum("ji,jk,ki->i", inner, K, inner, optimize=True),
-        np.ascontiguousarray(J), np.ascontiguousarray(problem.loading.forces.T @ X),
+        X, T, inner, m, np.diag(c).copy(), np.einsum("ji,ji->i", inner, K @ inner),
+        np.ascontiguousarray(J), np.ascontiguousarray(problem.loading.forces.T @ X), B @ inner,
+        sense,
     )  # fmt: skip
 
 
-LineSteps = Callable[[Line, Spring, Motion, FloatArray, Recorder], Outcome]
+def _is_diagonal(c: FloatArray, dt: float) -> bool:
+    rest = np.abs(c - np.diag(np.diag(c))).max(initial=0.0)
+    return bool(rest <= DIAGONAL * max(dt, 1e-300))
+
+
 Steps = Callable[[FloatArray, Recorder], tuple[Outcome, Recorder]]
 Kept = Recorder | Tap
 JointsOf = Callable[[Kept], JointRows]
@@ -103,7 +122,8 @@ JointsOf = Callable[[Kept], JointRows]
 class SmallLoop:
     """Steps of one dt on the modes, by the loop that fits: see `choose`.
 
-    `line` are few modes and one spring, `springs` springs that only push; None if it is not that.
+    `line` is one mode that moves and at most one spring, `springs` are springs that only push; None
+    if it is not that.
     """
 
     remembered = ("_z", "_seen")
@@ -114,35 +134,36 @@ class SmallLoop:
         self._joints = joints_of(problem)
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
-        self.line = line_of(problem, motion, modes, self._joints, self._newmark)
+        plain = not len(modes.sense)
+        self.line = line_of(problem, motion, modes, self._joints, self._newmark) if plain else None
         self.normal, J = shearless(self._joints, modes)
         joints = self._joints if self.normal is None else self.normal
         self._stepped = joints
-        self._modal, self._step = modal_of(modes, J, modes.forces, self._newmark)
+        rows = np.ascontiguousarray(np.vstack([J, modes.B]).T)
+        self._model = Reduced(
+            modes.m, modes.c, modes.k, rows, modes.sense, modes.forces, np.zeros((len(J), 0))
+        )
+        self._step = reduced_step(self._model, self._newmark, len(J))
         self.springs: ActiveSet | None = None
-        if self.normal is not None and only_pushes(joints, motion.state):
+        if plain and self.normal is not None and only_pushes(joints, motion.state):
             k = joints.weights * joints.p[:, Parameter.KN]
+            n = self._newmark
+            self._on_springs = OnSprings(n, self._step.diagonal, J, rows, modes.forces)
             self.springs = springs_of(self._step, k)
         self.using("modes")
 
-    @property
-    def active(self) -> int:
-        """Modes of the line that move; 0 if there is no line."""
-        return 0 if self.line is None else len(self.line[2])
-
     def using(self, way: str) -> SmallLoop:
-        """The loop with one of its ways to step: `modes`, `springs`, `one_spring`, `one_mode`."""
+        """The loop with one of its ways to step: `modes`, `springs`, `one_mode`."""
         ways: dict[str, tuple[Steps, JointsOf]] = {
             "modes": (self._by_modes, self._of_modes),
             "springs": (self._by_springs, self._of_springs),
-            "one_spring": (partial(self._by_line, step_one_spring), self._of_line),
-            "one_mode": (partial(self._by_line, run_one_mode), self._of_line),
+            "one_mode": (self._by_one_mode, self._of_line),
         }
         self._way = way
         self._steps, self._joint_rows = ways[way]
         self._columns = np.arange(self.modes.size)
-        if self.line is not None and way.startswith("one"):
-            self._columns = np.concatenate(self.line[2:])
+        if self.line is not None and way == "one_mode":
+            self._columns = np.concatenate([[self.line.active], self.line.idle])
         return self
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
@@ -186,15 +207,16 @@ class SmallLoop:
             few = few._replace(w=w, t=t, delta=w[:, 0].copy(), f=normal.weights * t[:, 0])
         kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), tap=r.tap)
         work = workspace(few.w.shape, len(few.f))
-        outcome = run_modal(
-            self._modal, self._step, self._stepped, few, sweep_of(len(u)), work, factors, kept
+        dashpots = dashpots_of(self.modes.B @ v, self.modes.B @ a, len(few.f), len(u))
+        outcome = run_reduced(
+            self._model, self._step, self._stepped, few, dashpots, work, factors, kept
         )
         if normal is not None:
             self._put_normal(few.w, few.t)
         return outcome, kept
 
     def _of_modes(self, kept: Kept) -> JointRows:
-        """Joints of rows that `run_modal` kept."""
+        """Joints of rows that `run_reduced` kept."""
         if self.normal is None:
             return JointRows(kept.w, kept.t, kept.state)
         return JointRows(
@@ -214,9 +236,7 @@ class SmallLoop:
             contact=np.zeros(0),
         )  # fmt: skip
         kept = recorder_of(few, r.row, r.energies, ("u", "v", "a", "f", "w", "state"), tap=r.tap)
-        outcome = run_springs(
-            self._modal, self._step, self.springs, few, sweep_of(len(u)), factors, kept
-        )
+        outcome = run_springs(self._on_springs, self.springs, few, sweep_of(len(u)), factors, kept)
         m.state[:, Variable.XI] = few.state[:, 0]
         self._put_normal(few.w, (few.f / weights)[:, None])
         return outcome, kept
@@ -233,27 +253,23 @@ class SmallLoop:
         m.delta[:] = self.modes.J @ z
         interface_forces(self._joints, m.t, m.f)
 
-    def _by_line(
-        self, run: LineSteps, factors: FloatArray, recorder: Recorder
-    ) -> tuple[Outcome, Recorder]:
-        """Steps of a few modes and at most one spring."""
+    def _by_one_mode(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
+        """Steps of the mode that moves and at most one spring."""
         assert self.line is not None
-        line, spring, active, idle = self.line
-        m, r, count = self.motion, recorder, len(active)
-        u, v, a = self._z[:, active].copy()
+        spring, active, idle = self.line.spring, self.line.active, self.line.idle
+        m, r = self.motion, recorder
+        u, v, a = self._z[:, active : active + 1].copy()
         w, t, xi = np.zeros((1, 1)), np.zeros((1, 1)), np.zeros((1, 1))
         if spring.weight > 0.0:
             w[0, 0], t[0, 0], xi[0, 0] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
         none = np.zeros(0)
         few = Motion(u, v, a, none, none, w, t, xi, none, m.energies, none)
-        tap = r.tap._replace(at=r.tap.at[:count])
+        tap = r.tap._replace(at=r.tap.at[:1])
         to = recorder_of(
             few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), balance=r.balance, tap=tap
         )
-        if not line.forces.shape[0]:
-            factors = factors[:, :0]
-        outcome = run(line, spring, few, np.ascontiguousarray(factors), to)
-        self._z[:, active] = few.u, few.v, few.a
+        outcome = run_one_mode(self.line.mode, spring, self.line.forces, few, factors, to)
+        self._z[:, active] = few.u[0], few.v[0], few.a[0]
         if spring.weight > 0.0:
             self._put_joint(w[None], t[None], xi[None], (m.w[None], m.t[None], m.state[None]))
             B = self._joints.B[0]
@@ -264,8 +280,8 @@ class SmallLoop:
         if len(r.tap.u):
             tapped = np.zeros((2, len(r.tap.u), len(idle)))
             carry(self._unmoved(), r.tap.row, still.copy(), tapped)
-            r.tap.u[:, count:] = 0.0
-            r.tap.v[:, count:], r.tap.a[:, count:] = tapped
+            r.tap.u[:, 1:] = 0.0
+            r.tap.v[:, 1:], r.tap.a[:, 1:] = tapped
         carry(self._unmoved(), r.row, still, led)
         self._z[1:, idle] = still
         parts = (np.zeros_like(led[0]), *led)
@@ -273,7 +289,7 @@ class SmallLoop:
         return outcome, to._replace(u=u, v=v, a=a)
 
     def _of_line(self, kept: Kept) -> JointRows:
-        """The joint of rows that a loop of one spring kept."""
+        """The joint of rows that `run_one_mode` kept."""
         m, rows = self.motion, len(kept.u)
         found = JointRows(*(np.zeros((rows, *x.shape)) for x in (m.w, m.t, m.state)))
         if self.problem.interface is not None:
@@ -299,15 +315,6 @@ class SmallLoop:
         if p[Parameter.FU] > 0.0:
             lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * xi[:, 0, 0])
             state[:, 0, Variable.DAMAGE] = np.where(t[:, 0, 0] < 0.0, 0.0, lost)
-
-
-def modal_of(
-    modes: Modes, J: FloatArray, forces: FloatArray, n: Newmark
-) -> tuple[Modal, ModalStep]:
-    """Arrays of the loops on modes, that are orthonormal in the step's matrix; J (q, r)."""
-    Jt = np.ascontiguousarray(J.T)
-    diagonal = Diagonal(modes.m, modes.c, modes.k, np.ones(modes.size))
-    return Modal(J, Jt, forces), ModalStep(n, diagonal, condensed_of(J @ Jt, n.end))
 
 
 def spring_rows(joints: Joints, modes: Modes, kept: Kept) -> JointRows:
@@ -336,16 +343,6 @@ def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:
     return found
 
 
-def way_ahead(problem: Problem) -> str:
-    """The way that a problem with still supports steps on its modes, before they are known."""
-    joints, free = joints_of(problem), problem.constraints.T.shape[1]
-    sdm = bool((joints.codes == LawCode.SDM).all())
-    if len(joints.pairs) <= 1 and sdm and free <= LINE_MODES:
-        return "one_spring" if free > 1 else "one_mode"
-    pushes = len(joints.pairs) and has_no_shear(joints) and only_pushes(joints, problem.state)
-    return "springs" if pushes else "modes"
-
-
 def has_no_shear(joints: Joints) -> bool:
     """Whether joints act along their normals alone."""
     shear = joints.p[:, Parameter.KS1 : Parameter.KS2 + 1]
@@ -372,14 +369,25 @@ def only_pushes(joints: Joints, state: FloatArray) -> bool:
     return not (joints.p[:, [Parameter.FU, Parameter.FC]].any() or past.any())
 
 
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A problem as one mode that moves, and at most one spring.
+
+    `active` is the mode, `idle` are those that only have a velocity and an acceleration: without
+    mass, damping and load, they stay where they are. `forces` (n_loads,) are empty without loads.
+    """
+
+    mode: Mode
+    spring: Spring
+    forces: FloatArray
+    active: int
+    idle: IntArray
+
+
 def line_of(
     problem: Problem, motion: Motion, modes: Modes, joints: Joints, n: Newmark
-) -> tuple[Line, Spring, IntArray, IntArray] | None:
-    """The problem as a few modes and one spring; None if it is not.
-
-    The modes that move, and those that only have a velocity and an acceleration: without mass,
-    damping and load, they stay where they are.
-    """
+) -> Line | None:
+    """The problem as one mode and at most one spring; None if it is not."""
     spring, b = Spring(0.0, 0.0, 0.0, 0.0, 0.0), np.zeros(modes.size)
     if problem.interface is not None:
         found = _spring_of(motion, modes, joints, n.end)
@@ -393,13 +401,13 @@ def line_of(
     away = z[:, 0] > NOTHING * z[:, 0].max(initial=0.0)
     driven = pulls | loaded.any(axis=0) | (modes.m != 0.0) | (modes.c != 0.0) | away
     active = np.flatnonzero(driven & (moves | pulls | loaded.any(axis=0)))
-    idle = np.flatnonzero(moves & ~driven)
-    if not 0 < len(active) <= LINE_MODES:
+    if len(active) != 1:
         return None
-    forces = modes.forces[:, active] if loaded.any() else np.zeros((0, len(active)))
-    m, c, k, b = (np.ascontiguousarray(x[active]) for x in (modes.m, modes.c, modes.k, b))
-    diagonal = Diagonal(m, c, k, np.ones(len(active)))
-    return Line(n, diagonal, b, np.ascontiguousarray(forces)), spring, active, idle
+    i = int(active[0])
+    m, c, k, jump = (float(x[i]) for x in (modes.m, modes.c, modes.k, b))
+    mode = Mode(m, c, k, jump, n)
+    forces = np.ascontiguousarray(modes.forces[:, i] if loaded.any() else np.zeros(0))
+    return Line(mode, spring, forces, i, np.flatnonzero(moves & ~driven))
 
 
 def _spring_of(

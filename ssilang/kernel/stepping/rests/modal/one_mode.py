@@ -1,7 +1,14 @@
 """The whole time loop, compiled, for one coordinate and at most one joint that only opens.
 
-The steps are those of `one_spring`. While the joint stays open, or stays closed, a step is one and
-the same linear map; in the new acceleration, `end = 1 - alpha_f` and k with the closed joint's,
+The joint is one point of the Strong Discontinuity law whose shear cannot move: its normal law is
+piecewise linear, so the step's equation
+
+    w + S c W t(w) = w_free ,   w_free = w_0 + y_0 + S c f_0
+
+(W weight of the point, S compliance, c share of the joint in the scheme's balance) has its answer
+in closed form; softening alone takes a scalar Newton iteration. While the joint stays open, or
+stays closed, a step is one and the same linear map; in the new acceleration, `end = 1 - alpha_f`
+and k with the closed joint's,
 
     D a1 = (D - m - end (c dt + k dt^2 / 2)) a - (c + end k dt) v - k u + load ,
     D = (1 - alpha_m) m + end (gamma dt c + beta dt^2 k) ,
@@ -12,21 +19,16 @@ finds the joint beyond its branch is made again by the law.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fused
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_fused
 from ssilang.kernel.interface.copies import copy_rows
-from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
+from ssilang.kernel.interface.laws.sdm_law import normal_energy, normal_law, opening_loss
 from ssilang.kernel.stepping.newmark import Newmark
-from ssilang.kernel.stepping.rests.modal.one_spring import (
-    MOST_TURNS,
-    Line,
-    Spring,
-    closed_form,
-)
 from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
@@ -39,7 +41,58 @@ from ssilang.kernel.stepping.state import (
 )
 from ssilang.kernel.stepping.verbs import advance, from_past
 
+MOST_TURNS = 60
+CLOSE = 1e-15  # of the jump: last change of the iteration on softening
 STIFFEST = 10.0  # angle (rad) of a step beyond which rounding shows in the acceleration's form
+
+
+class Spring(NamedTuple):
+    """The joint: weight, k, FU, GF, FC; all zero for none."""
+
+    weight: float
+    k: float
+    fu: float
+    gf: float
+    fc: float
+
+
+@compiled_fast
+def closed_form(
+    free: float, s: float, soft: float, closed: float, xi: float, spring: Spring
+) -> tuple[float, float, float]:
+    """w, t, xi of `w + s t(w) = free`, s = S c W >= 0; w is not a number if none was found.
+
+    `soft` is `1 / (1 + s k)`; the point is closed for `free <= closed`.
+    """
+    k, fu, fc = spring.k, spring.fu, spring.fc
+    if fu == 0.0 and free >= xi:
+        return free, 0.0, free
+    if free <= closed:
+        w = free * soft
+        return w, k * w, xi
+    if free <= xi:
+        slope = -k * fc / (k * xi - fc) if fc < 0.0 else 0.0
+        w = (free + s * slope * xi) / (1.0 + s * slope)
+        return w, slope * (w - xi), xi
+    w = (free + s * k * xi) * soft
+    if k * (w - xi) <= fu * math.exp(-fu / spring.gf * xi):
+        return w, k * (w - xi), xi
+    return _softening(free, s, xi, w, spring)
+
+
+@compiled_fast
+def _softening(
+    free: float, s: float, xi: float, w: float, spring: Spring
+) -> tuple[float, float, float]:
+    """Newton's method on the softening branch, from the elastic answer w."""
+    for _ in range(MOST_TURNS):
+        t, new, slope = normal_law(w, xi, spring.k, spring.fu, spring.gf, spring.fc)
+        change = (free - w - s * t) / (1.0 + s * slope)
+        w += change
+        if abs(change) <= CLOSE * max(abs(w), abs(free)):
+            t, new, slope = normal_law(w, xi, spring.k, spring.fu, spring.gf, spring.fc)
+            return w, t, new
+    return math.nan, 0.0, xi
 
 
 class Mode(NamedTuple):
@@ -156,33 +209,36 @@ def store(x: State, mode: Mode, spring: Spring, work: tuple[float, float], to: F
 
 
 @compiled
-def _load(line: Line, factors: FloatArray, step: int) -> float:
+def _load(forces: FloatArray, factors: FloatArray, step: int) -> float:
     total = 0.0
-    for j in range(line.forces.shape[0]):
-        total += line.forces[j, 0] * factors[step, j]
+    for j in range(len(forces)):
+        total += forces[j] * factors[step, j]
     return total
 
 
 @compiled_fused
 def run_one_mode(
-    line: Line, spring: Spring, x: Motion, factors: FloatArray, to: Recorder
+    mode: Mode, spring: Spring, forces: FloatArray, x: Motion, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
-    """As `run_one_spring`, for one mode."""
-    n, weight, row = line.newmark, spring.weight, to.row
-    m, c, k = line.diagonal.m[0], line.diagonal.c[0], line.diagonal.k[0]
-    b = line.b[0] if weight > 0.0 else 0.0
-    mode = Mode(m, c, k, b, n)
+    """As `run_dense`, on jumps w and tractions t (1, 1), the opening xi as the state (1, 1).
+
+    `forces` (n_loads,) are the loads on the coordinate. Steps without room for their energies leave
+    those of the end alone, and the balance.
+    """
+    m, c, k, b, n, weight, row = (
+        mode.m, mode.c, mode.k, mode.b, mode.newmark, spring.weight, to.row,
+    )  # fmt: skip
     u, v, a, w, t, xi = x.u[0], x.v[0], x.a[0], x.w[0, 0], x.t[0, 0], x.state[0, 0]
     general, now = general_of(mode, spring), branch_of(mode, spring, (u, v, a, w, t, xi))
     damped, external, worst = x.energies[DAMPED], x.energies[EXTERNAL], to.balance[1]
     start, base, follows, half = to.balance[0], w - b * u, spring.fc < 0.0, 0.5 * c
-    loaded, keeps, limit = line.forces.shape[0] > 0, len(to.energies) > 0, now.limit
+    loaded, keeps, limit = len(forces) > 0, len(to.energies) > 0, now.limit
     load0, load1, load = 0.0, 0.0, 0.0
     if loaded:
-        load0 = _load(line, factors, 0)
+        load0 = _load(forces, factors, 0)
     for step in range(len(row)):
         if loaded:
-            load1 = _load(line, factors, step + 1)
+            load1 = _load(forces, factors, step + 1)
             load = n.end * load1 + n.start * load0
         # predict and advance on the branch of the step before, by accelerations
         a1 = (now.cu * u + (now.push * load + now.constant)) + (now.cv * v + now.ca * a)

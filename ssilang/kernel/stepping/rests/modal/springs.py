@@ -1,12 +1,14 @@
 """The whole time loop, compiled, for diagonal coordinates on springs that only push.
 
 The springs are points of the Strong Discontinuity law without strength, closing traction and
-shear: `f = k min(jump, 0)`. The steps are those of `loop`. The jumps that the end of a step would
-have without its springs, and the springs' compliance `S = J P J^T`, give by `contact.active_set`
-the springs that push: `Q = 1/k + c S` with c = 1 - alpha_f.
+shear: `f = k min(jump, 0)`. The steps are those of `reduced.loop`. The jumps that the end of a step
+would have without its springs, and the springs' compliance `S = J P J^T`, give by
+`contact.active_set` the springs that push: `Q = 1/k + c S` with c = 1 - alpha_f.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +21,9 @@ from ssilang.kernel.contact.active_set import (
     find_active,
     list_closed,
 )
+from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.modal.diagonal import (
+    Diagonal,
     Sweep,
     account,
     add_jumps,
@@ -27,7 +31,7 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     next_load,
     predict,
 )
-from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep
+from ssilang.kernel.stepping.rests.reduced.loop import ReducedStep
 from ssilang.kernel.stepping.state import STORED, Motion, Recorder
 from ssilang.kernel.stepping.verbs import end_of_step
 
@@ -35,13 +39,23 @@ BLOCK = 64  # coordinates whose rows of J and Jt stay in the nearest cache
 WRONG = 1e-14  # of the largest jump, or of its force: a sign that is not rounding
 
 
+class OnSprings(NamedTuple):
+    """The coordinates: what depends on dt, jumps of the springs, loads."""
+
+    newmark: Newmark
+    diagonal: Diagonal
+    J: FloatArray  # (q, r)
+    Jt: FloatArray  # (r, q)
+    forces: FloatArray  # (n_loads, r)
+
+
 @compiled_inline
 def _push(
-    modal: Modal, step: ModalStep, springs: ActiveSet, f: FloatArray, sweep: Sweep, first: int,
+    model: OnSprings, springs: ActiveSet, f: FloatArray, sweep: Sweep, first: int,
     last: int,
 ) -> None:  # fmt: skip
     """The springs' new forces f into g and the increments of some coordinates."""
-    g, order, n, J = sweep.g[first:last], springs.order, springs.tally[0], modal.J
+    g, order, n, J = sweep.g[first:last], springs.order, springs.tally[0], model.J
     for i in range(len(g)):
         g[i] = 0.0
     fours = n // 4 * 4
@@ -56,25 +70,25 @@ def _push(
         row, a = J[order[m], first:last], f[order[m]]
         for j in range(len(g)):
             g[j] += row[j] * a
-    du, P, end = sweep.du[first:last], step.diagonal.P[first:last], step.newmark.end
+    du, P, end = sweep.du[first:last], model.diagonal.P[first:last], model.newmark.end
     for i in range(len(g)):
         du[i] -= end * P[i] * g[i]
 
 
 @compiled_inline
 def _begin(
-    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, sweep: Sweep, factors: FloatArray,
+    model: OnSprings, springs: ActiveSet, x: Motion, sweep: Sweep, factors: FloatArray,
     first: int, last: int,
 ) -> None:  # fmt: skip
     """Loads and increments of the next step without its springs at the end; their jumps."""
     next_load(
-        modal.forces[:, first:last], factors, sweep.load0[first:last], sweep.load1[first:last]
+        model.forces[:, first:last], factors, sweep.load0[first:last], sweep.load1[first:last]
     )
-    predict(step.newmark, step.diagonal, x, sweep, step.newmark.start, first, last)
+    predict(model.newmark, model.diagonal, x, sweep, model.newmark.start, first, last)
     u, du, end = x.u[first:last], sweep.du[first:last], sweep.end[first:last]
     for i in range(len(end)):
         end[i] = u[i] + du[i]
-    add_jumps(modal.Jt[first:last], end, springs.free)
+    add_jumps(model.Jt[first:last], end, springs.free)
 
 
 @compiled_fast
@@ -111,23 +125,23 @@ def wrong_sign(springs: ActiveSet) -> float:
     return wrong / most
 
 
-def springs_of(step: ModalStep, k: FloatArray) -> ActiveSet:
+def springs_of(step: ReducedStep, k: FloatArray) -> ActiveSet:
     """Springs of stiffness k (q,), all open."""
     return active_set_of(step.newmark.end * step.condensed.S + np.diag(1.0 / k), k, WRONG)
 
 
 @compiled_fast
 def run_springs(
-    modal: Modal, step: ModalStep, springs: ActiveSet, x: Motion, sweep: Sweep,
+    model: OnSprings, springs: ActiveSet, x: Motion, sweep: Sweep,
     factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
-    """As `run_modal`, J being the springs' jumps.
+    """As `run_reduced`, J being the springs' jumps.
 
     `x` holds jumps w (q, 1), forces f (q,) and, as its state (q, 1), the largest openings.
     """
     n, steps, worst = len(x.u), len(to.row), 1
     begin_springs(springs, x)
-    next_load(modal.forces, factors[0], sweep.load0, sweep.load1)
+    next_load(model.forces, factors[0], sweep.load0, sweep.load1)
     for s in range(-1, steps):  # -1: the forces at the start, for alpha_f, and the first prediction
         if s >= 0:
             turns = end_springs(springs, x)  # solve: the set of springs that push
@@ -139,11 +153,11 @@ def run_springs(
             springs.free[i] = 0.0
         for first in range(0, n, BLOCK):  # advance, and predict the next step
             last = min(first + BLOCK, n)
-            _push(modal, step, springs, x.f, sweep, first, last)
+            _push(model, springs, x.f, sweep, first, last)
             if s >= 0:
-                size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
+                size += advance_range(model.newmark, model.diagonal, x, sweep, first, last)
             if s + 1 < steps:
-                _begin(modal, step, springs, x, sweep, factors[s + 2], first, last)
+                _begin(model, springs, x, sweep, factors[s + 2], first, last)
         if s < 0:
             continue
         if not np.isfinite(size):

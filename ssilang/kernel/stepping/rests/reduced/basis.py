@@ -76,11 +76,6 @@ class ReducedModel:
     supports: ReducedSupports
 
     @property
-    def diagonal(self) -> bool:
-        """Whether damping is diagonal and supports rest."""
-        return len(self.sense) == 0 and self.supports.count == 0
-
-    @property
     def size(self) -> int:
         """Number r of vectors."""
         return len(self.m)

@@ -1,9 +1,9 @@
-"""The compiled loop on reduced coordinates with a damping that is not diagonal in them.
+"""The compiled loop on coordinates: all modes of a small problem, or a reduced basis.
 
-On the coordinates mass and stiffness are diagonal, and the damping is a diagonal and
-`B^T sense B`, B with one row for each direction in which dashpots pull. Their forces phi stand in a
-step as those of the interface do, and are linear: with `S = R P R^T` for the rows R = (J; B), w the
-dashpots' velocities that the state of before brings and g = (1 - alpha_f) gamma / (beta dt),
+On the coordinates mass and stiffness are diagonal; the damping is a diagonal and, if that is not
+all, `B^T sense B`, B with one row for each direction in which dashpots pull. Their forces phi stand
+in a step as those of the interface do, and are linear: with `S = R P R^T` for the rows R = (J; B),
+w the dashpots' velocities that the state of before brings and g = (1 - alpha_f) gamma / (beta dt),
 
     phi = E (w + g (y_B - S_BJ h)) ,   E = sense (1 + g S_BB sense)^-1
 
@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed, condensed_of
 from ssilang.kernel.interface.copies import copy_rows, copy_state
@@ -41,9 +42,10 @@ from ssilang.kernel.stepping.rests.modal.diagonal import (
     predict,
     sweep_of,
 )
-from ssilang.kernel.stepping.rests.modal.loop import BLOCK
 from ssilang.kernel.stepping.state import DAMPED, LOST, STORED, Motion, Recorder
 from ssilang.kernel.stepping.verbs import advance, end_of_step
+
+BLOCK = 128  # coordinates whose rows of Rt stay in the nearest cache
 
 
 class Reduced(NamedTuple):
@@ -100,6 +102,7 @@ def reduced_step(model: Reduced, n: Newmark, q: int) -> ReducedStep:
     return ReducedStep(n, diagonal, own, E, SJB, SBB)
 
 
+@seldom
 @compiled_fast
 def _hold_back(step: ReducedStep, dashpots: Dashpots, q: int) -> None:
     """phi without a change of the joints' forces; takes its jumps off y."""
@@ -114,6 +117,7 @@ def _hold_back(step: ReducedStep, dashpots: Dashpots, q: int) -> None:
             dashpots.y[i] -= moved[i]
 
 
+@seldom
 @compiled_fast
 def _advance_dashpots(
     model: Reduced, step: ReducedStep, dashpots: Dashpots, h: FloatArray
@@ -143,15 +147,41 @@ def _correct(
     last: int,
 ) -> None:  # fmt: skip
     """Increments of some coordinates under the joints' new forces f and the dashpots'."""
-    end, q, P = step.newmark.end, len(f), step.diagonal.P
-    for i in range(first, last):
-        row, g, back = model.Rt[i], 0.0, 0.0
+    end, q, Rt = step.newmark.end, len(f), model.Rt[first:last]
+    du, old, P = sweep.du[first:last], sweep.g[first:last], step.diagonal.P[first:last]
+    fours = len(du) // 4 * 4
+    for i in range(0, fours, 4):  # four sums at a time: f is read less often
+        a, b, c, d = 0.0, 0.0, 0.0, 0.0
+        row0, row1, row2, row3 = Rt[i], Rt[i + 1], Rt[i + 2], Rt[i + 3]
         for j in range(q):
-            g += row[j] * f[j]
-        for j in range(len(phi)):
-            back += row[q + j] * phi[j]
-        sweep.du[i] -= P[i] * (end * (g - sweep.g[i]) + back)
-        sweep.g[i] = g
+            a += row0[j] * f[j]
+            b += row1[j] * f[j]
+            c += row2[j] * f[j]
+            d += row3[j] * f[j]
+        _change_force(du, old, P, end, i, a)
+        _change_force(du, old, P, end, i + 1, b)
+        _change_force(du, old, P, end, i + 2, c)
+        _change_force(du, old, P, end, i + 3, d)
+    for i in range(fours, len(du)):
+        g = 0.0
+        for j in range(q):
+            g += Rt[i, j] * f[j]
+        _change_force(du, old, P, end, i, g)
+    if len(phi):
+        for i in range(len(du)):
+            back = 0.0
+            for j in range(len(phi)):
+                back += Rt[i, q + j] * phi[j]
+            du[i] -= P[i] * back
+
+
+@compiled_fast
+def _change_force(
+    du: FloatArray, old: FloatArray, P: FloatArray, end: float, i: int, g: float
+) -> None:
+    """The increment of a coordinate whose joints' force becomes g."""
+    du[i] -= P[i] * end * (g - old[i])
+    old[i] = g
 
 
 @compiled_inline
@@ -167,28 +197,32 @@ def _begin(
     add_jumps(model.Rt[first:last], sweep.du[first:last], y)
 
 
+@apart
 @compiled_fast
 def _end_and_begin(
-    model: Reduced, step: ReducedStep, x: Motion, dashpots: Dashpots, sweep: Sweep,
-    work: FloatArray, factors: FloatArray,
+    model: Reduced, step: ReducedStep, x: Motion, dashpots: Dashpots, work: FloatArray,
+    factors: FloatArray, ends: bool,
 ) -> float:  # fmt: skip
-    """End of a step under the joints' forces and prediction of the next, block by block.
+    """End of a step under the joints' forces and prediction of the next, in one pass over Rt.
 
-    `factors` are those of the loads at the end of the next step; none: there is none. `work`
-    gathers that of each load on the increment.
+    `factors` are those of the loads at the end of the next step; none: there is none. Nothing
+    `ends` before the first. `work` gathers that of each load on the increment.
     """
-    n, size, coming, y = len(x.u), 0.0, len(factors) > 0, dashpots.y
-    y[:] = 0.0
+    n, size, coming, y, sweep = len(x.u), 0.0, len(factors) > 0, dashpots.y, dashpots.sweep
+    for j in range(len(y)):
+        y[j] = 0.0
     for first in range(0, n, BLOCK):
         last = min(first + BLOCK, n)
         _correct(model, step, x.f, dashpots.phi, sweep, first, last)
-        size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
-        for c in range(len(work)):
-            for i in range(first, last):
-                work[c] += model.forces[c, i] * sweep.du[i]
+        if ends:
+            size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
+            for c in range(len(work)):
+                for i in range(first, last):
+                    work[c] += model.forces[c, i] * sweep.du[i]
         if coming:
             _begin(model, step, x, sweep, y, factors[0], first, last)
-    account(x, sweep)
+    if ends:
+        account(x, sweep)
     return size
 
 
@@ -197,16 +231,13 @@ def run_reduced(
     model: Reduced, step: ReducedStep, joints: Joints, x: Motion, dashpots: Dashpots,
     room: Workspace, factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
-    """As `run_modal`; the work of loads is kept as in `run_interleaved`."""
-    n, q, steps, worst = len(x.u), len(x.delta), len(to.row), 0
+    """As `run_dense`, `x` and the rows hold coordinates; work of loads as in `run_interleaved`."""
+    q, steps, worst = len(x.delta), len(to.row), 0
     d, trial, end, condensed = len(model.sense), room.trial, step.newmark.end, step.condensed
     sweep, h = dashpots.sweep, dashpots.h
     now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
-    start = n - n  # not a literal: that is a type, and code, of its own
-    _correct(model, step, x.f, dashpots.phi, sweep, start, n)
     next_load(model.forces, factors[0], sweep.load0, sweep.load1)
-    dashpots.y[:] = 0.0
-    _begin(model, step, x, sweep, dashpots.y, factors[min(1, steps)], start, n)
+    _end_and_begin(model, step, x, dashpots, h[:0], factors[1:2], False)
     for k in range(steps):
         # predict: jumps that supports make, forces of the dashpots
         for c in range(model.lift.shape[1]):
@@ -231,9 +262,7 @@ def run_reduced(
         # advance and account: dashpots, then all coordinates, the next step's prediction with them
         if d:
             x.energies[DAMPED] += 0.5 * _advance_dashpots(model, step, dashpots, h)
-        size = _end_and_begin(
-            model, step, x, dashpots, sweep, to.work[0, k], factors[k + 2 : k + 3]
-        )
+        size = _end_and_begin(model, step, x, dashpots, to.work[0, k], factors[k + 2 : k + 3], True)
         for c in range(min(model.lift.shape[1], to.work.shape[2])):
             for i in range(q):
                 to.work[1, k, c] += model.lift[i, c] * x.f[i]

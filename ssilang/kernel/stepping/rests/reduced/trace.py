@@ -8,21 +8,24 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import workspace
-from ssilang.kernel.stepping.newmark import Newmark, newmark_of
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     initial_energies,
     joint_state,
 )
-from ssilang.kernel.stepping.problem.moving_supports import Course
+from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.arrays import joints_of
-from ssilang.kernel.stepping.rests.modal.diagonal import diagonal_of, sweep_of
-from ssilang.kernel.stepping.rests.modal.loop import Modal, ModalStep, run_modal
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
-from ssilang.kernel.stepping.rests.reduced.damped import DampedTrace
+from ssilang.kernel.stepping.rests.reduced.loop import (
+    Reduced,
+    ReducedStep,
+    dashpots_of,
+    reduced_step,
+    run_reduced,
+)
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Recorder, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 
@@ -76,14 +79,16 @@ class Trace:
         self.energies[0] = energies
         m = self.model
         self._joints = joints_of(p)
-        self._steps: dict[float, Newmark] = {}
-        self._modal_steps: dict[float, ModalStep] = {}
-        self._damped: DampedTrace | None = None
-        if not m.diagonal:
-            self._damped = DampedTrace(p, m, self._joints)
-            return
-        Jt = np.ascontiguousarray(m.J.T)
-        self._modal = Modal(m.J, Jt, np.ascontiguousarray(m.forces.T))
+        self._steps: dict[float, ReducedStep] = {}
+        q, own = len(m.J), p.loading.forces.shape[1]
+        lift = np.zeros((q, m.forces.shape[1]))
+        lift[:, lift.shape[1] - m.supports.count :] = m.supports.columns.lift
+        self._own = np.ascontiguousarray(m.forces[:, own:].T)
+        self._reduced = Reduced(
+            m.m, m.c, m.k, np.ascontiguousarray(np.vstack([m.J, m.B]).T), m.sense,
+            np.ascontiguousarray(m.forces.T), lift if lift.any() else lift[:, :0].copy(),
+        )  # fmt: skip
+        self._rates = m.supports.start[1:]
 
     def advance(self, run: Run) -> Chunk | None:
         """The steps of a run; None if one of them did not converge."""
@@ -94,40 +99,45 @@ class Trace:
             self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
             jumps=np.zeros((len(row), *self.motion.w.shape)),
         )  # fmt: skip
-        n, course = self._newmark(run.dt), None
-        work = workspace(self.motion.w.shape, len(self.motion.f))
-        if self._damped is not None:
-            done, turns, course = self._damped.advance(n, self.motion, work, factors, to)
-        else:
-            done, turns, _ = run_modal(
-                self._modal,
-                self._step(n),
-                self._joints,
-                self.motion,
-                sweep_of(len(self.motion.u)),
-                work,
-                factors,
-                to,
-            )
+        done, turns, course = self._advance(self._step(run.dt), factors, to)
         if done < len(row):
             return None
         self.iterations = max(self.iterations, turns)
         return Chunk(run, to, steps, course)
 
-    def _newmark(self, dt: float) -> Newmark:
-        """Coefficients of steps dt, or of known ones that are as long but for rounding."""
+    def _advance(
+        self, step: ReducedStep, factors: FloatArray, to: Recorder
+    ) -> tuple[int, int, Course | None]:
+        """Steps of a motion: number done, most iterations of one, the course of the supports."""
+        n, x, model, supports = step.newmark, self.motion, self.model, self.model.supports
+        moving, whole = supports.during(self.problem, n.dt), factors
+        course = moving.course(factors[:, moving.chosen], *self._rates)
+        if supports.count:
+            whole = np.hstack([factors, course.factors(n)])
+        to = to._replace(work=np.zeros((2, len(to.row), whole.shape[1] if supports.count else 0)))
+        start = Start(np.array([self._own @ z for z in (x.u, x.v, x.a)]), x.f.copy())
+        dashpots = dashpots_of(model.B @ x.v, model.B @ x.a, len(x.delta), len(x.u))
+        room = workspace(x.w.shape, len(x.f))
+        done, turns, _ = run_reduced(
+            self._reduced, step, self._joints, x, dashpots, room, whole, to
+        )
+        if not supports.count:
+            return done, turns, None
+        own = np.ascontiguousarray(to.work[:, :done, factors.shape[1] :])
+        history = to.energies[:done]
+        moving.complete(supports.columns, course, start, own, factors, history)
+        if done:
+            x.energies[:] = history[-1]
+        self._rates = np.array([course.v[-1], course.a[-1]])
+        return done, turns, course
+
+    def _step(self, dt: float) -> ReducedStep:
+        """What steps dt need, or known ones that are as long but for rounding."""
         dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
         if dt not in self._steps:
-            self._steps[dt] = newmark_of(self.problem.scheme, dt)
+            n = newmark_of(self.problem.scheme, dt)
+            self._steps[dt] = reduced_step(self._reduced, n, len(self.motion.delta))
         return self._steps[dt]
-
-    def _step(self, n: Newmark) -> ModalStep:
-        if n.dt not in self._modal_steps:
-            m = self.model
-            diagonal = diagonal_of(n, m.m, m.c, m.k)
-            condensed = condensed_of((m.J * diagonal.P) @ m.J.T, n.end)
-            self._modal_steps[n.dt] = ModalStep(n, diagonal, condensed)
-        return self._modal_steps[n.dt]
 
 
 class Difference:

@@ -7,6 +7,7 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.stepping.choose import Case, Choice, choose, only
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
@@ -39,7 +40,7 @@ def problem_of(
             bench.mass(1000.0 + 300.0 * i, top)
         if not shear:
             bench.fix(top, "UY")
-        if dashpot:
+        if dashpot and not (damping and i):
             bench.dashpot(dashpot, top, "UX")
         if i < joints:
             bench.joint("SEG2", [ground, top], "JOI1", **law)
@@ -49,7 +50,8 @@ def problem_of(
     push = bench.field(*((t, "FX", 6e4) for t in tops), *((t, "FY", 2e4) for t in tops))
     K, M, C = bench.stiffness, bench.mass_matrix, bench.damping
     if damping:
-        C = Matrix(K.table, M.scaled(damping).blocks + K.scaled(1e-3 * damping).blocks)
+        given = () if C is None else C.blocks
+        C = Matrix(K.table, M.scaled(damping).blocks + K.scaled(1e-3 * damping).blocks + given)
     start = bench.field(*((t, "UX", 0.01 * (i + 1)) for i, t in enumerate(tops)))
     return make_problem(
         Inputs(
@@ -59,12 +61,12 @@ def problem_of(
     )  # fmt: skip
 
 
-def compared(problem, monkeypatch, light: bool | None, tolerance: float = 1e-11):
+def compared(problem, monkeypatch, light: bool, tolerance: float = 1e-11):
     """Run both loops, check which small one ran, compare all that instants hold."""
     few, history = Recorder(len(problem.times)), Integration(problem)
     choice = choose(Case(problem, history.motion, 1e-3))
-    assert isinstance(choice.loop, SmallLoop) == (light is not None)
-    assert choice.rule.light == bool(light)
+    assert isinstance(choice.loop, SmallLoop)
+    assert choice.rule.light == light
     found = integrate(problem, [few])
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
     other = Recorder(len(problem.times))
@@ -105,8 +107,32 @@ def test_damped_energy_is_the_same_by_all_loops(joints, scheme, monkeypatch):
     compared(problem, monkeypatch, light=joints < 2, tolerance=1e-10)
 
 
-def test_unequal_dashpots_keep_their_matrix(monkeypatch):
-    compared(problem_of(LAWS["no tension"], joints=3, dashpot=4e3), monkeypatch, light=None)
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_unequal_dashpots_pull_beside_the_modes(law, scheme, monkeypatch):
+    """Beside Rayleigh damping, with and without shear: they are no part of the modes."""
+    problem = problem_of(law, scheme, 5, shear=True, damping=1.5, dashpot=4e3)
+    loop = choose(Case(problem, Integration(problem).motion, 1e-3)).loop
+    assert 0 < len(loop.modes.sense) < loop.modes.size
+    compared(problem, monkeypatch, light=False, tolerance=1e-10)
+
+
+def test_without_common_modes_the_damping_is_dashpots_alone(monkeypatch):
+    problem = problem_of(LAWS["no tension"], joints=3, dashpot=4e3)
+    compared(problem, monkeypatch, light=False)
+
+
+def test_a_mass_that_a_dashpot_alone_holds_has_no_modes(monkeypatch):
+    """Nor has the part of the step's matrix that is left without it an inverse."""
+    problem = problem_of(LAWS["no tension"], joints=3, dashpot=4e3)
+    n = problem.numbering.size
+    at = problem.numbering.where("UX")[-1]
+    K, M = (x.toarray() for x in (problem.K, problem.M))
+    K[at], K[:, at], M[at, at] = 0.0, 0.0, 0.0
+    C = np.diag(np.arange(n) % 3 * 100.0)
+    C[at, at] = 5e3
+    lone = replace(problem, K=sp.csr_array(K), M=sp.csr_array(M), C=sp.csr_array(C))
+    assert choose(Case(lone, Integration(lone).motion, 1e-3)).rule.name == "dense"
 
 
 def test_motions_without_mass_follow_their_loads(monkeypatch):

@@ -1,4 +1,4 @@
-"""The loop of one coordinate against the loop of a few, step by step and over long runs."""
+"""The loop of one coordinate against steps by the law, one by one and over long runs."""
 
 from types import SimpleNamespace
 
@@ -10,12 +10,17 @@ from references.recorder import Recorder
 from ssilang.kernel.stepping.choose import Case, choose, only
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark, newmark_of
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
-from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
-from ssilang.kernel.stepping.rests.modal.one_mode import Mode as OneMode
-from ssilang.kernel.stepping.rests.modal.one_mode import branch_of, run_one_mode
-from ssilang.kernel.stepping.rests.modal.one_spring import Line, Spring, step_one_spring
+from ssilang.kernel.stepping.rests.modal.one_mode import (
+    Mode,
+    Spring,
+    branch_of,
+    by_law,
+    general_of,
+    run_one_mode,
+    store,
+)
 from ssilang.kernel.stepping.run import Integration, integrate
-from ssilang.kernel.stepping.state import Motion, recorder_of, rows_of
+from ssilang.kernel.stepping.state import DAMPED, EXTERNAL, Motion, recorder_of, rows_of
 
 SCHEMES = [Scheme(), newmark(0.36, 0.7), hht(0.1), generalised_alpha(0.7)]
 SPRINGS = {
@@ -28,17 +33,43 @@ SPRINGS = {
 MASS, STIFFNESS = 3000.0, 12e6
 
 
+def run_by_law(mode, spring, forces, x, factors, to):
+    """As `run_one_mode`, each step by the law."""
+    general, n, last = general_of(mode, spring), mode.newmark, len(to.row) - 1
+    state = tuple(float(part.flat[0]) for part in (x.u, x.v, x.a, x.w, x.t, x.state))
+    damped, external, energies = x.energies[DAMPED], x.energies[EXTERNAL], np.zeros(6)
+    loads = factors @ forces if len(forces) else np.zeros(len(factors))
+    for k in range(last + 1):
+        u, v = state[:2]
+        after = by_law(mode, spring, general, state, n.end * loads[k + 1] + n.start * loads[k])
+        if not np.isfinite(after).all():
+            return k, -1, np.inf
+        move, state = after[0] - u, after
+        damped += 0.5 * mode.c * move * (v + after[1])
+        external += 0.5 * move * (loads[k] + loads[k + 1])
+        store(state, mode, spring, (damped, external), energies)
+        apart = abs(energies[:EXTERNAL].sum() - energies[EXTERNAL] - to.balance[0])
+        to.balance[1] = max(to.balance[1], apart)
+        if len(to.energies):
+            to.energies[k] = energies
+        if to.row[k] >= 0:
+            for part, value in zip((to.u, to.v, to.a, to.w, to.t, to.state), state, strict=True):
+                part[to.row[k]] = value
+    x.energies[:] = energies
+    return last + 1, 1, 0.0
+
+
 def both(scheme, spring, steps, dt, damping=0.0, load=0.0, every=1, mass=MASS, energies=True):
     """Outcome, state and rows of the two loops from one start."""
     n, c = newmark_of(scheme, dt), 2 * damping * np.sqrt(STIFFNESS * MASS)
     A = n.mass * mass + n.damping * c + n.end * STIFFNESS
     x = 1 / np.sqrt(A)  # the coordinate has a step's matrix of one
-    diagonal = Diagonal(*(np.array([d * x * x]) for d in (mass, c, STIFFNESS)), np.ones(1))
-    line = Line(n, diagonal, np.array([-x]), np.array([[load * x]]) if load else np.zeros((0, 1)))
+    mode = Mode(*(d * x * x for d in (mass, c, STIFFNESS)), -x if spring.weight else 0.0, n)
+    forces = np.array([load * x]) if load else np.zeros(0)
     factors = np.sin(30.0 * dt * np.arange(steps + 1))[:, None][:, : 1 if load else 0]
     row = rows_of(np.arange(steps) % every == every - 1)
     found = []
-    for run in (step_one_spring, run_one_mode):
+    for run in (run_by_law, run_one_mode):
         w = 0.01 if spring.weight else 0.0
         t, xi = (0.0, w) if spring.fu == 0.0 else (spring.k * 1e-5, w - 1e-5)
         if spring.fu:
@@ -52,7 +83,8 @@ def both(scheme, spring, steps, dt, damping=0.0, load=0.0, every=1, mass=MASS, e
             state, row, np.zeros((steps if energies else 0, 6)), ("u", "v", "a", "w", "t", "state"),
             balance=np.array([0.5 * STIFFNESS * 0.01**2, 0.0]),
         )  # fmt: skip
-        found.append((run(line, spring, state, np.ascontiguousarray(factors), kept), state, kept))
+        given = np.ascontiguousarray(factors)
+        found.append((run(mode, spring, forces, state, given, kept), state, kept))
     return found
 
 
@@ -97,7 +129,7 @@ def test_a_hundred_thousand_steps_with_uplift_agree():
 
 @pytest.mark.parametrize("mass", [0.0, 1e-3])
 def test_light_modes_step_by_the_law(mass):
-    mode = OneMode(mass, 0.0, STIFFNESS, 1.0, newmark_of(Scheme(), 5e-4))
+    mode = Mode(mass, 0.0, STIFFNESS, 1.0, newmark_of(Scheme(), 5e-4))
     assert not branch_of(mode, SPRINGS["no tension"], (0.01, 0.0, 0.0, 0.01, 0.0, 0.01)).fits
     (_, _, kept), (_, _, rows) = both(
         Scheme(), SPRINGS["no tension"], 500, 5e-4, load=6e4, mass=mass
@@ -135,8 +167,8 @@ def test_motions_without_mass_keep_their_velocity_and_acceleration(monkeypatch):
             model=bench.model, characteristics=bench.characteristics, scheme=newmark(0.3, 0.6),
         )
     )  # fmt: skip
-    _, _, active, idle = choose(Case(problem, Integration(problem).motion, 1e-3)).loop.line
-    assert (len(active), len(idle)) == (1, 1)
+    line = choose(Case(problem, Integration(problem).motion, 1e-3)).loop.line
+    assert len(line.idle) == 1
     few, other = Recorder(len(times)), Recorder(len(times))
     integrate(problem, [few])
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
