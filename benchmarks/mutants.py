@@ -1,105 +1,67 @@
-"""Do the tests notice? Small faults are put into the code, one at a time, and its tests run.
+"""Do the tests notice? Faults as people make them are put into the package, one at a time.
 
-    python benchmarks/mutants.py [COUNT] [SEED] [ROOM ...]
-    python benchmarks/mutants.py again REPORT
+    python benchmarks/mutants.py COUNT SEED > report
+    python benchmarks/mutants.py --again report
 
-Each mutant changes one operator, comparison, sign, number or condition of a module; the tests of
-the mirrored folder run in a copy of the project, and a mutant that they pass is a survivor,
-printed with its line. Rooms are the names of `ROOMS`; without any, all take part evenly. `again`
-runs the survivors of a report (what an earlier run printed) against the tests of today.
+COUNT lines are drawn by SEED over all of `ssilang` that runs: bodies of functions, without what is
+declared (signatures, decorators, annotations, tables of modules) and what is said (docstrings,
+refusals, texts). Each gets one fault (`faults`); the tests near it run in a copy of the project,
+the nearest first, until one fails or `--seconds` of processor time are used. A mutant that they
+pass is a survivor and printed as a diff; `--again` tries those of a report once more. Changes that
+change nothing stand with their reason in `mutants_equivalent.toml`.
 
-Tests run in a process that is split off from this one, whose libraries are imported already; the
-files that name the changed function come first, and the first test that fails ends it.
+Near are the tests of the mirrored folder, and those that import the module or name what is changed,
+what calls it in its module, or the word of the operator that does; rare names count more.
+
+mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
+the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
+one command of tests for all: neither draws by lines nor asks the room's tests first.
 """
 
 from __future__ import annotations
 
+import argparse
 import ast
 import compileall
 import copy
+import difflib
+import math
 import os
 import py_compile
 import random
 import re
+import resource
 import select
 import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
+import tomllib
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-LIMIT = 900.0  # seconds for the tests of a mutant at most; longer counts as noticed
-NOTHING = "none"  # what is said when no test fails
-
-# what the tests import, but for the project: done once
+EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
+HANGS = 120.0  # s of processor time of one test beyond the limit: it is counted as noticed
+FILES = 12  # of tests, at most, for a mutant
+COMMON = 0.15  # of the files of tests have a name: it tells nothing
 LIBRARIES = ("hypothesis", "numba", "numpy", "scipy.linalg", "scipy.sparse.linalg", "xdist")
-
-# modules below ssilang/, and the tests that answer for them
-ROOMS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "schemes": (
-        ("kernel/stepping/newmark.py", "kernel/stepping/times.py"),
-        ("kernel/stepping/test_newmark.py", "kernel/stepping/test_times.py"),
-    ),
-    "stepping": (
-        ("kernel/stepping/problem", "kernel/stepping/run.py",
-         "kernel/stepping/rests/conserving.py"),
-        ("kernel/stepping/test_newmark.py", "kernel/stepping/test_uplift_motion.py",
-         "kernel/stepping/problem", "kernel/contact/test_conserving.py",
-         "kernel/stepping/rests/sparse/test_interleaved.py", "operators/test_friction.py"),
-    ),
-    "joint laws": (("kernel/interface/laws",), ("kernel/interface/laws",)),
-    "joints": (
-        ("kernel/interface/kinematics.py", "kernel/interface/integration.py",
-         "kernel/interface/point_state.py", "kernel/interface/family.py"),
-        ("kernel/interface", "operators/test_joint_scripts.py"),
-    ),
-    "plastic laws": (
-        ("kernel/materials/plastic",),
-        ("kernel/materials", "kernel/plasticity/test_creep.py"),
-    ),
-    "shapes": (
-        ("kernel/elements/shapes", "kernel/elements/solids"),
-        ("kernel/elements/shapes", "kernel/elements/solids", "operators/test_finite_motion.py"),
-    ),
-    "beams": (
-        ("kernel/elements/beams",),
-        ("kernel/elements/beams", "kernel/elements/test_hoop.py", "operators/test_rotating.py",
-         "operators/test_fibre_sections.py"),
-    ),
-    "shells": (("kernel/elements/shells",), ("kernel/elements/shells",)),
-    "matrices": (
-        ("kernel/matrices/lumping.py", "kernel/matrices/relations.py",
-         "kernel/matrices/assembly.py", "kernel/matrices/imposed.py"),
-        ("kernel/matrices", "operators/test_lumping.py", "operators/test_matrix_making.py"),
-    ),
-    "contact": (("kernel/contact",), ("kernel/contact",)),
-    "statics": (("kernel/statics/linear.py",), ("kernel/statics",)),
-    "modes": (("kernel/modal/eigen.py", "kernel/modal/oscillator.py", "kernel/modal/explicit.py"),
-              ("kernel/modal",)),
-    "records": (("kernel/records",), ("kernel/records",)),
-    "files": (("io/vtk", "io/csv_tables.py", "io/mesh_files"), ("io",)),
-    "reader": (("language/text",), ("language/text",)),
-    "statements": (
-        ("language/run/evaluator.py", "language/run/scopes.py", "language/run/jumps.py",
-         "language/run/procedures.py", "language/run/binding.py", "language/near.py"),
-        ("language",),
-    ),
-    "numbers": (("operators/numbers", "operators/lists"),
-                tuple(f"operators/test_{name}.py" for name in (
-                    "numbers", "lists", "records", "optimum", "fitting", "huge_numbers",
-                    "limits_and_senses", "operand_orders", "hostile_operands"))),
-    "safety": (("io/run_output.py", "io/atomic.py", "language/run/session.py"),
-               ("cli/test_safety.py", "io/test_run_output.py", "language/run/test_session.py",
-                "operators/test_reading.py",
-                "operators/test_writing.py")),
-}  # fmt: skip
+GOOD = """
+import sys
+from pathlib import Path
+from ssilang.kernel.base.compiled.cache import PACKAGE, state_of
+for path in sorted((PACKAGE / "kernel").rglob("*.py")):
+    name = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+    print(f"{name}-{state_of(name)}")
+"""
 
 _OTHER: dict[type[ast.AST], type[ast.AST]] = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult,
@@ -107,263 +69,436 @@ _OTHER: dict[type[ast.AST], type[ast.AST]] = {
     ast.NotEq: ast.Eq, ast.And: ast.Or, ast.Or: ast.And, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
     ast.In: ast.NotIn, ast.NotIn: ast.In,
 }  # fmt: skip
-
-
-def changes(node: ast.AST) -> Iterator[ast.AST]:
-    """Nodes that may stand in the place of one."""
-    if isinstance(node, ast.BinOp | ast.BoolOp | ast.AugAssign) and type(node.op) in _OTHER:
-        other = copy.copy(node)
-        other.op = _OTHER[type(node.op)]()
-        yield other
-    elif isinstance(node, ast.Compare) and type(node.ops[0]) in _OTHER:
-        other = copy.copy(node)
-        other.ops = [_OTHER[type(node.ops[0])](), *node.ops[1:]]
-        yield other
-    elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
-        yield node.operand
-    elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        whole = isinstance(node.value, int) or node.value == 0.0
-        yield ast.Constant(node.value + 1 if whole else 2 * node.value)
-    elif isinstance(node, ast.If | ast.IfExp):
-        other = copy.copy(node)
-        other.test = ast.UnaryOp(ast.Not(), node.test)
-        yield other
-
-
-class _Swap(ast.NodeTransformer):
-    """Puts one node in the place of another."""
-
-    def __init__(self, old: ast.AST, new: ast.AST) -> None:
-        self.old, self.new = old, new
-
-    def visit(self, node: ast.AST) -> ast.AST:
-        return ast.copy_location(self.new, node) if node is self.old else self.generic_visit(node)
-
-
-def mutable(tree: ast.Module) -> list[ast.AST]:
-    """Nodes inside functions, without annotations and messages."""
-    found: list[ast.AST] = []
-
-    def walk(node: ast.AST, inside: bool) -> None:
-        if isinstance(node, ast.Raise | ast.Assert | ast.AnnAssign | ast.arguments | ast.JoinedStr):
-            return
-        inside = inside or isinstance(node, ast.FunctionDef)
-        if inside and any(True for _ in changes(node)):
-            found.append(node)
-        for child in ast.iter_child_nodes(node):
-            walk(child, inside)
-
-    walk(tree, False)
-    return found
-
-
-def modules(room: str) -> list[Path]:
-    """Python files of a room."""
-    found: list[Path] = []
-    for name in ROOMS[room][0]:
-        path = ROOT / "ssilang" / name
-        found += sorted(path.rglob("*.py")) if path.is_dir() else [path]
-    return found
+_OPPOSITE = {"min": "max", "any": "all", "minimum": "maximum", "argmin": "argmax", "floor": "ceil"}
+_OPPOSITE |= {b: a for a, b in _OPPOSITE.items()}
+_LEFT_OUT = {"abs", "sorted", "reversed", "set", "unique", "cumsum", "sqrt", "ravel", "int", "sum"}
+_SIMPLE = ast.Name | ast.Attribute | ast.Subscript
+_REAL = re.compile("float|FloatArray")
+Twins = dict[str, list[str]]  # names of a function that have its type
+_WHOLE = _SIMPLE | ast.Constant | ast.Call
+_SAID = ast.Raise | ast.Assert | ast.JoinedStr | ast.Import | ast.ImportFrom | ast.arguments
 
 
 @dataclass(frozen=True)
-class Mutant:
-    """A changed module.
+class Fault:
+    """Lines of a module, from `line` on, and what stands in their place."""
 
-    Attributes
-    ----------
-    path : Path
-        The module.
-    source : str
-        Its text with the change.
-    function : str
-        The outermost function or class around the change.
-    said : str
-        The change in a line.
-    """
+    path: str
+    line: int
+    old: str
+    new: str
+    kind: str = ""
 
-    path: Path
-    source: str
-    function: str
-    said: str
+    def source(self, root: Path = ROOT) -> str | None:
+        """The module's text with the fault; where lines have moved, at the nearest; None: gone."""
+        lines = (root / self.path).read_text(encoding="utf-8").split("\n")
+        old = self.old.split("\n")
+        at = [i for i in range(len(lines)) if lines[i : i + len(old)] == old]
+        if not at:
+            return None
+        i = min(at, key=lambda i: abs(i + 1 - self.line))
+        return "\n".join([*lines[:i], *self.new.split("\n"), *lines[i + len(old) :]])
 
+    def is_one(self) -> bool:
+        """Whether it is Python, and another program."""
+        source = self.source() or ""
+        try:
+            compile(source, self.path, "exec")
+        except SyntaxError:
+            return False
+        was = (ROOT / self.path).read_text(encoding="utf-8")
+        return ast.dump(ast.parse(source)) != ast.dump(ast.parse(was))
 
-def mutants(room: str, count: int, rng: random.Random) -> Iterator[Mutant]:
-    """`count` random mutants of a room."""
-    places = []
-    for path in modules(room):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        places += [(path, i) for i in range(len(mutable(tree)))]
-    for path, i in rng.sample(places, min(count, len(places))):
-        yield mutant(path, i)
-
-
-def mutant(path: Path, number: int) -> Mutant:
-    """The change of one of a module's nodes."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    node = mutable(tree)[number]
-    new = next(changes(node))
-    line = getattr(node, "lineno", 0)
-    around = next((n for n in tree.body if n.lineno <= line <= (n.end_lineno or line)), None)
-    said = f"{path.relative_to(ROOT)}:{line}: {_short(node)} -> {_short(new)}"
-    changed = ast.fix_missing_locations(_Swap(node, new).visit(tree))
-    return Mutant(path, ast.unparse(changed), getattr(around, "name", "-"), said)
+    def __str__(self) -> str:
+        old, new = self.old.split("\n"), self.new.split("\n")
+        diff = [d for d in difflib.ndiff(old, new) if d[0] != "?"]
+        return "\n".join([f"{self.path}:{self.line} {self.kind}", *diff])
 
 
-def survivors(report: Path) -> dict[str, list[Mutant]]:
-    """Mutants of a report that survived, by room; a module that has changed since may miss some."""
-    lines = re.findall(r"^SURVIVED +\d+ s  (.*)$", report.read_text(encoding="utf-8"), re.MULTILINE)
-    found: dict[str, list[Mutant]] = {}
-    for line in lines:
-        path = ROOT / line.partition(":")[0]
-        room = next(r for r in ROOMS if path in modules(r))
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        was = int(line.split(":")[1])
-        said = line.partition(": ")[2]
-        same = [  # by its text; the nearest one, since lines move
-            (abs(getattr(node, "lineno", 0) - was), i)
-            for i, node in enumerate(mutable(tree))
-            if said == f"{_short(node)} -> {_short(next(changes(node)))}"
-        ]
-        found.setdefault(room, []).extend(mutant(path, i) for _, i in sorted(same)[:1])
-        if not same:
-            print(f"is no more: {line}", flush=True)
+def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
+    """Kinds of faults of an expression and what then stands there."""
+    match node:
+        case ast.BinOp(left, ast.Add() | ast.Sub() as op, right):
+            yield "sign", ast.BinOp(left, _OTHER[type(op)](), right)
+            yield "term left out", left
+            yield "term left out", right
+        case ast.BinOp(left, ast.Mult() | ast.Div() as op, right):
+            yield "operator", ast.BinOp(left, _OTHER[type(op)](), right)
+            yield "factor left out", left
+            yield "factor 2", ast.BinOp(ast.BinOp(ast.Constant(2), ast.Mult(), left), op, right)
+        case ast.BoolOp(op, [*values]):
+            yield "operator", ast.BoolOp(_OTHER[type(op)](), values)
+            for i in range(len(values)):
+                rest = values[:i] + values[i + 1 :]
+                yield "condition left out", ast.BoolOp(op, rest) if rest[1:] else rest[0]
+        case ast.Compare(left, [op, *ops], values) if type(op) in _OTHER:
+            yield "comparison", ast.Compare(left, [_OTHER[type(op)](), *ops], values)
+        case ast.UnaryOp(ast.USub() | ast.Not(), operand):
+            yield "sign", operand
+        case ast.Constant(bool(value)):
+            yield "flag", ast.Constant(not value)
+        case ast.Constant(int(value)):
+            yield "off by one", ast.Constant(value + 1)
+        case ast.Constant(float(value)):
+            yield "factor 2", ast.Constant(2.0 * value if value else 1.0)
+        case ast.IfExp(test, body, orelse):
+            yield "condition turned", ast.IfExp(test, orelse, body)
+        case ast.Attribute(value, "T"):
+            yield "not transposed", value
+        case ast.Subscript(value, ast.Tuple([a, b])) if not isinstance(a, ast.Slice):
+            yield "indices exchanged", ast.Subscript(value, ast.Tuple([b, a]))
+        case ast.Subscript(value, ast.Slice(low, high, step)):
+            for one in ({"lower": low}, {"upper": high}):
+                ((side, bound),) = one.items()
+                if bound is not None:
+                    ends = {"lower": low, "upper": high, "step": step}
+                    ends[side] = ast.BinOp(bound, ast.Add(), ast.Constant(1))
+                    yield "off by one", ast.Subscript(value, ast.Slice(**ends))
+        case ast.Call(ast.Attribute(value, "copy"), []):
+            yield "no copy", value
+        case ast.Call(func, args, keywords) if args:
+            name = getattr(func, "attr", getattr(func, "id", ""))
+            if name in _OPPOSITE:
+                other = copy.copy(func)
+                setattr(other, "id" if isinstance(func, ast.Name) else "attr", _OPPOSITE[name])
+                yield "opposite", ast.Call(other, args, keywords)
+            if name in _LEFT_OUT and len(args) == 1:
+                yield "call left out", args[0]
+            for i in range(len(args) - 1):
+                if all(isinstance(a, _SIMPLE) for a in args[i : i + 2]) and name != "isinstance":
+                    turned = [*args[:i], args[i + 1], args[i], *args[i + 2 :]]
+                    yield "arguments exchanged", ast.Call(func, turned, keywords)
+        case ast.ListComp(elt, [ast.comprehension(t, it, [_, *ifs], 0)]):
+            yield "condition left out", ast.ListComp(elt, [ast.comprehension(t, it, ifs, 0)])
+        case ast.Name(name, ast.Load()):
+            for twin in twins.get(name, ()):
+                yield "other name", ast.Name(twin, ast.Load())
+
+
+def statements(node: ast.AST, returns: ast.expr | None, twice: bool) -> Iterator[tuple[str, str]]:
+    """Kinds of faults of a statement; {} is its own text. `twice`: it ends the body of a loop."""
+    match node:
+        case ast.Assign([ast.Name(name)], value):
+            if any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(value)):
+                yield "statement left out", "pass"
+        case ast.Expr(ast.Call()) | ast.Assign([ast.Attribute() | ast.Subscript()]):
+            yield "statement left out", "pass"
+        case ast.AugAssign() | ast.Delete():
+            yield "statement left out", "pass"
+        case ast.If(orelse=[]):
+            yield "statement left out", "pass"
+        case ast.Continue():
+            yield "break for continue", "break"
+        case ast.Return(ast.expr() as value) if _REAL.match(ast.unparse(returns or value)):
+            yield "factor 2", f"return 2 * ({ast.unparse(value)})"
+        case _:
+            return
+    if isinstance(returns, ast.Constant) and returns.value is None and isinstance(node, ast.Expr):
+        yield "early return", "return"
+    if twice:
+        yield "one turn alone", "{}\nbreak"
+
+
+def faults(path: Path) -> list[Fault]:
+    """All that may be put into a module."""
+    text = path.read_bytes()
+    starts = [0]
+    for line in text.split(b"\n"):
+        starts.append(starts[-1] + len(line) + 1)
+    found: list[Fault] = []
+
+    def own(node: Any) -> bytes:
+        first, last = starts[node.lineno - 1], starts[node.end_lineno - 1]
+        return text[first + node.col_offset : last + node.end_col_offset]
+
+    def put(node: Any, kind: str, new: str) -> None:
+        first, end = starts[node.lineno - 1], starts[node.end_lineno] - 1
+        new = new.replace("\n", "\n" + " " * node.col_offset)
+        begin = first + node.col_offset
+        changed = text[first:begin] + new.encode() + text[begin + len(own(node)) : end]
+        old = text[first:end].decode()
+        found.append(Fault(str(path.relative_to(ROOT)), node.lineno, old, changed.decode(), kind))
+
+    def walk(node: Any, returns: ast.expr | None, twins: Twins, inside: bool) -> None:
+        if isinstance(node, _SAID):
+            return
+        if isinstance(node, ast.FunctionDef):
+            kinds = [(a.arg, ast.unparse(a.annotation)) for a in node.args.args if a.annotation]
+            twins = {a: [b for b, other in kinds if b != a and other == k] for a, k in kinds}
+            returns, inside = node.returns, True
+            parts = node.body[1:] if ast.get_docstring(node) else node.body
+        elif isinstance(node, ast.AnnAssign):
+            parts = [node.value] if node.value else []
+        elif isinstance(node, ast.Call) and re.search("(rror|warn)$", ast.unparse(node.func)):
+            return  # the words of a refusal
+        else:
+            parts = list(ast.iter_child_nodes(node))
+        if inside and isinstance(node, ast.expr):
+            for kind, new in expressions(node, twins):
+                written = ast.unparse(ast.fix_missing_locations(new))
+                put(node, kind, written if isinstance(new, _WHOLE) else f"({written})")
+        loops = isinstance(node, ast.For) and node.body[-1]
+        for part in parts:
+            if inside and isinstance(part, ast.stmt):
+                for kind, new in statements(part, returns, part is loops):
+                    put(part, kind, new.replace("{}", own(part).decode()))
+            walk(part, returns, twins, inside)
+
+    walk(ast.parse(text), None, {}, False)
     return found
 
 
-def _short(node: ast.AST) -> str:
-    """The start of a node's text: the condition alone of an `if`."""
-    return ast.unparse(getattr(node, "test", node))[:60]
+def drawn(count: int, seed: int) -> tuple[list[Fault], str]:
+    """Faults at lines drawn over the package, and what share of it has such lines."""
+    places: dict[tuple[str, int], list[Fault]] = {}
+    total = 0
+    for path in sorted((ROOT / "ssilang").rglob("*.py")):
+        lines = path.read_text(encoding="utf-8").split("\n")
+        total += sum(1 for line in lines if line.strip() and not line.strip().startswith("#"))
+        for fault in faults(path):
+            places.setdefault((fault.path, fault.line), []).append(fault)
+    rng = random.Random(seed)
+    chosen = []
+    for place in rng.sample(sorted(places), min(count, len(places))):
+        kinds = sorted({f.kind for f in places[place]})
+        for kind in rng.sample(kinds, len(kinds)):  # what people do is not drowned by tokens
+            fault = rng.choice([f for f in places[place] if f.kind == kind])
+            if fault.is_one():
+                chosen.append(fault)
+                break
+    share = f"{len(places)} of {total} lines of the package ({100 * len(places) / total:.0f} %)"
+    return chosen, share
 
 
-def ordered(copy_of: Path, room: str, path: Path, function: str) -> list[str]:
-    """Test files of a room: first those that name the changed function, then the module."""
-    files: list[Path] = []
-    for name in ROOMS[room][1]:
-        place = copy_of / "tests" / name
-        files += sorted(place.rglob("test_*.py")) if place.is_dir() else [place]
-    texts = {f: f.read_text(encoding="utf-8") for f in dict.fromkeys(files)}
-
-    def rank(file: Path) -> tuple[bool, bool, bool]:
-        named = re.search(rf"\b{function}\b", texts[file]) is not None
-        same = path.stem in file.stem
-        return not (named and same), not (named or same), path.stem not in texts[file]
-
-    return [str(f) for f in sorted(texts, key=rank)]
+def survivors(report: Path) -> list[Fault]:
+    """Faults of an earlier report that were not noticed."""
+    found = []
+    text = report.read_text(encoding="utf-8")
+    told = re.compile(r"^SURVIVED.*? s  (\S+):(\d+) (.*)\n((?:[-+ ] .*\n)+)", re.MULTILINE)
+    for path, line, kind, body in told.findall(text):
+        rows = body.rstrip("\n").split("\n")
+        old, new = ("\n".join(r[2:] for r in rows if r[0] in s) for s in ("- ", "+ "))
+        found.append(Fault(path, int(line), old, new, kind))
+    return found
 
 
-def noticed(copy_of: Path, tests: list[str], limit: float) -> str:
-    """How the tests fail in a copy of the project: the first test that does, '' if none."""
+class Callers:
+    """Who uses what in the package: functions and classes by module, names and words of each."""
+
+    def __init__(self) -> None:
+        self.uses: dict[tuple[str, str], set[str]] = {}  # 'module.name' for what is imported
+        self.words: dict[tuple[str, str], set[str]] = {}
+        self.spans: dict[str, list[tuple[int, int, str]]] = {}
+        for path in sorted((ROOT / "ssilang").rglob("*.py")):
+            module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            imported = {
+                alias.asname or alias.name: f"{node.module}.{alias.name}"
+                for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)
+                for alias in node.names
+            }  # fmt: skip
+            for node in ast.walk(tree):
+                if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                    self._put(module, node, imported)
+
+    def _put(
+        self, module: str, node: ast.FunctionDef | ast.ClassDef, imported: dict[str, str]
+    ) -> None:
+        names = {getattr(n, "id", getattr(n, "attr", "")) for n in ast.walk(node)}
+        key = (module, node.name)
+        self.uses.setdefault(key, set()).update(imported.get(n, f"{module}.{n}") for n in names)
+        said = " ".join(ast.unparse(d) for d in node.decorator_list)
+        found = re.findall(r"'([A-Z][A-Z0-9_*]{2,})'|^([A-Z]{3,})\.form", said)
+        self.words.setdefault(key, set()).update(a or b for a, b in found)
+        self.spans.setdefault(module, []).append((node.lineno, node.end_lineno or 0, node.name))
+
+    def names(self, fault: Fault) -> dict[str, float]:
+        """What tests may name of a fault, and how much that counts: callers' callers count less."""
+        module = fault.path[:-3].replace("/", ".")
+        at = {(module, n) for a, b, n in self.spans.get(module, ()) if a <= fault.line <= b}
+        found, known, weight = {module: 1.0}, set(at), 1.0
+        for _ in range(4):
+            for key in at:
+                for name in {key[1], key[0]} | self.words[key]:
+                    found.setdefault(name, weight)
+            ways = {f"{m}.{n}" for m, n in at}
+            at = {key for key, used in self.uses.items() if key not in known and used & ways}
+            known, weight = known | at, 0.4 * weight
+        return found
+
+
+def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str]:
+    """Files of tests that answer for a fault, the nearest first."""
+    module = Path(fault.path).with_suffix("")
+    mirror = Path("tests") / module.parent.relative_to("ssilang")
+    rank = dict.fromkeys(texts, 0.0)
+    for name, weight in callers.names(fault).items():
+        have = [file for file, words in texts.items() if name in words]
+        if len(have) <= COMMON * len(texts):
+            for file in have:
+                rank[file] += weight * math.log(len(texts) / len(have))
+    for file in texts:
+        if Path(file).parent == mirror or mirror in Path(file).parents:
+            rank[file] += 6.0 + 12.0 * (module.name in Path(file).stem)
+    return [f for f in sorted(rank, key=lambda f: (-rank[f], f)) if rank[f] > 0.0][:FILES]
+
+
+class _Watch:
+    """A plugin of pytest: files in their order, long tests last; the first failure; the end."""
+
+    def __init__(self, files: list[str], seconds: float) -> None:
+        self.files, self.seconds, self.said, self.ran = files, seconds, "", 0
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        order = {file: i for i, file in enumerate(self.files)}
+        items.sort(
+            key=lambda i: (i.get_closest_marker("long") is not None, order[i.nodeid.split("::")[0]])
+        )
+
+    def pytest_exception_interact(self, node: Any, call: Any) -> None:
+        name = call.excinfo.typename
+        word = "assertion" if name in ("AssertionError", "Failed") else "crash"
+        self.said = self.said or f"{word} {node.nodeid} ({name})"
+
+    def pytest_runtest_logfinish(self) -> None:
+        self.ran += 1
+        if time.process_time() > self.seconds:
+            pytest.exit("the limit", returncode=0)
+
+
+def judged(copy_of: Path, files: list[str], seconds: float) -> str:
+    """How tests end in a copy of the project, in a process split off from this one."""
     reads, writes = os.pipe()
     pid = os.fork()  # the libraries are imported, the copy is not
     if pid == 0:
         os.close(reads)
         os.setpgid(0, 0)
-        _run_tests(copy_of, tests, writes)
+        resource.setrlimit(resource.RLIMIT_CPU, (int(seconds + HANGS), int(seconds + HANGS) + 5))
+        _run_tests(copy_of, files, seconds, writes)
     os.close(writes)
-    end = time.monotonic() + limit
     with os.fdopen(reads) as told:
-        late = not select.select([told], [], [], limit)[0]
-        said = "" if late else told.read()
-    while not late and os.waitpid(pid, os.WNOHANG) == (0, 0):
-        late = time.monotonic() > end + 10.0
-        time.sleep(0.01)
-    if late:
+        late = not select.select([told], [], [], 4.0 * (seconds + HANGS))[0]
+        said = "" if late else told.read().strip()
+    if not said:
         os.killpg(pid, signal.SIGKILL)
-        os.waitpid(pid, 0)
-        return "longer than the limit"
-    return said.strip() or "pytest itself ended"
+    status = os.waitpid(pid, 0)[1]
+    if late or os.WTERMSIG(status) == signal.SIGXCPU:
+        return "time limit"
+    return said or f"crash of the process ({os.WTERMSIG(status)})"
 
 
-class _First:
-    """A plugin of pytest: the first test, or file, that fails."""
-
-    name = ""
-
-    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        if report.failed and not self.name:
-            self.name = report.nodeid
-
-    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
-        if report.failed and not self.name:
-            self.name = f"{report.nodeid} (collecting)"
-
-
-def _run_tests(copy_of: Path, tests: list[str], told: int) -> None:
-    """Run tests in this process, say what fails and end it."""
+def _run_tests(copy_of: Path, files: list[str], seconds: float, told: int) -> None:
+    """Run tests in this process, say how they end, and end it."""
     silence = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silence, 1)
     os.dup2(silence, 2)
     os.chdir(copy_of)
-    os.environ |= {"PYTHONPATH": str(copy_of)}
+    os.environ["PYTHONPATH"] = str(copy_of)
     sys.path.insert(0, str(copy_of))
-    first = _First()
-    code = 1
+    watch = _Watch(files, seconds)
+    options = ["-n", "0", "-q", "-x", "-p", "no:cacheprovider", "--hypothesis-seed=1"]
     try:
-        code = int(pytest.main(["-n", "0", "-q", "-x", "-p", "no:cacheprovider", *tests], [first]))
+        pytest.main([*options, *files], [watch])
     except BaseException as problem:
-        first.name = first.name or f"pytest: {type(problem).__name__}"
-    os.write(told, (first.name if code else NOTHING).encode() or b"?")
+        watch.said = watch.said or f"crash of pytest ({type(problem).__name__})"
+    os.write(told, (watch.said or f"passed {watch.ran} tests").encode())
     os._exit(0)
 
 
-def chosen(arguments: list[str]) -> dict[str, list[Mutant]]:
-    """The mutants that the command line asks for, by room."""
-    if arguments[:1] == ["again"]:
-        return survivors(Path(arguments[1]))
-    count, seed = (int(a) for a in (arguments + ["200", "1"][len(arguments) :])[:2])
-    rooms = arguments[2:] or list(ROOMS)
-    shares = (count * (k + 1) // len(rooms) - count * k // len(rooms) for k in range(len(rooms)))
-    return {
-        room: list(mutants(room, share, random.Random(f"{seed} {room}")))
-        for room, share in zip(rooms, shares, strict=True)
-    }
+def project(folder: Path) -> Path:
+    """A copy of the project whose byte code is told from its text: mutants come within a second."""
+    for name in ("ssilang", "stdlib", "grammar", "tests", "docs", "cases", "benchmarks"):
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    by_text = py_compile.PycInvalidationMode.CHECKED_HASH
+    compileall.compile_dir(folder / "ssilang", quiet=2, invalidation_mode=by_text)
+    return folder
 
 
-def main(arguments: list[str]) -> int:
-    """Run the mutants; the exit code is that of the command line, not of the tests."""
+def unchanged(copy_of: Path) -> set[str]:
+    """Folders of compiled code of the modules as they are: others are left by mutants."""
+    told = subprocess.run(
+        [sys.executable, "-c", GOOD], cwd=copy_of, env=os.environ | {"PYTHONPATH": str(copy_of)},
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return set(told.stdout.split())
+
+
+def warm_up(kept: Path) -> None:
+    """Take over what the user's runs have compiled: code is named after its text."""
+    own = Path.home() / ".cache/ssilang/compiled"
+    if own.is_dir():
+        shutil.copytree(own, kept / "ssilang/compiled", dirs_exist_ok=True)
+        for folder in (kept, kept / "ssilang", kept / "ssilang/compiled"):
+            folder.chmod(0o700)
+
+
+def try_all(asked: list[Fault], seconds: float, folder: Path, kept: Path) -> Counter[str]:
+    """Judge faults one after the other, telling each; how many ended how."""
+    copy_of = project(folder)
+    files = [str(f.relative_to(ROOT)) for f in sorted((ROOT / "tests").rglob("test_*.py"))]
+    texts = {f: set(re.findall(r"[\w.*]+", (ROOT / f).read_text(encoding="utf-8"))) for f in files}
+    equivalent = tomllib.loads(EQUIVALENT.read_text(encoding="utf-8"))["equivalent"]
+    same = {(e["path"], e["old"].strip(), e["new"].strip()): e["reason"] for e in equivalent}
+    good, callers = unchanged(copy_of), Callers()
+    tests = [near(fault, texts, callers) for fault in asked]
+    warm_up(kept)
+    first = sorted({f for of_one in tests for f in of_one[:1]})
+    print(f"without a mutant: {judged(copy_of, first, seconds)}", flush=True)
+    count: Counter[str] = Counter()
+    for fault, of_one in zip(asked, tests, strict=True):
+        source = fault.source()
+        key = (fault.path, fault.old.strip(), fault.new.strip())
+        started = time.monotonic()
+        if source is None or key in same:
+            word, said = ("EQUIVALENT", same[key]) if source else ("GONE", "")
+        else:
+            target = copy_of / fault.path
+            was = target.read_bytes()
+            target.write_text(source, encoding="utf-8")
+            said = judged(copy_of, of_one, seconds) if of_one else "no test is near"
+            target.write_bytes(was)
+            if (test := re.match(r"\w+ (tests/\S+)", said)) and "[" not in test[1]:
+                alone = judged(copy_of, [test[1]], seconds)
+                said = said if alone.startswith("passed") else f"passes not without it: {alone}"
+            word = "noticed" if re.match("assertion|crash|time", said) else "SURVIVED"
+            for folder in kept.glob("ssilang/compiled/*"):
+                if folder.name not in good:
+                    shutil.rmtree(folder)
+        count[said.split()[0] if word == "noticed" else word] += 1
+        print(f"{word} {time.monotonic() - started:.0f} s  {fault}\n-> {said}", flush=True)
+    return count
+
+
+def main() -> None:
+    """Read the command line, try what it asks for, and tell the share and the score."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("count", nargs="?", type=int, default=100, help="mutants")
+    parser.add_argument("seed", nargs="?", type=int, default=1, help="of the draw of lines")
+    parser.add_argument("--seconds", type=float, default=60.0, help="of tests for a mutant")
+    parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
+    parser.add_argument("--list", action="store_true", help="print the faults and try none")
+    asked = parser.parse_args()
+    chosen, share = drawn(asked.count, asked.seed)
+    chosen = survivors(asked.again) if asked.again else chosen
+    if asked.list:
+        print("\n".join(map(str, chosen)))
+        return
     sys.dont_write_bytecode = True  # what is compiled once is kept, no mutant's
     os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    kept = Path(tempfile.gettempdir()) / f"mutants-{os.getuid()}"  # compiled code, for later runs
+    os.environ["XDG_CACHE_HOME"] = str(kept)
     for library in LIBRARIES:
         import_module(library)
     with tempfile.TemporaryDirectory() as folder:
-        copy_of = Path(folder) / "project"
-        ignored = shutil.ignore_patterns("__pycache__")
-        for name in ("ssilang", "stdlib", "grammar", "tests", "docs", "cases", "benchmarks"):
-            shutil.copytree(ROOT / name, copy_of / name, ignore=ignored)
-        shutil.copy(ROOT / "pyproject.toml", copy_of)
-        # bytecode that is told from its text, not its date: mutants come and go within a second
-        by_text = py_compile.PycInvalidationMode.CHECKED_HASH
-        compileall.compile_dir(copy_of / "ssilang", quiet=2, invalidation_mode=by_text)
-        tried = survived = 0
-        for room, mutants_of_it in chosen(arguments).items():
-            for died in run_room(copy_of, room, mutants_of_it):
-                tried, survived = tried + 1, survived + (not died)
-        print(f"{tried} mutants, {tried - survived} noticed, {survived} survived")
-    return 0
-
-
-def run_room(copy_of: Path, room: str, all_of_it: list[Mutant]) -> Iterator[bool]:
-    """Whether the tests of a room notice each of its mutants, told on the way."""
-    started = time.monotonic()
-    failed = noticed(copy_of, ordered(copy_of, room, Path(), "-"), LIMIT)
-    if failed != NOTHING:
-        print(f"{room}: the tests fail without a mutant: {failed}", flush=True)
-        return
-    limit = min(LIMIT, 60.0 + 5.0 * (time.monotonic() - started))
-    print(f"{room}: {time.monotonic() - started:.0f} s without a mutant", flush=True)
-    for mutant in all_of_it:
-        target = copy_of / mutant.path.relative_to(ROOT)
-        kept = target.read_bytes()
-        target.write_text(mutant.source, encoding="utf-8")
-        started = time.monotonic()
-        failed = noticed(copy_of, ordered(copy_of, room, mutant.path, mutant.function), limit)
-        target.write_bytes(kept)
-        word = "SURVIVED" if failed == NOTHING else "noticed "
-        by = "" if failed == NOTHING else f"  by {failed}"
-        print(f"{word} {time.monotonic() - started:5.0f} s  {mutant.said}{by}", flush=True)
-        yield failed != NOTHING
+        count = try_all(chosen, asked.seconds, Path(folder), kept)
+    ended = ", ".join(f"{n} {word}" for word, n in sorted(count.items()))
+    noticed = count["assertion"] + count["crash"] + count["time"]
+    tried = noticed + count["SURVIVED"]
+    print(f"drawn from {share}; {ended}: {noticed} of {tried} noticed", end="")
+    print(f" ({100 * noticed / tried:.0f} %)" if tried else "")
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

@@ -17,6 +17,7 @@ import shutil
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -39,7 +40,6 @@ from ssilang.language.vocabulary.entries_table import (
     entries_markdown,
     tables_markdown,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 
@@ -258,24 +258,33 @@ _TRIED = (math.nan, math.inf, -1e300, -1.0, 0.0, 0.3, 1.0, 91.0, 1e300)
 
 
 def ranges_markdown() -> str:
-    """Numbers that entries of tables and operands take: range, what is usual, what is refused."""
-    numbers, ranged, tried, told, rows = 0, 0, 0, 0, []
+    """Numbers that entries of tables and operands take: range, what is usual, what is told."""
+    counts: Counter[str] = Counter()
+    rows = []
     for where, index, one in _numbers():
-        numbers += 1
-        if one.range == ANY_NUMBER and one.usual == ANY_NUMBER:
-            continue
-        ranged += 1
-        wrong = [v for v in _TRIED if one.range.flaw(v, index) or one.usual.flaw(v, index)]
-        tried, told = tried + len(_TRIED), told + len(wrong)
         bounds = [bounds_told(b, index, "en") for b in (one.range, one.usual)]
-        shown = " ".join(f"{v:g}" for v in wrong)
-        rows.append(f"| {where} | {bounds[0]} | {bounds[1]} | {shown} |")
+        counts["range" if bounds[0] else "usual" if bounds[1] else "any"] += 1
+        refused = [v for v in _TRIED if one.range.flaw(v, index)]
+        odd = [v for v in _TRIED if v not in refused and one.usual.flaw(v, index)]
+        counts["refused"] += len(refused)
+        counts["told"] += len(odd)
+        counts["tried"] += len(_TRIED)
+        shown = [" ".join(f"{v:g}" for v in wrong) for wrong in (refused, odd)]
+        any_number = "" if any(bounds) else "any"
+        rows.append(f"| {where} | {bounds[0] or any_number} | {bounds[1]} | {' | '.join(shown)} |")
+    total, inside = len(rows), counts["tried"] - counts["refused"] - counts["told"]
     head = (
-        f"# Ranges of numbers\n\n{numbers} entries of tables and operands take numbers, {ranged} "
-        f"of them declare a range; of {tried} numbers tried on these, {told} lie outside and are "
-        "refused, or told where only the usual range is left; the others make sense there. "
+        "# Ranges of numbers\n\nWhat makes sense is declared of every number that an entry of a "
+        "table or an operand takes: what is outside of the range is refused, outside of what is "
+        "usual told. Infinite numbers and what is no number lie outside of every range.\n\n"
+        "| numbers that are taken | with a range | with what is usual alone | any number |\n"
+        "| --- | --- | --- | --- |\n"
+        f"| {total} | {counts['range']} | {counts['usual']} | {counts['any']} |\n\n"
+        f"| tried, {len(_TRIED)} on each | refused | told | in range |\n| --- | --- | --- | --- |\n"
+        f"| {counts['tried']} | {counts['refused']} | {counts['told']} | {inside} |\n\n"
         "Parameters of materials have theirs on the pages of MATE.\n\n"
-        "| entry | range | usual | told of what was tried |\n| --- | --- | --- | --- |\n"
+        "| entry | range | usual | refused of what was tried | told |\n"
+        "| --- | --- | --- | --- | --- |\n"
     )
     return head + "\n".join(rows) + "\n"
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from ssilang.api.errors import refused
 from ssilang.api.html import picture_of
-from ssilang.api.libraries import library
-from ssilang.api.view import View
+from ssilang.api.view import View, library
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 

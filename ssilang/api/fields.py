@@ -10,8 +10,7 @@ import numpy as np
 
 from ssilang.api.errors import MissingKey, refused
 from ssilang.api.html import AXES, components_shown, html_of, nodes_shown
-from ssilang.api.libraries import library
-from ssilang.api.view import View
+from ssilang.api.view import View, library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField

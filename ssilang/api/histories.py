@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import node_axes
-from ssilang.api.libraries import library
+from ssilang.api.view import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering, field_to_vector

@@ -14,8 +14,7 @@ from ssilang.api.curves import CurveView
 from ssilang.api.errors import MissingKey, refused
 from ssilang.api.fields import CellFieldView, FieldView, MeshView, PointView
 from ssilang.api.html import html_of
-from ssilang.api.libraries import library
-from ssilang.api.view import View
+from ssilang.api.view import View, library
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField

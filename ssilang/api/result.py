@@ -16,13 +16,14 @@ from ssilang.api import histories
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
 from ssilang.api.html import rows_html
-from ssilang.api.libraries import library
 from ssilang.api.objects import held, seen
+from ssilang.api.view import library
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import SHORT_LIKE, nearest
+from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
@@ -171,12 +172,15 @@ class Result(Mapping[str, Any]):
 
     @property
     def _names(self) -> dict[str, Any]:
-        variables = self.session.root.variables
-        return {n: v for n, v in variables.items() if v is not PREDEFINED.get(n) and n[0] != "&"}
+        root = self.session.root
+        names = {n for n in root.names() if n[0] != "&"}
+        return {
+            n: v for n, v in root.variables.items() if n in names and v is not PREDEFINED.get(n)
+        }
 
     def __getitem__(self, name: str) -> Any:
         value = self.session.root.find(name.upper())
-        if value is None:
+        if value is None or type(value) is NotBuilt:
             known = list(self._names)
             raise refused(
                 "api.no-such-name", self.language, MissingKey,

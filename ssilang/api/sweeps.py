@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 import numpy as np
 
 from ssilang.api.errors import Error, Notice, refused
-from ssilang.api.libraries import library
 from ssilang.api.running import Allowed, Script, folders
+from ssilang.api.view import library
 from ssilang.cli.sweeping.given import MOTION, Case, GivenError, Value, combined, motions_in
 from ssilang.cli.sweeping.pool import dask_installed
 from ssilang.cli.sweeping.sweep import (

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from importlib import import_module
+from typing import Any, Generic, TypeVar
+
+from ssilang.api.errors import MissingLibrary, refused
 
 Held = TypeVar("Held")
 
@@ -22,3 +25,26 @@ class View(Generic[Held]):
 
     held: Held
     language: str = "en"
+
+
+_LINES = {"pandas": "'ssilang[python]'", "xarray": "'ssilang[python]'", "pyvista": "pyvista"}
+"""What pip installs for a library."""
+
+
+def library(name: str, language: str = "en") -> Any:
+    """A library, imported.
+
+    Raises
+    ------
+    MissingLibrary
+        If it is not installed: how to do that.
+    """
+    try:
+        return import_module(name)
+    except ModuleNotFoundError as missing:
+        if missing.name != name:
+            raise
+        line = _LINES[name]
+        raise refused(
+            "api.library-missing", language, MissingLibrary, name=name, line=line
+        ) from None

@@ -282,6 +282,8 @@ def _sweep(options: argparse.Namespace) -> int:
             options.lang,
             options.together,
             options.report,
+            options.fragility,
+            options.intensity,
         ),
         sys.stdout,
         sys.stderr,

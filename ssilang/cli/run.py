@@ -479,7 +479,7 @@ def write_report(folder: Path, language: str) -> str:
         If no run has left anything there, or it cannot be written.
     """
     from ssilang.cli.editor.outline import colours_of_text
-    from ssilang.report.report_file import make_report
+    from ssilang.report.page import make_report
 
     path = make_report(folder, language, colours_of_text)
     told = {"path": path, "size": path.stat().st_size / 1e6}

@@ -191,6 +191,12 @@ def _sweep(sweep: argparse.ArgumentParser) -> None:
     )
     sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
     sweep.add_argument("--report", action="store_true", help="cli.usage-report-sweep")
+    sweep.add_argument(
+        "--fragility", action="append", default=[], metavar="NAME>VALUE", help="cli.usage-fragility"
+    )
+    sweep.add_argument(
+        "--intensity", action="append", default=[], metavar="NAME", help="cli.usage-intensity"
+    )
     _allowed(sweep)
     _language_argument(sweep)
 

@@ -1,9 +1,10 @@
-"""Names of files that every system takes, and what is wrong with others."""
+"""Names of files that every system takes, and files that truly stand below a folder."""
 
 from __future__ import annotations
 
 import os
 import re
+from pathlib import Path
 
 from ssilang.messages.message import Sentence
 from ssilang.system import POSIX
@@ -37,3 +38,20 @@ def fault_on_windows(name: str) -> Sentence | None:
         if part[-1] in ". ":
             return Sentence("io.reason-end", part=part)
     return None
+
+
+def inside(folder: Path, name: str) -> Path | None:
+    """The file of this name below a folder; None for one elsewhere, a link that leads out, no file.
+
+    Pipes and devices, which would never end, are no files. A name with a root or a drive is refused
+    before the system is asked: that alone would tell another machine who asks.
+    """
+    if Path(name).anchor or "\\" in name or name.startswith("//"):
+        return None
+    path = folder / name
+    try:
+        true = path.resolve(strict=True)
+        sound = true.is_file() and true.is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # gone, a name with a zero, a circle of links
+        return None
+    return path if sound else None

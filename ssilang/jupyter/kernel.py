@@ -7,9 +7,12 @@ stands what is ours.
 from __future__ import annotations
 
 import contextlib
+import io
 import os
+import re
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TextIO, cast
 
@@ -26,7 +29,6 @@ from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.cli.signals import listening
 from ssilang.cli.terminal.loop_progress import follow_loops
-from ssilang.jupyter.streams import SentProgress, SentText
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError, interruption
@@ -35,6 +37,66 @@ from ssilang.language.text.structure import parse
 from ssilang.language.values import type_of
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.loader import load_operators
+
+EVERY = 0.1  # seconds between texts that are sent, at least
+_CONTROL = re.compile(r"\x1b\[[0-9;]*[A-Za-z]|\r")
+
+
+class SentText(io.TextIOBase):
+    """A stream that sends what is written, gathered for a moment.
+
+    Parameters
+    ----------
+    send : function
+        Sends a text.
+    """
+
+    def __init__(self, send: Callable[[str], object]) -> None:
+        self._send = send
+        self._waiting: list[str] = []
+        self._sent = 0.0
+
+    def write(self, text: str) -> int:
+        """Take a text."""
+        self._waiting.append(text)
+        if time.monotonic() - self._sent > EVERY:
+            self.flush()
+        return len(text)
+
+    def flush(self) -> None:
+        """Send what waits."""
+        text = "".join(self._waiting)
+        self._waiting.clear()
+        self._sent = time.monotonic()
+        if text:
+            self._send(text)
+
+
+class SentProgress(io.TextIOBase):
+    """A terminal of one line, on which loops and calculations say how far they are.
+
+    Parameters
+    ----------
+    show : function
+        Shows a line in place of the one before; '' takes it away.
+    """
+
+    def __init__(self, show: Callable[[str], object]) -> None:
+        self._show = show
+        self._shown = ""
+
+    def isatty(self) -> bool:
+        """Yes: lines of progress appear on terminals alone."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Show a line; one of blanks wipes it."""
+        line = _CONTROL.sub("", text).strip()
+        if line != self._shown:
+            self._shown = line
+            self._show(line)
+        return len(text)
+
 
 Reply = dict[str, Any]
 

@@ -16,7 +16,7 @@ from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
-from ssilang.language.vocabulary.terms import ANY_NUMBER, Range
+from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range
 from ssilang.messages.message import Translated, french, spoken
 
 ANY = "*"
@@ -55,8 +55,8 @@ class Argument(Translated):
     behind: bool = False
     leads: bool = False
     whole: bool = False
-    range: Range = ANY_NUMBER
-    usual: Range = ANY_NUMBER
+    range: Range = UNSAID
+    usual: Range = UNSAID
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -149,8 +149,8 @@ def arg(
     en: str = "",
     unit: str = "",
     kind: str = "",
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
     return Argument(name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual)
@@ -170,8 +170,8 @@ def named(name: str, optional: bool = False, en: str = "") -> Argument:
 
 
 def main(name: str, *types: str, en: str = "") -> Argument:
-    """The operand whose type decides which form of an operator runs."""
-    return Argument(name, types, en=en, main=True)
+    """The operand whose type decides which form of an operator runs; of numbers, any."""
+    return Argument(name, types, en=en, main=True, range=ANY_NUMBER)
 
 
 def opt(
@@ -181,8 +181,8 @@ def opt(
     en: str = "",
     unit: str = "",
     kind: str = "",
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """An optional operand."""
     return Argument(
@@ -203,6 +203,8 @@ def many(
     unit: str = "",
     kind: str = "",
     whole: bool = False,
+    range: Range = UNSAID,
+    usual: Range = UNSAID,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -223,6 +225,8 @@ def many(
         left=tuple(left),
         behind=behind,
         whole=whole,
+        range=range,
+        usual=usual,
     )
 
 
@@ -355,7 +359,8 @@ class Help(Translated):
     """Help of an operator, shown by INFO, `ssilang help` and the manual.
 
     `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page.
-    `in_french` is of procedures, which bring their own; of operators the catalogue has it.
+    `examples` and `in_french` are of procedures, which bring their own; for operators files of
+    `ssilang/messages` have them.
     """
 
     en: str
@@ -523,8 +528,7 @@ class Operator:
         return Help(
             "\n".join(h.en for h in helps if h.en),
             "\n".join(h.syntax for h in helps if h.syntax),
-            tuple(e for h in helps for e in h.examples),
-            next((h.tables for h in helps if h.tables is not None), None),
+            tables=next((h.tables for h in helps if h.tables is not None), None),
         )
 
     def form(
@@ -533,7 +537,6 @@ class Operator:
         gives: str | Sequence[str] | Like | By | None = None,
         syntax: str = "",
         en: str = "",
-        examples: Sequence[str] = (),
         by_hand: str = "",
         when: When | None = None,
         of: Sequence[str] = (),
@@ -552,7 +555,7 @@ class Operator:
             operand is read.
         gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
-        syntax, en, examples
+        syntax, en
             Help of this form.
         by_hand : str
             Why the function reads for itself: it takes the call, and behind it the main operand
@@ -566,13 +569,12 @@ class Operator:
         """
 
         def add(function: Function) -> Function:
-            help = Help(en, syntax, tuple(examples))
             made = Form(
                 tuple(entries) if entries or not by_hand else None,
                 function,
                 _injected(function),
                 _gives(gives),
-                help,
+                Help(en, syntax),
                 by_hand,
                 when,
                 tuple(of),
@@ -583,15 +585,14 @@ class Operator:
 
         return add
 
-    def extend_help(self, syntax: str, en: str, examples: Sequence[str] = ()) -> None:
-        """Add a paragraph, syntax lines and examples to what is said of the operator as a whole."""
+    def extend_help(self, syntax: str, en: str) -> None:
+        """Add a paragraph and syntax lines to what is said of the operator as a whole."""
         OPERATORS.note(self.name)
         old = self.about
         self.about = Help(
             "\n".join(t for t in (old.en, en) if t),
             "\n".join(t for t in (old.syntax, syntax) if t),
-            (*old.examples, *examples),
-            old.tables,
+            tables=old.tables,
         )
 
     def _add(self, made: Form, ahead: bool) -> None:

@@ -165,6 +165,19 @@ def _french() -> dict[str, str]:
     return texts
 
 
+def examples(family: str, operator: str) -> tuple[str, ...]:
+    """Scripts that show an operator, from `examples/mesh.toml` for the family mesh."""
+    return tuple(_examples(family).get(operator, ()))
+
+
+@cache
+def _examples(family: str) -> dict[str, list[str]]:
+    import tomllib
+
+    path = Path(__file__).parent / "examples" / f"{family}.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
 def find(code: str) -> Message:
     """The message of a code.
 

@@ -27,6 +27,8 @@ class Line:
     name: str
     x: FloatArray
     y: FloatArray
+    points: bool = False
+    """Whether points stand alone."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,8 @@ class Chart:
 
     Attributes
     ----------
-    group : 'verdict', 'footing', 'energy', 'curves', 'tables' or 'sweep'
+    group : str
+        'verdict', 'footing', 'energy', 'curves', 'tables', 'sweep', 'fragility' or 'floors'.
     x, y : str
         Names of the axes with their units.
     log : (bool, bool)
@@ -59,9 +62,13 @@ class Chart:
             "log": list(self.log),
             "loop": self.loop or not all(_rises(line.x) for line in self.lines),
             "lines": [
-                {"name": line.name, "x": _plain(line.x), "y": _plain(line.y)} for line in self.lines
+                {
+                    "name": line.name, "x": _plain(line.x), "y": _plain(line.y),
+                    "points": line.points,
+                }
+                for line in self.lines
             ],
-        }
+        }  # fmt: skip
 
 
 def _rises(x: FloatArray) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib import resources
 
@@ -61,3 +61,35 @@ def number(value: object) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return ""
     return f"{value + 0.0:.5g}"
+
+
+MOST_LINES = 20_000
+
+Colours = Callable[[str], Sequence[tuple[int, int, str]]]
+"""Start, end and colour of the words and comments of a text, in its order."""
+
+
+def deck_html(text: str, colours: Colours, wrong: Sequence[int] = ()) -> str:
+    """A deck; lines that are `wrong` are marked."""
+    text = "\n".join(text.split("\n")[:MOST_LINES])
+    spans = colours(text)
+    made: list[str] = []
+    at = 0
+    for start, end, colour in spans:
+        if start < at:
+            continue
+        made.append(_plain(text[at:start]))
+        parts = text[start:end].split("\n")
+        made.append("\n".join(f'<i class="{colour}">{_plain(p)}</i>' if p else "" for p in parts))
+        at = end
+    made.append(_plain(text[at:]))
+    lines = "".join(made).split("\n")
+    numbered = [
+        f'<li id="line-{i}"{" class=wrong" if i in wrong else ""}><code>{line or " "}</code></li>'
+        for i, line in enumerate(lines, 1)
+    ]
+    return f"<ol class=deck>{''.join(numbered)}</ol>"
+
+
+def _plain(text: str) -> str:
+    return html.escape("\n".join(visible(part) for part in text.split("\n")), quote=False)

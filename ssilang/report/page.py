@@ -13,13 +13,24 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.atomic import write_text
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, charts_html, charts_of
-from ssilang.report.deck_text import Colours, deck_html
-from ssilang.report.html import asset, json_in_page, number, section, table, text
-from ssilang.report.results import Results
+from ssilang.report.html import (
+    Colours,
+    asset,
+    deck_html,
+    json_in_page,
+    number,
+    section,
+    table,
+    text,
+)
+from ssilang.report.results import Results, read_results
 from ssilang.report.scenes import SceneError, packed_scene
+from ssilang.report.sweep_page import sweep_page
+from ssilang.report.sweep_table import is_sweep, read_sweep
 from ssilang.report.verdict import verdict_html
 
 LARGEST = 20_000_000
@@ -421,3 +432,28 @@ def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
         f"<option value={i}>{text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
     )
     return notes + Template(asset("viewer.html")).substitute(options=options, **words)
+
+
+NAME = "report.html"
+
+
+def make_report(folder: Path, language: str, colours: Colours) -> Path:
+    """Write the report of a folder, of a run or a sweep, into it.
+
+    Parameters
+    ----------
+    language : 'en' or 'fr'
+    colours : callable
+        Start, end and colour of the words of a deck.
+
+    Raises
+    ------
+    InputError, OutputError
+        If no run has left anything there, or it cannot be written.
+    """
+    path = folder / NAME
+    if is_sweep(folder):
+        write_text(path, sweep_page(read_sweep(folder), language))
+    else:
+        write_text(path, page_of(read_results(folder), language, colours))
+    return path

@@ -75,7 +75,8 @@ VERDICT = {
     "left": Named(Maybe(NUMBER), frozenset({"ROTATION", "ENFONCEMENT"})),
     "floors": [{
         "floor": COUNT, "component": TEXT, "damping": TEXT, "acceleration": Maybe(NUMBER),
-        "frequency": Maybe(NUMBER),
+        "frequency": Maybe(NUMBER), "largest?": NUMBER,
+        "frequencies?": [NUMBER], "accelerations?": [NUMBER],
     }],
 }  # fmt: skip
 SUMMARY = {
@@ -96,6 +97,9 @@ SUMMARY = {
     },
 }  # fmt: skip
 """What a page reads of `summary.json` (`cli/summary.py` writes it)."""
+
+FRAGILITY = {"limits": [TEXT], "intensities": [TEXT]}
+"""What a sweep was asked for (`report/fragilities.py` writes it)."""
 
 DRAWING = {
     "title": TEXT, "x": TEXT, "y": TEXT, "log": PAIR, "files": [TEXT], "loop?": TRUTH,

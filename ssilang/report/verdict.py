@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -29,6 +30,11 @@ _LEFT = {
     "ENFONCEMENT": "stdlib.bilanssi-left-enfoncement",
 }
 _GIVEN = {"capacity": "report.capacity", "friction": "report.friction"}
+
+
+def is_endless(name: str, value: float) -> bool:
+    """Whether a figure is a factor cut at its top: there is no moment or shear."""
+    return _LIMITS.get(re.sub(r"_\d+$", "", name), ("", 0.0))[0] == "below" and value >= _TOP
 
 
 def verdict_html(results: Results, charts: Sequence[Chart], told: Teller) -> str:

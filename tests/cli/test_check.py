@@ -13,6 +13,7 @@ from ssilang.cli.check import check_file, check_source
 from ssilang.cli.run import run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.say.diagnostics import render
+from ssilang.language.say.reference import operator_page
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.operators.loader import load_operators
@@ -32,7 +33,7 @@ FIN B1 ;
 """
 
 load_operators()
-_EXAMPLES = {o.name: o.help.examples for o in OPERATORS.values()}
+_EXAMPLES = {o.name: operator_page(o).help.examples for o in OPERATORS.values()}
 
 
 def codes(text: str) -> list[str]:
@@ -83,6 +84,7 @@ def errors(source: Source) -> list[str]:
         ("L = PROG 1. ; X = L ET (FLUX 'DEPL' L) ; MESS X ;", "unknown-operator"),
         ("L = PROG 1. ; X = L ET FLUX (L ET L) ; MESS X ;", "unknown-operator"),
         ("L = PROG 1. ; X = (L ET L) FLUX 'DEPL' ; MESS X ;", "unknown-operator"),
+        ("FLUX 1 ;", "unknown-operator"),
     ],
 )
 def test_finds(text, code):
@@ -95,6 +97,7 @@ def test_finds(text, code):
         ("X = 1 / 2 ; MESS X ;", "integer-division"),
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
         ("X = 1 ;", "unused-name"),
+        ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
         ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
@@ -141,6 +144,8 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "I = 7 ; J = 2 ; K = I * 2 / J ; MESS K ;",
         "REPE BLOC1 3 ; SI (&BLOC1 > 1) ; QUIT BLOC1 ; FINSI ; FIN BLOC1 ;",
         "DEBP P X Y ; Z = MATE X 'YOUNG' Y 'ALPHA' 1. 'CREF' 2. ; FINP Z ; A = P 1 2 ; MESS A ;",
+        "DEBP P A*ENTIER ; SI (A EGA 2) ; QUIT B ; FINSI ; FINP ; REPE B 4 ; P &B ; FIN B ;",
+        "REPE B 4 ; REPE C 2 ; SI (&C EGA 2) ; quit B ; FINSI ; FIN C ; FIN B ;",
         "L = MOTS 'CARA' 'YUON' ; MESS L (MOTS MATE YUON) ;",
         "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
@@ -149,6 +154,47 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
 )
 def test_raises_no_false_alarm(text):
     assert errors(Source("test", text)) == []
+
+
+_BODY = "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
+_MODEL = "MO = MODE S MECANIQUE ELASTIQUE ; "
+_CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        _MODEL + "YOUN1 = 2. ; ALPH1 = 1. ; A = MATE MO YOUNG YOUN1 NU 0. ALPHA ALPH1 ; LIST A ;",
+        "EIX1 = 3. ; MESS EIX1 ; F = 1. ; E = EVOL MANU EIXX " + _CURVE.format("ALPHA"),
+        "DUREE = 1. ; MESS DUREE ; E = EVOL ROUG MANU DUREX " + _CURVE.format("EPSIL"),
+        "E = EVOL MANU UXX " + _CURVE.format("FXX"),
+        "ROSE1 = 1. ; MESS ROSE1 ; T = S COUL ROSE ; LIST T ; OPTI COUL VERT ;",
+        "OPTI MODE PLAN GENE ; B = BLOQ RX UZ RY (S POIN 1) ; LIST B ;",
+    ],
+)
+def test_words_of_operators_are_no_misspelt_names(text):
+    problems, _ = check_source(Source("test", _BODY + text))
+    assert [p.code for p in problems if p.code != "unused-name"] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "place"),
+    [
+        ("M = MODE S THERMIQUE ;", "operators.models.formulation-not-available", "THERMIQUE"),
+        ("M = MODE S 'POREUX' ;", "operators.models.formulation-not-available", "'POREUX'"),
+        ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT MAZARS ;",
+         "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
+        ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT DST ;",
+         "operators.models.word-unknown", "DST"),
+        ("M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT POUT ;",
+         "kernel.materials.elements-family-no-plastic-law", "MODE"),
+        ("T . 'LAGRANGIEN' = MOT 'JADIS' ; PASAPAS T ;", "entry-value", "T . 'LAGRANGIEN'"),
+    ],
+)  # fmt: skip
+def test_finds_what_a_run_refuses_of_a_model(text, code, place):
+    text = _BODY + "L = DROI 1 (0. 0.) (1. 0.) ; M = 0 ; T = TABL ; " + text + " LIST M ; LIST L ;"
+    found = [p for p in check_source(Source("test", text))[0] if p.severity == "error"]
+    assert [(p.code, p.span.text) for p in found] == [(code, place)]
 
 
 @pytest.mark.parametrize(

@@ -164,7 +164,7 @@ def test_check_of_several_files(ssilang, script):
 
 
 def test_syntax_only_passes_operators_out_of_scope(ssilang, script):
-    deck = script("x = FLUX 1 2 3 ;\n")
+    deck = script("x = FLUX 1 2 3 ; MESS x ;\n")
     assert ssilang("check", deck).code == 1
     assert ssilang("check", "--syntax-only", deck).code == 0
 

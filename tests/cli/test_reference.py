@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import tomllib
+from pathlib import Path
+
 import pytest
 
-from ssilang.language.registry import OPERATORS
+from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import example_lines, find_page, overview, page_text
+from ssilang.messages import message
 from ssilang.operators.loader import load_operators
 
 load_operators()
@@ -37,3 +41,10 @@ def test_examples_are_shown_as_they_run(name):
     for example in find_page(name, standard_procedures()).help.examples:
         shown = example_lines(example)
         assert " ".join(" ".join(shown).split()) == " ".join(example.split())
+
+
+@pytest.mark.parametrize("family", sorted(operators_by_family()))
+def test_examples_stand_by_operators_of_their_family(family):
+    names = {found.name for found in operators_by_family()[family]}
+    path = Path(message.__file__).parent / "examples" / f"{family}.toml"
+    assert set(tomllib.loads(path.read_text(encoding="utf-8"))) <= names

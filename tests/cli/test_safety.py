@@ -17,10 +17,9 @@ _WRITERS = [
     "OPTI SORT '{path}' ; SORT 'VTK ' S ;",
     "OPTI SORT '{path}' ; SORT 'AVS ' S ;",
     "OPTI SAUV '{path}' ; SAUV L ;",
-    "OPTI TRAC PSC FTRA '{path}' ; TRAC S ;",
-    "OPTI TRAC PSC FTRA '{path}' ; DESS (EVOL 'MANU' L L) ;",
     "OPTI IMPR '{path}' ; MESS 'text' ;",
 ]
+_PICTURES = ["TRAC S ;", "DESS (EVOL 'MANU' L L) ;"]
 _READERS = [
     "OPTI DONN '{path}' ;",
     "OPTI ACQU '{path}' ; ACQU X*FLOTTANT ;",
@@ -52,11 +51,29 @@ def run(text: str, base: Path, *allowed: Path):
 @pytest.mark.parametrize("form", ["../../private/made", "{base}/private/made"])
 def test_writing_outside_is_refused(outside, statement, form):
     text = _MESH + statement.format(path=form.format(base=outside))
-    run(text, outside)
-    names = {p.name for p in (outside / "private").iterdir()}
-    assert names == {"secret.csv"}
-    made = [p for p in outside.rglob("made*") if outside / "deck" not in p.parents]
-    assert made == []
+
+    def made():
+        return [p for p in outside.rglob("made*") if outside / "deck" not in p.parents]
+
+    refused = run(text, outside)
+    assert refused.exit_code == 1
+    assert "outside" in refused.message
+    assert "--allow" in refused.message
+    assert made() == []
+    assert [p.name for p in (outside / "private").iterdir()] == ["secret.csv"]
+    allowed = run(text, outside, (outside / "private").resolve())
+    assert allowed.exit_code == 0, allowed.message
+    if "{base}" in form:  # else it is a place below the folder of output
+        assert {p.parent for p in made()} == {outside / "private"}
+
+
+@pytest.mark.parametrize("statement", _PICTURES)
+@pytest.mark.parametrize("form", ["../../private/made", "{base}/private/made"])
+def test_pictures_take_the_name_alone_and_lie_among_the_results(outside, statement, form):
+    path = form.format(base=outside)
+    result = run(f"{_MESH} OPTI TRAC PSC FTRA '{path}' ; {statement}", outside)
+    assert result.exit_code == 0, result.message
+    assert {p.parent for p in outside.rglob("*made*")} == {outside / "deck" / "out"}
 
 
 @pytest.mark.parametrize("statement", _READERS)
@@ -83,7 +100,7 @@ def test_allow_opens_a_folder(outside):
 
 @pytest.mark.parametrize("word", ["EXTE", "CHAU", "VENV"])
 def test_no_operator_talks_to_the_system(outside, word):
-    result = run(f"X = {word} 'ls' ;", outside)
+    result = run(f"X = {word} 'ls' ; MESS X ;", outside)
     assert result.exit_code == 1
     assert "out of ssilang's scope" in result.message
 

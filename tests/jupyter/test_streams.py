@@ -3,7 +3,7 @@
 import pytest
 
 from ssilang.cli.terminal.loop_progress import LoopProgress
-from ssilang.jupyter.streams import SentProgress, SentText
+from ssilang.jupyter.kernel import SentProgress, SentText
 from ssilang.messages.message import teller
 from ssilang.operators.session.progress import ProgressLine
 

@@ -13,7 +13,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListReel, type_of
 from ssilang.language.vocabulary.entries import declared_names, read_declaration
 from ssilang.language.vocabulary.entry_checks import checked
-from ssilang.language.vocabulary.terms import ANY_NUMBER, Range, read_range
+from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range, read_range
 from ssilang.messages.message import sentence
 from ssilang.operators.loader import load_operators
 from ssilang.operators.workspace import open_session
@@ -25,6 +25,8 @@ SENSELESS = (math.nan, math.inf, -math.inf, -1e300, -1.0, 0.0, 0.3, 1.0, 91.0, 1
 def belongs(bound: Range, value: float) -> bool:
     """Whether a number is in a range, by what help prints of it."""
     text = bound.text("x")
+    if bound == ANY_NUMBER:
+        return True
     return math.isfinite(value) and (not text or eval(text, {"x": value}))
 
 
@@ -38,17 +40,31 @@ def tried(types, value):
         yield ListReel(np.array([value]))
 
 
-RANGED = [
+ENTRIES = [
     e
     for name in declared_names()
     for e in read_declaration(name).entries
-    if e.is_read and e.range != ANY_NUMBER
+    if e.is_read and set(e.types) & set(NUMBERS)
 ]
+RANGED = [e for e in ENTRIES if e.range != UNSAID]
+BOUNDED = [e for e in RANGED if e.range != ANY_NUMBER]
+
+
+def test_every_number_says_what_makes_sense():
+    """A range, what is usual, or that any number does: nothing is left open."""
+    assert len(ENTRIES) > 500
+    told = [".".join(e.path) for e in ENTRIES if e.range == e.usual == UNSAID]
+    assert not told
+    assert len(operands()) > 400
+    told = [
+        f"{name} {a.name}" for (name, _), a in operands().items() if a.range == a.usual == UNSAID
+    ]
+    assert not told
 
 
 def test_every_entry_with_a_range_refuses_what_is_outside_of_it():
     session, tries, refused = open_session(Session()), 0, 0
-    for entry in RANGED:
+    for entry in BOUNDED:
         assert set(entry.types) & set(NUMBERS), entry.path
         for number in SENSELESS:
             for value in tried(entry.types, number):
@@ -63,14 +79,14 @@ def test_every_entry_with_a_range_refuses_what_is_outside_of_it():
                 for language in ("en", "fr"):
                     said = render(caught.value, language, ())
                     assert entry.index in said or entry.index in "I*", said
-    assert len(RANGED) > 200
+    assert len(BOUNDED) > 200
     assert refused > 0.5 * tries
 
 
 @pytest.mark.parametrize("values", [[], [0.0, 2.0, 1.0], [0.0, 1.0, 1.0], [math.nan, 1.0]])
 def test_lists_that_must_increase_are_refused_where_they_do_not(values):
     session = open_session(Session())
-    rising = [e for e in RANGED if e.range.increasing]
+    rising = [e for e in BOUNDED if e.range.increasing]
     assert len(rising) >= 5
     for entry in rising:
         with pytest.raises(SsiError):
@@ -78,7 +94,7 @@ def test_lists_that_must_increase_are_refused_where_they_do_not(values):
 
 
 def test_defaults_lie_in_their_range():
-    for entry in RANGED:
+    for entry in BOUNDED:
         if isinstance(entry.fallback, int | float) and not isinstance(entry.fallback, bool):
             assert belongs(entry.range, entry.fallback), entry.path
 
@@ -93,6 +109,8 @@ def test_defaults_lie_in_their_range():
         ("<= 0.5", [-3, 0.5], [0.51]),
         ("increasing", [-5, 5], []),
         ("increasing > 0", [1], [0]),
+        ("!= 0", [-1, 1e-300], [0, 0.0]),
+        ("any", [-1e300, 0, 10**400], []),
     ],
 )
 def test_a_range_is_read_as_it_is_written(text, inside, outside):
@@ -116,15 +134,15 @@ def operands():
 
 
 def test_ranges_of_operands_are_of_numbers_and_hold_their_defaults():
-    ranged = [a for a in operands().values() if a.range != ANY_NUMBER or a.usual != ANY_NUMBER]
-    assert len(ranged) > 80
+    ranged = list(operands().values())
+    assert sum(a.range not in (UNSAID, ANY_NUMBER) for a in ranged) > 200
     for a in ranged:
-        bound = a.range if a.range != ANY_NUMBER else a.usual
+        bound = a.range if a.range != UNSAID else a.usual
         for number in SENSELESS:
             for value in tried(a.types, number):
                 flaw = bound.flaw(value, a.name)
                 assert (flaw is None) is belongs(bound, number), (a.name, number)
-        if isinstance(a.default, float) and a.range != ANY_NUMBER and a.default:
+        if isinstance(a.default, float) and a.range != UNSAID and a.default:
             assert belongs(a.range, a.default), a.name
 
 

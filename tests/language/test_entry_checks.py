@@ -35,6 +35,27 @@ def warnings(text: str, language: str = "en") -> list[str]:
 
 
 @pytest.mark.parametrize(
+    ("deck", "entry", "word"),
+    [
+        (DYNAMIC, "T1 . 'VITEUNIL' = MOT 'FAUX' ;", "FAUX"),
+        (PASAPAS, "T1 . 'GRANDS_DEPLACEMENTS' = 'vrai' ;", "VRAI"),
+        (PASAPAS, "T1 . 'MES_SAUVEGARDES' = TABL ; T1 . 'MES_SAUVEGARDES' . 'DEFTO' = 'FAUX' ;",
+         "FAUX"),
+    ],
+)  # fmt: skip
+def test_a_word_for_a_logical_is_told_and_taken_as_it(deck, entry, word):
+    script, call = deck
+    result = run_text(script + entry + call)
+    assert result.exit_code == 0, result.message
+    (told,) = [w for w in result.session.warnings if w.code == "word-of-truth"]
+    assert told.data["word"] == word
+    plain = run_text(script + entry.replace("MOT 'FAUX'", "FAUX").replace("'FAUX'", "FAUX") + call)
+    assert [w.code for w in plain.session.warnings if w.code == "word-of-truth"] == (
+        ["word-of-truth"] if word == "VRAI" else []
+    )
+
+
+@pytest.mark.parametrize(
     ("deck", "entry", "right"),
     [
         (DYNAMIC, "T1 . 'CHARGEMENT' = 1 ;", "'CHAR'"),

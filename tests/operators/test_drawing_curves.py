@@ -91,6 +91,15 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("extra", ["", " 7", " 1 2"])
+def test_dashes_behind_the_last_segment_are_told_and_left_out(extra: str, tmp_path: Path) -> None:
+    script = f"T . 'LIGNE_VARIABLE' . 2 = LECT 0 1{extra} ; DESS E T ;"
+    result = run(PORTION.format("LIGNE_VARIABLE", f"LECT 5 0{extra}") + script, tmp_path)
+    told = [w for w in result.session.warnings if w.code == "operators.drawing.dashes-beyond"]
+    assert [w.data["curves"] for w in told] == ([[1, 2]] if extra else [])
+    assert len(list(tmp_path.glob("*.png"))) == 1
+
+
 def test_bars_of_a_histogram(tmp_path: Path) -> None:
     script = (
         "T = TABL ; T . 'HPOS' = 10. ; T . 'DESS' = 'GRIL AXES' ; "

@@ -103,7 +103,7 @@ def test_lists_instead_of_fields(tmp_path):
         + """
         TS . 'VARIABLE' . 'TYPE_SORTIE' = MOT 'LISTREEL' ; R = DYNE 'FOX_GOODWIN' T TS TI 50 0.01 ;
         Q = DYNE 'FOX_GOODWIN' T TI 50 0.01 ;
-        W = R . 'VITESSE' . 1 ; N = DIME W ; X = EXTR W 51 ;
+        W = R . 'VITESSE' . (T . 'MODES' . 1 . 'POINT_REPERE') ; N = DIME W ; X = EXTR W 51 ;
         E = EVOL 'SOLU' Q 'VITE' T 'ALFA' ; EY = EXTR E 'ORDO' 1 ; Y = EXTR EY 51 ;
         """,
         tmp_path,
@@ -115,7 +115,7 @@ def test_lists_instead_of_fields(tmp_path):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ("L1 . 'TYPE_LIAISON' = MOT 'LIGNE_LIGNE_FROTTEMENT' ;", "it may be"),
+        ("L1 . 'TYPE_LIAISON' = MOT 'PALIER_FLUIDE' ;", "it may be"),
         ("L1 . 'NORMALE' = 0. 0. ;", "has no length"),
         ("L1 . 'RAIDEUR' = -1. ;", "has no positive stiffness"),
         ("OUBL L1 'RAIDEUR' ;", "the link has no 'RAIDEUR'"),
@@ -188,3 +188,296 @@ def test_disc_on_a_plane_wants_its_radius(change, tmp_path):
     result = run_text(script, output_directory=tmp_path)
     assert result.exit_code == 1
     assert "RAYON_SUPPORT" in result.message
+
+
+# --- lines, bodies that turn, polynomials, tables PASAPAS ----------------------------------------
+
+MASS = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0.3 0.10013 ; PX = 0. 0. ; PY = 0. 0. ;
+TM = TABL 'BASE_DE_MODES' ;
+TM . 1 = TABL 'MODE' ; TM . 1 . 'POINT_REPERE' = PX ; TM . 1 . 'FREQUENCE' = 0. ;
+TM . 1 . 'MASSE_GENERALISEE' = 2. ;
+TM . 1 . 'DEFORMEE_MODALE' = MANU 'CHPO' P 3 'UX' 1. 'UY' 0. 'RZ' 0. ;
+TM . 2 = TABL 'MODE' ; TM . 2 . 'POINT_REPERE' = PY ; TM . 2 . 'FREQUENCE' = 0. ;
+TM . 2 . 'MASSE_GENERALISEE' = 2. ;
+TM . 2 . 'DEFORMEE_MODALE' = MANU 'CHPO' P 3 'UX' 0. 'UY' 1. 'RZ' 0. ;
+TB = TABL 'BASE_MODALE' ; TB . 'MODES' = TM ;
+TI = TABL 'INITIAL' ;
+TI . 'VITESSE' = (MANU 'CHPO' PX 1 'ALFA' 0.5) ET (MANU 'CHPO' PY 1 'ALFA' -1.) ;
+L1 = TABL 'LIAISON_ELEMENTAIRE' ; TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ;
+TL . 'LIAISON_B' . 1 = L1 ; TV = TABL 'VARIABLE' ;
+TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ; TS . 'LIAISON_B' . L1 = TV ;
+TV . 'FORCE_DE_CHOC_NORMALE' = VRAI ; TV . 'FORCE_DE_CHOC_TANGENTIELLE' = VRAI ;
+L1 . 'COEFFICIENT_GLISSEMENT' = 0.2 ; L1 . 'COEFFICIENT_ADHERENCE' = 0.2 ;
+L1 . 'RAIDEUR_TANGENTIELLE' = -1. ; L1 . 'AMORTISSEMENT_TANGENTIEL' = 1.E-3 ;
+"""
+LINE = """
+L1 . 'TYPE_LIAISON' = MOT 'LIGNE_LIGNE_FROTTEMENT' ; L1 . 'LIGNE_MAITRE' = {line} ;
+L1 . 'LIGNE_ESCLAVE' = P ; L1 . 'RAIDEURS' = MANU 'CHPO' P 1 'RAID' 5.E4 ;
+TV . 'CHPOINT_FORCE_DE_CHOC' = VRAI ;
+"""
+
+
+@pytest.mark.parametrize(
+    "line", ["DROI 3 (2. 0.) (-1. 0.)", "(DROI 1 (0.31 0.) (-1. 0.)) ET (DROI 2 (2. 0.) (0.31 0.))"]
+)
+def test_a_node_strikes_a_line_as_it_strikes_a_plane(line, tmp_path):
+    root = run(
+        MASS
+        + LINE.format(line=line)
+        + """
+        ELIM (L1 . 'LIGNE_MAITRE') 1.E-9 ;
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 ; F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        X = R . L1 . 'CHPOINT_FORCE_DE_CHOC' . 1100 ;
+        FN = EXTR X P 'NORM' ; FT = EXTR X P 'TANG' ; F1 = EXTR F 1100 ;
+        L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN_FROTTEMENT' ; L1 . 'SUPPORT' = P ;
+        L1 . 'NORMALE' = 0. -1. ; L1 . 'JEU' = 0.10013 ; L1 . 'RAIDEUR' = 5.E4 ;
+        OUBL TV 'CHPOINT_FORCE_DE_CHOC' ;
+        S = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 ; G = S . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        V = (R . 1501 . 'VITESSE') - (S . 1501 . 'VITESSE') ; D = MAXI V 'ABS' ;
+        VY = EXTR (R . 1501 . 'VITESSE') PY 'ALFA' ; VX = EXTR (R . 1501 . 'VITESSE') PX 'ALFA' ;
+        """,
+        tmp_path,
+    )
+    np.testing.assert_allclose(root.find("F").values, root.find("G").values, atol=1e-6)
+    assert root.find("D") < 1e-9
+    assert root.find("FN") == pytest.approx(root.find("F1"))
+    assert root.find("FT") == pytest.approx(0.2 * abs(root.find("FN")))
+    # a rebound without loss; friction takes its share of twice the impulse
+    assert root.find("VY") == pytest.approx(1.0, rel=1e-5)
+    assert root.find("VX") == pytest.approx(0.5 - 0.2 * 2.0, rel=1e-3)
+
+
+def test_a_line_gets_what_it_gives(tmp_path):
+    root = run(
+        MASS
+        + """
+        A = DROI 2 (2. 0.) (-1. 0.) ; PA = 0. 0. ; TM . 3 = TABL 'MODE' ;
+        TM . 3 . 'POINT_REPERE' = PA ; TM . 3 . 'FREQUENCE' = 0. ;
+        TM . 3 . 'MASSE_GENERALISEE' = 3. ;
+        TM . 3 . 'DEFORMEE_MODALE' = MANU 'CHPO' A 2 'UX' 0. 'UY' 1. ;
+        """
+        + LINE.format(line="A")
+        + """
+        L1 . 'COEFFICIENT_GLISSEMENT' = 0. ; L1 . 'SYMETRIE' = MOT 'LOCALE' ;
+        L1 . 'LIGNE_ESCLAVE' = MANU 'SEG2' P (P PLUS (0.05 0.)) ;
+        B = L1 . 'LIGNE_ESCLAVE' ;
+        TM . 1 . 'DEFORMEE_MODALE' = MANU 'CHPO' B 2 'UX' 1. 'UY' 0. ;
+        TM . 2 . 'DEFORMEE_MODALE' = MANU 'CHPO' B 2 'UX' 0. 'UY' 1. ;
+        L1 . 'RAIDEURS' = MANU 'CHPO' (A ET B) 1 'RAID' 5.E4 ; OUBL TV 'CHPOINT_FORCE_DE_CHOC' ;
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 ;
+        V2 = EXTR (R . 1501 . 'VITESSE') PY 'ALFA' ; V3 = EXTR (R . 1501 . 'VITESSE') PA 'ALFA' ;
+        """,
+        tmp_path,
+    )
+    # elastic shock of masses 2 and 3
+    assert root.find("V2") == pytest.approx((2.0 - 3.0) / 5.0 * -1.0, rel=1e-4)
+    assert root.find("V3") == pytest.approx(2.0 * 2.0 / 5.0 * -1.0, rel=1e-4)
+
+
+def test_a_line_in_a_ring_is_pushed_back(tmp_path):
+    root = run(
+        """
+        OPTI DIME 3 MODE TRID ELEM SEG2 ; A = DROI 2 (-1. 0. 0.) (1. 0. 0.) ; P = 0.5 0. 0. ;
+        PY = 0. 0. 0. ; TM = TABL 'BASE_DE_MODES' ; TM . 1 = TABL 'MODE' ;
+        TM . 1 . 'POINT_REPERE' = PY ; TM . 1 . 'FREQUENCE' = 0. ;
+        TM . 1 . 'MASSE_GENERALISEE' = 2. ;
+        TM . 1 . 'DEFORMEE_MODALE' = MANU 'CHPO' A 3 'UX' 0. 'UY' 0.6 'UZ' 0.8 ;
+        TB = TABL 'BASE_MODALE' ; TB . 'MODES' = TM ;
+        TI = TABL 'INITIAL' ; TI . 'VITESSE' = MANU 'CHPO' PY 1 'ALFA' 1. ;
+        L1 = TABL 'LIAISON_ELEMENTAIRE' ; TL = TABL 'LIAISON' ;
+        L1 . 'TYPE_LIAISON' = MOT 'LIGNE_CERCLE_FROTTEMENT' ; L1 . 'LIGNE_MAITRE' = A ;
+        L1 . 'LIGNE_ESCLAVE' = P ; L1 . 'NORMALE' = 1. 0. 0. ; L1 . 'RAYON' = 0.05 ;
+        L1 . 'RAIDEURS' = MANU 'CHPO' P 1 'RAID' 2.E4 ; L1 . 'COEFFICIENT_GLISSEMENT' = 0. ;
+        L1 . 'COEFFICIENT_ADHERENCE' = 0. ; L1 . 'RAIDEUR_TANGENTIELLE' = -1. ;
+        L1 . 'AMORTISSEMENT_TANGENTIEL' = 1. ;
+        TL . 'LIAISON_B' = TABL 'LIAISON_B' ; TL . 'LIAISON_B' . 1 = L1 ;
+        TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ; TS . 'LIAISON_B' . L1 = VRAI ;
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 820 2.E-4 ;
+        F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        L1 . 'INVERSION' = VRAI ; L1 . 'LIGNE_ESCLAVE' = DROI 1 (-2. 0. 0.) (3. 0. 0.) ;
+        L1 . 'RAIDEURS' = MANU 'CHPO' A 1 'RAID' 2.E4 ;
+        S = DYNE 'DE_VOGELAERE' TB TI TL TS 820 2.E-4 ; G = S . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        """,
+        tmp_path,
+    )
+    # a spring beyond the gap, then the same speed back; three nodes in a cylinder are three springs
+    for force, k in ((root.find("F").values, 2e4), (root.find("G").values, 6e4)):
+        t = 2e-4 * np.arange(821)
+        w = np.sqrt(k / 2.0)
+        pressed = np.where(
+            (t > 0.05) & (t < 0.05 + np.pi / w), -np.sin(w * (t - 0.05)) * k / w, 0.0
+        )
+        np.testing.assert_allclose(force, pressed, atol=2e-2 * k / w)
+        assert force.min() == pytest.approx(-k / w, rel=1e-3)
+
+
+BODY = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; G = 1. 0.5 ; P = 1.3 0.9 ; PX = 0. 0. ; PY = 0. 0. ;
+PR = 0. 0. ; C = G ET P ; TM = TABL 'BASE_DE_MODES' ;
+REPE B 3 ; TM . &B = TABL 'MODE' ; TM . &B . 'FREQUENCE' = 0. ;
+TM . &B . 'MASSE_GENERALISEE' = 2. ; FIN B ; TM . 3 . 'MASSE_GENERALISEE' = 0.1 ;
+TM . 1 . 'POINT_REPERE' = PX ; TM . 2 . 'POINT_REPERE' = PY ; TM . 3 . 'POINT_REPERE' = PR ;
+TM . 1 . 'DEFORMEE_MODALE' = MANU 'CHPO' C 3 'UX' 1. 'UY' 0. 'RZ' 0. ;
+TM . 2 . 'DEFORMEE_MODALE' = MANU 'CHPO' C 3 'UX' 0. 'UY' 1. 'RZ' 0. ;
+TM . 3 . 'DEFORMEE_MODALE' = MANU 'CHPO' C 3 'UX' 0. 'UY' 0. 'RZ' 4. ;
+TM . 3 . 'CORPS_RIGIDE' = MOT 'VRAI' ; TM . 3 . 'CENTRE_DE_GRAVITE' = G ;
+TB = TABL 'BASE_MODALE' ; TB . 'MODES' = TM ;
+TI = TABL 'INITIAL' ;
+TI . 'VITESSE' = (MANU 'CHPO' PX 1 'ALFA' 0.7) ET (MANU 'CHPO' PR 1 'ALFA' 9.) ;
+L1 = TABL 'LIAISON_ELEMENTAIRE' ; TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ;
+TL . 'LIAISON_B' . 1 = L1 ; L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; L1 . 'SUPPORT' = P ;
+L1 . 'NORMALE' = 0.6 0.8 ; L1 . 'LIAISON_PERMANENTE' = VRAI ; L1 . 'JEU' = 0. ;
+L1 . 'RAIDEUR' = {stiffness} ;
+TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ; TS . 'LIAISON_B' . L1 = VRAI ;
+R = DYNE 'DE_VOGELAERE' TB TI TL TS 2000 1.E-3 ;
+"""
+
+
+def test_a_point_of_a_body_that_turns_goes_on_its_circle(tmp_path):
+    root = run(BODY.format(stiffness="1.E-9"), tmp_path)
+    link = root.find("R").get(root.find("L1"))
+    t = 1e-3 * np.arange(2001)
+    c, s = np.cos(9.0 * t), np.sin(9.0 * t)
+    np.testing.assert_allclose(
+        link.get("UX").values, 0.7 * t + 0.3 * (c - 1.0) - 0.4 * s, atol=1e-6
+    )
+    np.testing.assert_allclose(link.get("UY").values, 0.4 * (c - 1.0) + 0.3 * s, atol=1e-6)
+
+
+def test_a_spring_at_a_body_that_turns_keeps_energy(tmp_path):
+    root = run(
+        BODY.format(stiffness="40.")
+        + """
+        V1 = PROG ; V2 = PROG ; V3 = PROG ; REPE B 2001 ; V = R . &B . 'VITESSE' ;
+        V1 = V1 ET (PROG (EXTR V PX 'ALFA')) ; V2 = V2 ET (PROG (EXTR V PY 'ALFA')) ;
+        V3 = V3 ET (PROG (EXTR V PR 'ALFA')) ; FIN B ; F = R . L1 . 'FORCE_DE_CHOC' ;
+        """,
+        tmp_path,
+    )
+    v1, v2, v3, f = (root.find(n).values for n in ("V1", "V2", "V3", "F"))
+    energy = v1**2 + v2**2 + 0.05 * v3**2 + 0.5 * f**2 / 40.0
+    np.testing.assert_allclose(energy, 0.49 + 0.05 * 81.0, rtol=1e-6)
+    assert np.ptp(v3) > 1.0
+    assert np.ptp(v2) > 0.1
+
+
+def test_a_circle_that_turns_touches_a_fixed_circle(tmp_path):
+    root = run(
+        BODY.format(stiffness="500.").replace("R = DYNE", "* R = DYNE")
+        + """
+        OUBL TM . 3 'CORPS_RIGIDE' ;
+        TM . 3 . 'DEFORMEE_MODALE' = MANU 'CHPO' C 3 'UX' 0. 'UY' 0. 'RZ' 1. ;
+        OPTI DIME 3 ; L1 . 'NORMALE' = 0. 0. 1. ; L1 . 'EXCENTRATION' = 0. 0.01 0. ; OPTI DIME 2 ;
+        L1 . 'TYPE_LIAISON' = MOT 'CERCLE_CERCLE_FROTTEMENT' ; L1 . 'SUPPORT' = G ;
+        L1 . 'RAYON_SUPPORT' = 0.3 ; L1 . 'RAYON_BUTEE' = 0.4 ; L1 . 'LIAISON_PERMANENTE' = FAUX ;
+        L1 . 'COEFFICIENT_GLISSEMENT' = 0.25 ; L1 . 'COEFFICIENT_ADHERENCE' = 0.25 ;
+        L1 . 'RAIDEUR_TANGENTIELLE' = -1. ; L1 . 'AMORTISSEMENT_TANGENTIEL' = 1.E-2 ;
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 300 1.E-3 ;
+        """,
+        tmp_path,
+    )
+    link = root.find("R").get(root.find("L1"))
+    get = {n: link.get(n).values for n in (
+        "UX_POINT_FIBRE_NEUTRE", "UY_POINT_FIBRE_NEUTRE", "VX_POINT_CONTACT", "VY_POINT_CONTACT",
+        "FORCE_DE_CHOC_NORMALE", "FORCE_DE_CHOC_TANGENTIELLE", "MZ_POINT_FIBRE_NEUTRE",
+        "RZ_POINT_FIBRE_NEUTRE",
+    )}  # fmt: skip
+    away = np.stack([get["UX_POINT_FIBRE_NEUTRE"], get["UY_POINT_FIBRE_NEUTRE"] - 0.01])
+    size = np.linalg.norm(away, axis=0)
+    push = 500.0 * np.maximum(size - 0.1, 0.0)
+    np.testing.assert_allclose(get["FORCE_DE_CHOC_NORMALE"], -push, atol=1e-9)
+    assert push.max() > 1.0
+    slides = push > 0.1
+    np.testing.assert_allclose(get["FORCE_DE_CHOC_TANGENTIELLE"][slides], 0.25 * push[slides])
+    np.testing.assert_allclose(
+        np.abs(get["MZ_POINT_FIBRE_NEUTRE"][slides]), 0.3 * 0.25 * push[slides]
+    )
+    # the edge moves by the rotation too: v + w z x 0.3 n
+    n = away / size
+    spin = np.gradient(get["RZ_POINT_FIBRE_NEUTRE"], 1e-3)
+    vx = np.gradient(get["UX_POINT_FIBRE_NEUTRE"], 1e-3) - spin * 0.3 * n[1]
+    np.testing.assert_allclose(get["VX_POINT_CONTACT"][slides], vx[slides], atol=3e-2)
+
+
+def test_a_polynomial_is_a_product_of_powers(tmp_path):
+    root = run(
+        MASS
+        + """
+        L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POLYNOMIALE' ;
+        L1 . 'SUPPORT' = PY ; L1 . 'COEFFICIENT' = -3. ;
+        L1 . PX = TABL 'CONTRIBUTION' ; L1 . PX . 'EXPOSANT_DEPLACEMENT' = 2. ;
+        L1 . PX . 'JEU_DEPLACEMENT' = 0.1 ; L1 . PY = TABL 'CONTRIBUTION' ;
+        L1 . PY . 'EXPOSANT_VITESSE' = 1. ; L1 . PY . 'JEU_VITESSE' = -0.2 ;
+        TL . 'LIAISON_A' = TABL 'LIAISON_A' ; OUBL TL 'LIAISON_B' ; TL . 'LIAISON_A' . 1 = L1 ;
+        TS . 'LIAISON_A' = TABL 'LIAISON_A' ; OUBL TS 'LIAISON_B' ; TS . 'LIAISON_A' . L1 = VRAI ;
+        TS . 'VARIABLE' = TABL 'VARIABLE' ; TS . 'VARIABLE' . 'TYPE_SORTIE' = MOT 'LISTREEL' ;
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 1000 1.E-3 ; F = R . L1 . 'FORCE_POLYNOMIALE' ;
+        X = R . 'DEPLACEMENT' . PX ; V = R . 'VITESSE' . PY ;
+        """,
+        tmp_path,
+    )
+    x, v = root.find("X").values, root.find("V").values
+    # the velocity that links see is the change over the last half step
+    expected = -3.0 * np.maximum(x - 0.1, 0.0) ** 2 * np.maximum(-0.2 - v, 0.0)
+    np.testing.assert_allclose(root.find("F").values, expected, atol=1e-4)
+    assert v[-1] < -1.05
+
+
+def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
+    root = run(
+        MASS
+        + LINE.format(line="DROI 3 (2. 0.) (-1. 0.)")
+        + """
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 3 ; F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        D = R . 401 . 'DEPLACEMENT' ;
+        OPTI ELEM POI1 ; M1 = MODE (MANU 'POI1' PX) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+        M2 = MODE (MANU 'POI1' PY) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+        A = (MATE M1 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 1 . 'DEFORMEE_MODALE')) ET
+            (MATE M2 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 2 . 'DEFORMEE_MODALE')) ;
+        L = MODE (MANU 'POI1' P) 'LIAISON' 'LIGNE_LIGNE' 'FROTTEMENT' ; TO = TABL ; TO . L = TV ;
+        AL = MATE L 'LIMA' (L1 . 'LIGNE_MAITRE') 'LIES' P 'RAID' (L1 . 'RAIDEURS') 'GLIS' 0.2
+             'ADHE' 0.2 'RTAN' -1. 'ATAN' 1.E-3 'SORT' TO ;
+        T = TABL 'PASAPAS' ; T . 'MODELE' = M2 ET L ET M1 ; T . 'CARACTERISTIQUES' = A ET AL ;
+        T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'NOMBRE_PAS' = 1500 ;
+        T . 'PAS_DE_TEMPS' = 1.E-4 ; T . 'PAS_DE_SORTIE' = 3 ; DYNE 'DE_VOGELAERE' T ;
+        G = T . 'LIAISONS' . L . 'FORCE_DE_CHOC_NORMALE' ; X = T . 'TEMPS' . 500 ;
+        E = MAXI ((T . 'DEPLACEMENTS' . 400) - D) 'ABS' ;
+        """,
+        tmp_path,
+    )
+    assert root.find("X") == pytest.approx(0.15)
+    assert root.find("F").values.min() < -100.0
+    np.testing.assert_allclose(root.find("G").values, root.find("F").values)
+    assert root.find("E") < 1e-12
+
+
+def test_pasapas_steps_models_of_links(tmp_path):
+    root = run(
+        MASS
+        + LINE.format(line="DROI 3 (2. 0.) (-1. 0.)")
+        + """
+        R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 ; F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
+        W = EXTR F 1021 ; V = R . 1501 . 'VITESSE' ;
+        OPTI ELEM POI1 ; M1 = MODE (MANU 'POI1' PX) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+        M2 = MODE (MANU 'POI1' PY) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+        A = (MATE M1 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 1 . 'DEFORMEE_MODALE')) ET
+            (MATE M2 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 2 . 'DEFORMEE_MODALE')) ;
+        L = MODE (MANU 'POI1' P) 'LIAISON' 'LIGNE_LIGNE' 'FROTTEMENT' ; TO = TABL ; TO . L = TV ;
+        AL = MATE L 'LIMA' (L1 . 'LIGNE_MAITRE') 'LIES' P 'RAID' (L1 . 'RAIDEURS') 'GLIS' 0.2
+             'ADHE' 0.2 'RTAN' -1. 'ATAN' 1.E-3 'SORT' TO ;
+        T = TABL 'PASAPAS' ; T . 'MODELE' = M1 ET M2 ET L ; T . 'CARACTERISTIQUES' = A ET AL ;
+        T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'DYNAMIQUE' = VRAI ;
+        T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 0.15 ;
+        T . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 0.15 ; PASAPAS T ;
+        S = EXTR (T . 'VARIABLES_INTERNES' . 17) 'SLIA' 3 1 1 ;
+        X = EXTR (S . 'FORCE_DE_CHOC_NORMALE') 1 ;
+        Y = EXTR (S . 'CHPOINT_FORCE_DE_CHOC' . 1) P 'NORM' ;
+        E = MAXI ((T . 'VITESSES' . 25) - V) 'ABS' ;
+        """,
+        tmp_path,
+    )
+    assert root.find("X") < -50.0
+    assert root.find("X") == pytest.approx(root.find("W"))
+    assert root.find("Y") == pytest.approx(root.find("W"))
+    assert root.find("E") < 1e-9

@@ -49,8 +49,8 @@ def code_of(text, folder):
         (PLANE + "P = 1.E300 0. ;", "kernel.mesh.node-out-of-range"),
         (PLANE + "P = 1.E99 0. ;", ""),
         (NAN + PLANE + "P = X 0. ;", "kernel.mesh.node-out-of-range"),
-        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' X 'DFIN' 1. ;", "mesh-sizes-must-positive"),
-        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' 1. 'DFIN' Y ;", "mesh-sizes-must-positive"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' X 'DFIN' 1. ;", "out-of-range"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' 1. 'DFIN' Y ;", "out-of-range"),
         (NAN + "L = PROG 0. PAS X 1. ;", "operators.lists.steps-not-finite"),
         (NAN + "L = PROG X PAS 0.1 1. ;", "operators.lists.steps-not-finite"),
         (NAN + "L = PROG 0. PAS 0.1 Y ;", "operators.lists.too-long"),
@@ -130,12 +130,11 @@ def test_a_list_divided_by_zero_is_told(text, told, tmp_path):
 
 
 def test_an_operator_that_fails_over_nan_names_the_operand(tmp_path):
-    curve = "E = EVOL 'MANU' (PROG 0. PAS 0.02 NPAS 100) (PROG 101 * 1.) ; "
-    text = curve + "R = ONDE 5 E 'CRMO' 'FMIN' 1. 'FMAX' 3. 'NFRQ' {} ;"
+    text = "R = RACP -1. {} 2. ;"
     result = run_text(NAN + text.format("X"), tmp_path)
     assert [e.code for e in result.errors] == ["operand-not-finite"]
     assert result.errors[0].span.text == "X"
-    assert result.message.startswith("error: ONDE cannot calculate with X, ")
+    assert result.message.startswith("error: RACPOL cannot calculate with X, ")
     assert run_text(NAN + text.format("5"), tmp_path).exit_code == 0
 
 

@@ -169,10 +169,13 @@ def test_mate_waits_for_parameters_that_come_later(found):
         STRIP
         + """
     M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
-    C = (MATE M 'FU' 1.E5 'GF' 100.) ET (MATE M 'KN' 1.E9 'KS' 1.) ; K = RIGI M C ;
+    C = (MATE M 'FU' 1.E5 'GF' 100.) ET (MATE M 'KN' 1.E9 'KS' 1.) ; K1 = RIGI M C ;
+    K2 = RIGI M (MATE M 'KN' 1.E9 'KS' 1. 'FU' 1.E5 'GF' 100.) ;
     """
     )
-    found(text, "K")
+    later, at_once = found(text, "K1", "K2")
+    assert later.blocks[0].values.any()
+    np.testing.assert_array_equal(later.blocks[0].values, at_once.blocks[0].values)
 
 
 @pytest.mark.parametrize(

@@ -70,8 +70,15 @@ def test_end_of_steps_is_repeated_at_least_once(refused):
 
 @pytest.mark.parametrize("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
                                    "0. PAS -1. GEOM 2. 8."])  # fmt: skip
-def test_steps_that_never_reach_their_end_are_refused(steps, refused):
-    assert "do not lead from" in refused(f"L = PROG {steps} ;")
+def test_steps_that_never_reach_their_end_leave_start_and_end(steps):
+    start, end = steps.split()[0], steps.split()[-1]
+    result = run_text(f"L = PROG {steps} 7. ;")
+    assert list(result.session.root.find("L").values) == [float(start), float(end), 7.0]
+    assert [w.code for w in result.session.warnings] == ["operators.lists.steps-left-out"]
+
+
+def test_integer_steps_that_lead_away_are_refused(refused):
+    assert "do not lead from" in refused("L = LECT 0 PAS -1 5 ;")
 
 
 def test_step_that_does_not_divide_is_refused_for_integers(refused):
@@ -139,7 +146,7 @@ def test_items_are_taken_removed_and_inserted_by_place(numbers, data):
 
 def test_place_outside_of_a_list_is_refused(refused):
     assert "3 items" in refused("X = EXTR (LECT 1 2 3) 4 ;")
-    assert "3 items" in refused("X = ENLE (LECT 1 2 3) 0 ;")
+    assert "places > 0" in refused("X = ENLE (LECT 1 2 3) 0 ;")
 
 
 def test_replacing_changes_the_list_for_all_its_names_but_not_a_copy(found):

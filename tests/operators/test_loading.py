@@ -24,7 +24,7 @@ def whole(found):
         [form.module, told(form.function), str(form.entries and [e.name for e in form.entries])]
         for form in found.forms
     ]
-    return [forms, keywords_of(found), found.help.en, found.help.syntax, len(found.help.examples)]
+    return [forms, keywords_of(found), found.help.en, found.help.syntax]
 
 
 def everything():

@@ -59,7 +59,7 @@ def test_a_variable_without_influence_stays(found):
     ("text", "said"),
     [
         (LINE.format(x=7.0, slope=1.0), "not between VXMIN and VXMAX"),
-        (LINE.format(x=1.0, slope=1.0) + "T . 'METHODE' = 'LIN' ;", "STA or MOV, not LIN"),
+        (LINE.format(x=1.0, slope=1.0) + "T . 'METHODE' = 'LIX' ;", "STA, MOV or LIN, not LIX"),
         (LINE.format(x=1.0, slope=1.0) + "T . 'T0' = 2. ;", "'T0' is a number between 0 and 1"),
         (LINE.format(x=1.0, slope=1.0) + "T . 'VF' = TABL ;", "'VF' holds 0 numbers"),
         ("T = TABL ;", "'VX0' holds 0 numbers"),
@@ -67,3 +67,13 @@ def test_a_variable_without_influence_stays(found):
 )
 def test_what_is_missing_is_told(refused, text, said):
     assert said in refused(text + "T = EXCE T ;")
+
+
+def test_tangents_give_up_what_cannot_be_met(found):
+    script = LINE.format(x=1.0, slope=1.0) + (
+        "T . 'METHODE' = 'LIN' ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; T . 'MC' . 1 . 0 = 0. ;"
+        "T . 'MC' . 1 . 1 = -1. ; T . 'VCMAX' = TABL ; T . 'VCMAX' . 1 = {bound} ; T = EXCE T ;"
+        "X = T . 'VX0' . 1 ;"
+    )
+    assert found(script.format(bound=2.0), "X") == pytest.approx(-1.0)  # 1 - x <= 2
+    assert found(script.format(bound=-6.0), "X") == pytest.approx(5.0)  # 7 is out of bounds

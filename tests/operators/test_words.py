@@ -181,5 +181,5 @@ def test_tables_in_tables_are_printed_as_deep_as_said():
 @pytest.mark.parametrize("count", [-1, 10**9])
 def test_blank_lines_have_a_limit(count, tmp_path):
     result = run_text(f"N = {count} ; SAUT N 'LIGN' ;", tmp_path)
-    assert [e.code for e in result.errors] == ["operators.texts.blank-lines"]
+    assert [e.code for e in result.errors] == ["out-of-range"]
     assert result.errors[0].span.text == "N"

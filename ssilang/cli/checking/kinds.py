@@ -6,6 +6,7 @@ from functools import cache
 from typing import Any
 
 from ssilang.language.registry import ANY
+from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.values import Mot
 
 
@@ -74,7 +75,8 @@ def kind_word(value: Any) -> str:
     """Type word of a stand-in or value, '' when unknown."""
     from ssilang.language.values import type_of
 
-    return "" if value is UNKNOWN or value is SOMETHING else type_of(value)
+    known = value is not UNKNOWN and value is not SOMETHING and type(value) is not NotBuilt
+    return type_of(value) if known else ""
 
 
 def one_of(word: str) -> Any:

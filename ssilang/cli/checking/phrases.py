@@ -30,6 +30,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -171,9 +172,17 @@ class PhraseReader:
 
     def _model(self, values: Mapping[str, Any], call: AbstractCall) -> None:
         """The words of MODE go on to MATE: they say the law."""
+        from ssilang.operators.models.foreseen import refuse_words
+
         words = tuple(str(word) for word in values["said"])
+        if ANY_WORD not in words:
+            self._trial(call, lambda: refuse_words(call, words))
         if "mesh" in values and kind_word(call.operands[0].value) == "MMODEL":
             call.operands[0].value = known_model(words)
+
+    def _word(self, values: Mapping[str, Any], call: AbstractCall) -> None:
+        """MOT gives the word itself."""
+        call.operands[0].value = values["text"]
 
     def _material(self, values: Mapping[str, Any], call: AbstractCall) -> None:
         """Let the law of the model look at the numbers of MATE, as a run does."""
@@ -183,10 +192,14 @@ class PhraseReader:
         zone = None if words is None else foreseen_zone(call, words)
         if zone is None:
             return
-        evaluator, before = self.session.evaluator, len(self.session.warnings)
         pairs = [(str(name), value) for name, value in values["pairs"]]
+        self._trial(call, lambda: refuse_constants(call, zone, pairs))
+
+    def _trial(self, call: AbstractCall, action: Callable[[], None]) -> None:
+        """Report what a part of an operator refuses and warns of, as a run does."""
+        before = len(self.session.warnings)
         try:
-            evaluator.guarded(lambda: refuse_constants(call, zone, pairs), call.span, call.name)
+            self.session.evaluator.guarded(action, call.span, call.name)
         except SsiError as error:
             self.report(error)
         for warning in self.session.warnings[before:]:
@@ -368,6 +381,9 @@ class PhraseReader:
 
     def _name(self, item: tree.Name, scope: Scope) -> Operand:
         value = scope.values.get(item.text)
+        if type(value) is NotBuilt:
+            self.report(value.refusal(item.span))
+            value = UNKNOWN
         if value is not None:
             return Operand(value, item.span, item.text)
         procedure = self.session.library.find(item.text)
@@ -394,7 +410,13 @@ class PhraseReader:
             left = None
         if left is None:
             return [Operand(UNKNOWN, item.span)]
-        return [Operand(o.value, item.span, o.name) for o in left[:1]]
+        # a word in parentheses is a value, and no operator to be
+        return [
+            Operand(
+                ANY_WORD if o.result and isinstance(o.value, Mot) else o.value, item.span, o.name
+            )
+            for o in left[:1]
+        ]
 
     def _path(self, item: tree.Path, scope: Scope) -> None:
         base = item.base
@@ -438,5 +460,6 @@ _GUESSED = {"MODE": _only_unknown_is_mesh, "MATE": _unknown_is_value}
 _FORESEEN: Mapping[str, Callable[[PhraseReader, Mapping[str, Any], AbstractCall], None]] = {
     "MODE": PhraseReader._model,
     "MATE": PhraseReader._material,
+    "MOT": PhraseReader._word,
 }
 """Operators of whose results, or values, more is known before a run than types."""

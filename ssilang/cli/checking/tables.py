@@ -12,7 +12,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.vocabulary.entries import Declaration
-from ssilang.language.vocabulary.entry_checks import checked
+from ssilang.language.vocabulary.entry_checks import checked, meant_truth, truth_told
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 Given = dict[str, dict[str, tree.Path]]
@@ -96,6 +96,11 @@ def _wrong(
             continue
         value = 1 if kind == "ENTIER" else value
         name = declared.name
+        meant = meant_truth(entry, value)
+        if meant is not value:
+            told = truth_told(name, (argument, index), meant)
+            yield SsiError("word-of-truth", target.span, **told)
+            continue
         try:
             checked(session, entry, value, (argument, index), procedure=name, operator=name)
         except SsiError as error:

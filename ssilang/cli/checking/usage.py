@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from ssilang.language.near import VERY_LIKE, nearest
 from ssilang.language.say.errors import SsiError
@@ -72,15 +72,18 @@ def misspelt_names(
     return list(found.values())
 
 
-def _bare_names(items: Iterable[tree.Item]) -> Iterator[tree.Name]:
-    """Names that stand as operands, not as indices of tables."""
-    for item in items:
+def _bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:
+    """Names that stand as operands, not as indices of tables, nor before the lists of `EVOL`."""
+    said = [i.text.upper()[:4] for i in items if isinstance(i, tree.Quoted | tree.Name)]
+    free = "EVOL" in said and bool({"MANU", "COMP"} & {*said})
+    for place, item in enumerate(items):
         if isinstance(item, tree.Name):
-            yield item
+            if not free or item is items[-1] or isinstance(items[place + 1], tree.Symbol):
+                yield item
         elif isinstance(item, tree.Paren):
             yield from _bare_names(item.items)
         elif isinstance(item, tree.Path):
-            yield from _bare_names((item.base, *(i for i in item.indices if _is_paren(i))))
+            yield from _bare_names([item.base, *(i for i in item.indices if _is_paren(i))])
 
 
 def _is_paren(item: tree.Item) -> bool:

@@ -13,9 +13,12 @@ from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
 from ssilang.cli.checking.usage import misspelt_names, unused_names
 from ssilang.cli.checking.words import misspelt_words
+from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.language import vocabulary
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.not_built import put_off
 from ssilang.language.run.phrase_errors import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -46,6 +49,7 @@ class Checker:
         self._told = 0  # problems, those that were there already among them
         self._procedures: list[tree.Definition] = []
         self._names: set[str] = set()
+        self._loops: set[str] = set()
         self._visit: dict[type, Callable[[Any, Scope], None]] = {
             tree.Statement: self._statement,
             tree.If: self._if,
@@ -57,6 +61,7 @@ class Checker:
         """Errors and warnings, in the order of the text."""
         script = tree.Script(_until_fin(script.body), script.span)
         self._names = assigned_names(script.body)
+        self._loops = {name.lstrip("&") for name in self._names if name[0] == "&"}
         self.session.assignments = tree.first_assignments(script.body)
         library = all(isinstance(n, tree.Definition) for n in script.body)
         scope = Scope(dict(self.session.root.variables))
@@ -79,6 +84,10 @@ class Checker:
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
+        if problem.code == "unknown-operator":  # what is read after all
+            self.problems = [
+                e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
+            ]
         places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
         if problem.span is None or (problem.code, problem.span.start) not in places:
             self.problems.append(problem)
@@ -170,7 +179,7 @@ class Checker:
                 scope.values[name] = value
         scope.open = outer.open or library
         scope.dimension = None
-        scope.inside = (node.name,)
+        scope.inside = (node.name, *self._loops)  # it may be called inside of any of them
         for p in node.parameters:
             known = not p.optional and p.type and p.type not in ("MOT", "FLOTTANT")
             scope.values[p.name] = typed(p.type) if known else UNKNOWN
@@ -210,6 +219,10 @@ class Checker:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
             return self._outcome(statement, left)
         except SsiError as error:
+            known = {*self._names, *scope.values, *self.session.library.standard_names}
+            if later := put_off(statement, error, known):
+                self._report(SsiError("not-built-yet", error.span, **error.data))
+                return [later] * len(statement.targets)
             word = self.session.evaluator.word_of_entry(statement, error)
             if word is None:
                 self._report(error)
@@ -219,7 +232,7 @@ class Checker:
         item = statement.items[1] if len(statement.items) == 2 else None
         if not isinstance(item, tree.Name | tree.Quoted) or item.text.upper() in scope.values:
             return
-        if item.text.upper() not in scope.inside and scope.inside[:1] != ("",):
+        if item.text.upper() not in scope.inside:
             raise SsiError("no-such-loop", item.span, name=item.text.upper())
 
     def _effects(self, statement: tree.Statement, word: str, scope: Scope) -> None:
@@ -292,8 +305,9 @@ class Checker:
 
 @cache
 def _known_words() -> frozenset[str]:
-    """First four letters of operators, procedures of Cast3M and keywords."""
+    """First four letters of operators, procedures of Cast3M, keywords, parameters, colours ..."""
     words = {w[:4] for o in OPERATORS.values() for w in keywords_of(o)}
+    words |= {w[:4] for kind in vocabulary.KINDS for w in vocabulary.names(kind)} | {*COLOURS}
     return frozenset({*words, *OPERATORS, *(n[:4] for n in cast3m_words()), *known_types()})
 
 

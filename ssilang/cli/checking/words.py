@@ -7,13 +7,16 @@ from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 
 from ssilang.cli.checking.usage import statements_of
+from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language import vocabulary
 from ssilang.language.near import VERY_LIKE, nearest, slips
 from ssilang.language.registry import (
     OPERATORS,
     Argument,
+    Entry,
     Group,
     Operator,
+    Select,
     arguments_in,
     find_operator,
     keywords_of,
@@ -62,6 +65,7 @@ class _Words:
 
     def phrase(self, items: Iterable[tree.Item]) -> Iterator[SsiError]:
         """What is misspelt in a phrase and in its parentheses."""
+        items = tuple(items)
         operator: Operator | None = None
         for place, item in enumerate(items):
             if isinstance(item, tree.Paren):
@@ -75,7 +79,7 @@ class _Words:
                 named = self._named(operator, word, isinstance(item, tree.Quoted))
                 if named is not None:
                     operator = named
-                elif operator is not None:
+                elif operator is not None and not _named_freely(operator.name, items):
                     yield from self._near(operator, word, item)
                 elif place == 0 and isinstance(item, tree.Name) and self._is_operator(word):
                     yield SsiError("unknown-operator", item.span, name=item.text)
@@ -134,6 +138,36 @@ def _takes_words(name: str) -> bool:
     return any("MOT" in a.types for a in arguments_in(lists))
 
 
+def _named_freely(name: str, items: tuple[tree.Item, ...]) -> bool:
+    """Whether a word of the phrase chooses a way to read where names stand as the script likes.
+
+    Axes of `EVOL 'MANU'`.
+    """
+    said = {i.text.upper() for i in items if isinstance(i, tree.Quoted | tree.Name)}
+    return any(w[:length] in cases for w in said for length, cases in _free_cases(name))
+
+
+@cache
+def _free_cases(name: str) -> tuple[tuple[int, frozenset[str]], ...]:
+    """Words that choose within an operator, with the letters that count, before free names."""
+    found = find_operator(name)
+    selects = [
+        entry
+        for form in (found.forms if found is not None else ())
+        for entry in form.entries or ()
+        if isinstance(entry, Select)
+    ]
+    return tuple(
+        (s.length, frozenset(w[: s.length] for w, inner in s.cases.items() if _has_free(inner)))
+        for s in selects
+    )
+
+
+def _has_free(entries: Iterable[Entry]) -> bool:
+    """Whether a word of no list of the vocabulary is read, besides the values of keywords."""
+    return any(isinstance(e, Argument) and e.types == ("MOT",) and not e.kind for e in entries)
+
+
 @cache
 def _values() -> frozenset[str]:
     """Words that options may be set to, by their first letters."""
@@ -145,6 +179,8 @@ def _values() -> frozenset[str]:
 @lru_cache(_ASKED)
 def _knows(operator: str, word: str) -> bool:
     short, kinds = word[: vocabulary.SHORT], _kinds(operator)
+    if short in COLOURS:
+        return True
     alike = [w for w in _keywords(operator) if w[: vocabulary.SHORT] == short]
     if "law" in kinds:  # JOINT_SDM and JOINT_SOFT differ behind their fourth letter
         alike = [w for w in alike if w.startswith(word) or word.startswith(w)]

@@ -36,8 +36,10 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
+from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
+from ssilang.report.sweep_table import read_sweep
 
-TABLE, PLAIN_TABLE = "sweep.parquet", "sweep.csv"
+TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
 TOGETHER = 8
 """Runs that go side by side in a process: more gain little and hold more memory."""
 
@@ -57,6 +59,10 @@ class SweepOptions:
     together: int = TOGETHER
     report: bool = False
     """Whether each run and the sweep leave a report."""
+    fragility: list[str] = field(default_factory=list)
+    """Limits, as `NAME>VALUE`: the sweep leaves a page with their fragilities."""
+    intensity: list[str] = field(default_factory=list)
+    """Figures that are intensities; none: those that are known as such."""
 
     @property
     def folder(self) -> Path:
@@ -70,6 +76,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     Runs that an earlier sweep of the same folder finished are taken from there.
     """
     try:
+        asked = _asked(options)
         cases = _checked_cases(options, err)
         rows = run_cases(cases, options, out, err)
     except SsiError as error:
@@ -77,10 +84,52 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         return 2
     made = write_results(rows, list(cases[0].values), options.folder)
     _tell_left(made, options.language, err)
+    missing = _judge(options, asked, err)
     if options.report:
         out.write(write_reports(rows, options) + "\n")
+    elif asked.limits:
+        out.write(write_report(options.folder, options.language) + "\n")
     out.write(sentence("cli.swept", made, options.language) + "\n")
-    return 1 if made["failed"] else 0
+    return 2 if missing else 1 if made["failed"] else 0
+
+
+def _asked(options: SweepOptions) -> Asked:
+    """Limits and intensities of the command.
+
+    Raises
+    ------
+    SsiError
+        For one that cannot be read, or intensities without any.
+    """
+    limits = []
+    for text in options.fragility:
+        if not (found := read_limits(text)):
+            raise SsiError("cli.not-a-limit", None, text=text)
+        limits += found
+    if options.intensity and not limits:
+        raise SsiError("cli.intensity-without-fragility", None, names=options.intensity)
+    return Asked(limits, options.intensity)
+
+
+def _judge(options: SweepOptions, asked: Asked, err: TextIO) -> bool:
+    """Leave what was asked for beside the table, and the fits; whether a name is unknown."""
+    if not asked.limits:
+        (options.folder / ASKED).unlink(missing_ok=True)
+        return False
+    asked.write(options.folder)
+    made = read_sweep(options.folder)
+    write_plain_table(rows_of(fits_of(made, asked)), options.folder / FITS)
+    if all(row["exit_code"] != "0" for row in made.rows):
+        return False
+    return _tell_unknown(asked, [*made.figures, *made.swept], options, err)
+
+
+def _tell_unknown(asked: Asked, names: Sequence[str], options: SweepOptions, err: TextIO) -> bool:
+    """Tell which figures no run has; whether there are any."""
+    missing = unknown(asked, names)
+    for problem in missing:
+        err.write(render(SsiError.of(problem, None), options.language) + "\n")
+    return bool(missing)
 
 
 def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: TextIO) -> list[Row]:
@@ -108,8 +157,12 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
+    asked, looked = _asked(options), bool(rows)
     for row in _progress(_run(waiting, options, err), len(waiting), teller(options.language), err):
         rows[row["run"]] = row
+        if row["exit_code"] == 0 and not looked:  # not only in the morning
+            looked = True
+            _tell_unknown(asked, list(row), options, err)
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}
             err.write(sentence("cli.run-failed", failure, options.language) + "\n")

@@ -54,6 +54,7 @@ def run_task(task: Task) -> Row:
     from ssilang.io.atomic import write_text
     from ssilang.kernel.solvers.backends import keep_factors
     from ssilang.language.run.session import Limits
+    from ssilang.operators.dynamics.verdicts import figures_of
 
     keep_factors(4)
     allowed = [*task.allowed]
@@ -80,6 +81,7 @@ def run_task(task: Task) -> Row:
         "exit_code": result.exit_code,
         "seconds": round(time.perf_counter() - started - options.away(), 3),
         "error": result.message.partition("\n")[0],
+        **figures_of(result.session.statistics.get("verdicts", [])),
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }

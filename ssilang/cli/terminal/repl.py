@@ -5,10 +5,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from ssilang import __version__
-from ssilang.cli.editor.completion import completions
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.cli.terminal.colour import coloured
@@ -25,6 +24,37 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
 from ssilang.operators.texts.words import written
+
+if TYPE_CHECKING:
+    from ssilang.cli.editor.complete import Candidate
+
+
+def completions(text: str, session: Session) -> tuple[str, list[str]]:
+    """Candidates for the end of `text`.
+
+    Returns
+    -------
+    tuple
+        The part of `text` that a candidate replaces, and the candidates, sorted.
+    """
+    # vocabulary and elements are read at the first Tab, not when the session begins
+    from ssilang.cli.editor.complete import candidates
+    from ssilang.cli.editor.document import Document
+    from ssilang.operators.loader import load_operators
+
+    load_operators()
+    document = Document.of(text, None, session.library.standard_names)
+    found = candidates(document, len(text), session.library, session.language, session)
+    prefix = text[found[0].start :] if found else ""
+    typed = prefix.lstrip("'").upper()
+    words = {_written(c, prefix) for c in found}
+    return prefix, sorted(w for w in words if w.lstrip("'").upper().startswith(typed))
+
+
+def _written(candidate: Candidate, prefix: str) -> str:
+    """A candidate as it is typed: keywords need no quotes where none was opened."""
+    bare = candidate.kind in ("keyword", "word") and candidate.label.isidentifier()
+    return candidate.label if bare and prefix[:1] != "'" else candidate.text
 
 
 class Repl:

@@ -14,9 +14,43 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.friction import Friction
 from ssilang.kernel.matrices.assembly import Numbering, constraint_matrix
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.matrix import Matrix, Relations
+
+
+@dataclass(frozen=True, eq=False)
+class Friction:
+    """Places that rub, on nodes of a mesh.
+
+    Attributes
+    ----------
+    slip : Relations
+        Slips of the places, `width` rows each, place by place.
+    width : int
+        1 in the plane and for cables, 2 in space.
+    coefficient, constant : arrays (k,)
+        Limit of the friction force: `coefficient p + constant` where the unilateral relation of
+        the place pushes with p > 0.
+    raw_normals : array (k,)
+        Multiplier nodes of these relations; empty with `tension`.
+    tension : Relations or None
+        Instead: rows whose positive values (with `offset`) are the limits.
+    offset : array (k,)
+    """
+
+    slip: Relations
+    width: int
+    coefficient: FloatArray
+    constant: FloatArray
+    raw_normals: IntArray
+    tension: Relations | None
+    offset: FloatArray
+
+    @property
+    def normals(self) -> IntArray:
+        """Multiplier nodes of the unilateral relations, after merges."""
+        return self.slip.table.resolve(self.raw_normals)
+
 
 BoolArray = NDArray[np.bool_]
 STICKING = 1e-9

@@ -8,11 +8,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MeshError
-from ssilang.kernel.elements.beams.bar import Bar
-from ssilang.kernel.elements.beams.beam import Beam, Timoshenko
-from ssilang.kernel.elements.beams.fibre_beam import FibreBeam
+from ssilang.kernel.elements.beams.bar import Bar, Hoop
+from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
-from ssilang.kernel.elements.beams.hoop import Hoop
 from ssilang.kernel.elements.beams.pipe import Pipe
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import (
@@ -27,8 +25,7 @@ from ssilang.kernel.elements.shells.plate import Plate
 from ssilang.kernel.elements.shells.solid_shell import SolidShell
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
 from ssilang.kernel.elements.solids.hooke import inverted, moduli_from_field
-from ssilang.kernel.elements.solids.one_point import OnePoint
-from ssilang.kernel.elements.solids.solid import Incompressible, Solid
+from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid
 from ssilang.kernel.elements.solids.solid_moduli import solid_compliance
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support

@@ -8,14 +8,14 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
-FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT")
+FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT", "LIAISON")
 OTHER_FORMULATIONS = {
     "LIQUIDE": "fluids", "NAVIER_STOKES": "fluids", "EULER": "fluids",
     "POREUX": "porous", "DARCY": "porous", "THERMOHYDRIQUE": "porous",
     "THERMIQUE": "heat", "CONVECTION": "heat", "RAYONNEMENT": "heat", "CHANGEMENT_PHASE": "heat",
     "MAGNETODYNAMIQUE": "electromagnetism", "FISSURE": "fracture",
     "DIFFUSION": "chemistry", "METALLURGIE": "chemistry",
-    "MELANGE": "mechanics", "LIAISON": "mechanics", "FROTTEMENT": "mechanics",
+    "MELANGE": "mechanics", "FROTTEMENT": "mechanics",
 }  # fmt: skip
 """Formulations that are not built, by their subject; what is not mechanics is out of scope."""
 

@@ -55,6 +55,42 @@ _CONTACT: dict[str, Names] = {
     "COULOMB": Names(("MU",), ("JEU", "COHE")),
     "FROCABLE": Names(("FF", "PHIF")),
 }
+_RUBS = ("GLIS", "ADHE", "RTAN", "ATAN")
+_AT_LINES = Names(("LIMA", "LIES", "RAID", *_RUBS), ("NORM", "JEU", "AMOR", "RECH", "SYME", "SORT"))
+_BETWEEN = ("AMOR", "LOIC", "PERM", "SORT")
+LINKS: dict[tuple[str, ...], Names] = {
+    ("POINT_PLAN",): Names((), ("NORM", "RAID", "JEU", *_BETWEEN, "SPLA")),
+    ("POINT_PLAN", "FROTTEMENT"): Names(("NORM", *_RUBS), ("RAID", "JEU", *_BETWEEN)),
+    ("POINT_POINT",): Names(("NORM", "POIB"), ("RAID", "JEU", *_BETWEEN)),
+    ("POINT_POINT", "FROTTEMENT"): Names(("NORM", "POIB", *_RUBS), ("RAID", "JEU", *_BETWEEN)),
+    ("POINT_POINT", "DEPLACEMENT_PLASTIQUE"): Names(
+        ("NORM", "POIB", "LOIC"), ("ECRO", "JEU", *_BETWEEN)
+    ),
+    ("POINT_POINT", "ROTATION_PLASTIQUE"): Names(
+        ("NORM", "POIB", "LOIC"), ("ECRO", "JEU", "ELAS", *_BETWEEN)
+    ),
+    ("POINT_CERCLE",): Names(("NORM", "RAID", "EXCE", "RAYO"), ("AMOR", "SORT")),
+    ("POINT_CERCLE", "FROTTEMENT"): Names(
+        ("NORM", "RAID", "EXCE", "RAYO", *_RUBS), ("CINT", "AMOR", "SORT")
+    ),
+    ("POINT_CERCLE", "MOBILE"): Names(
+        ("NORM", "RAID", "PCER", "RAYO", *_RUBS), ("CINT", "AMOR", "SORT")
+    ),
+    ("CERCLE_PLAN", "FROTTEMENT"): Names(("NORM", "RAID", "RAYS", *_RUBS), ("JEU", "AMOR", "SORT")),
+    ("CERCLE_CERCLE", "FROTTEMENT"): Names(
+        ("NORM", "RAID", "EXCE", "RAYS", "RAYB", *_RUBS), ("CINT", "AMOR", "SORT")
+    ),
+    ("LIGNE_LIGNE", "FROTTEMENT"): _AT_LINES,
+    ("LIGNE_CERCLE", "FROTTEMENT"): Names(
+        (*_AT_LINES.required, "RAYO"), (*_AT_LINES.optional, "ACTN", "INVE")
+    ),
+    ("COUPLAGE", "DEPLACEMENT"): Names(("ORIG", "COEF"), ("SORT",)),
+    ("COUPLAGE", "VITESSE"): Names(("ORIG", "COEF"), ("SORT",)),
+    ("POLYNOMIALE",): Names(
+        ("COEF",), (*(f"{c}CO{i}" for c in "PT" for i in range(1, 10)), "SORT")
+    ),
+}
+"""Links of DYNE by their words, the formulation LIAISON."""
 _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
     Mode.PLANE_STRESS: 4, Mode.THREE_DIMENSIONAL: 9, Mode.FOURIER: 9,
 }  # fmt: skip
@@ -90,6 +126,8 @@ def material_names(zone: Zone) -> Names:
     """Parameters of the law of a zone."""
     if zone.formulation == "CONTACT":
         return _CONTACT[zone.behaviour[-1]]
+    if zone.formulation == "LIAISON":
+        return LINKS[zone.behaviour]
     if is_joint(zone) and "ANISOTROPE" in zone.behaviour:
         size = 6 if zone.mode is Mode.THREE_DIMENSIONAL else 3
         terms = ANISOTROPIC[: size * (size + 1) // 2]

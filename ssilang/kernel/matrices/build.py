@@ -1,12 +1,20 @@
-"""Matrices made by hand: values at nodes, diagonals, the same small matrix on every cell."""
+"""Matrices of no element: values at nodes, diagonals, outer products, cables, filters."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import (
+    Numbering,
+)
+from ssilang.kernel.matrices.from_sparse import matrix_from_sparse
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
@@ -103,3 +111,145 @@ def repeated_matrix(
             )
         )
     return Matrix(mesh.nodes, tuple(blocks), (), kind)
+
+
+_LARGEST = 20_000
+"""Rows of a dense matrix that still fits a usual memory (3.2 GB)."""
+
+
+def sum_of_outer_products(
+    fields: Sequence[NodeField], factors: Sequence[float], kind: str
+) -> Matrix:
+    """The matrix `sum_i a_i v_i v_i^T`.
+
+    Parameters
+    ----------
+    fields : sequence of n NodeField
+        The vectors v_i; components named as duals (FX ...) stand for their unknowns.
+    factors : sequence of n float
+        The numbers a_i.
+    kind : str
+        'RIGIDITE', 'MASSE' or 'AMORTISSEMENT'.
+
+    Raises
+    ------
+    FieldError
+        If there are no vectors, not as many factors, or too many unknowns for a dense matrix.
+    """
+    if not fields or len(fields) != len(factors):
+        raise FieldError(
+            "kernel.matrices.vectors-factors", n_fields=len(fields), n_factors=len(factors)
+        )
+    table = fields[0].table
+    places = sorted(
+        {
+            (PRIMAL_OF.get(name, name), int(node))
+            for field in fields
+            for name, part in field.components.items()
+            for node in part.nodes
+        }
+    )
+    if len(places) > _LARGEST:
+        raise FieldError("kernel.matrices.full-matrix-rows-too", n_places=len(places))
+    rows = {place: i for i, place in enumerate(places)}
+    vectors = np.zeros((len(fields), len(places)))
+    for vector, field in zip(vectors, fields, strict=True):
+        _fill(vector, field, rows)
+    values = (vectors.T * np.asarray(factors, dtype=float)) @ vectors
+    nodes, local = np.unique([node for _, node in places], return_inverse=True)
+    names = tuple(name for name, _ in places)
+    duals = tuple(dual_of(name) for name in names)
+    block = ElementMatrices(
+        table, nodes[None, :], local.astype(np.int64), names, duals, values[None], kind
+    )
+    return Matrix(table, (block,), (), kind)
+
+
+def _fill(vector: FloatArray, field: NodeField, rows: dict[tuple[str, int], int]) -> None:
+    """Add the values of a field to its rows."""
+    for name, part in field.components.items():
+        unknown = PRIMAL_OF.get(name, name)
+        where = [rows[unknown, int(node)] for node in part.nodes]
+        vector[where] += part.values
+
+
+def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) -> Matrix:
+    """Stiffness of straight cables whose force is `force` at a lengthening of `percent`.
+
+    Raises
+    ------
+    MeshError
+        If a cell is not a segment of two nodes, or has no length.
+    """
+    if {b.cell_type for b in mesh.blocks} != {"SEG2"}:
+        raise MeshError("kernel.matrices.cable-made-segments-two")
+    rigidity = 100.0 * force / percent
+    blocks = []
+    for b in mesh.blocks:
+        d = dimension
+        along = (b.coordinates[:, 1] - b.coordinates[:, 0])[:, :d]
+        length = np.linalg.norm(along, axis=1)
+        if (length == 0.0).any():
+            raise MeshError("kernel.matrices.segment-cable-no-length")
+        row = np.concatenate([-along, along], axis=1) / length[:, None]
+        values = (rigidity / length)[:, None, None] * row[:, :, None] * row[:, None, :]
+        names = ("UX", "UY", "UZ")[:d] * 2
+        duals = ("FX", "FY", "FZ")[:d] * 2
+        local = np.repeat([0, 1], d)
+        blocks.append(ElementMatrices(b.nodes, b.raw, local, names, duals, values, "RIGIDITE"))
+    return Matrix(mesh.nodes, tuple(blocks), (), "RIGIDITE")
+
+
+def lumped_matrix(matrix: Matrix, kept: tuple[str, ...] = ()) -> Matrix:
+    """Sum of each row on the diagonal; unknowns in `kept` keep their diagonal term instead."""
+    return replace(matrix, blocks=tuple(_lumped(b, kept) for b in matrix.blocks), cache={})
+
+
+def _lumped(block: ElementMatrices, kept: tuple[str, ...]) -> ElementMatrices:
+    n, m, _ = block.values.shape
+    rows = block.values.sum(axis=2)
+    own = np.einsum("cii->ci", block.values)
+    diagonal = np.where([u in kept for u in block.unknowns], own, rows)
+    values = np.zeros((n, m, m))
+    values[:, np.arange(m), np.arange(m)] = diagonal
+    return replace(block, values=values)
+
+
+def filter_weights(
+    weights: NodeField, radius: float, power: float, least: float, unknown: str, dual: str
+) -> Matrix:
+    """Matrix whose product with a field is its weighted mean over the neighbours of each node.
+
+    Row i has `(1 - d_ij / radius)^power w_j` over their sum, for nodes nearer than the radius;
+    terms not above `least` are dropped (after the division).
+    """
+    from scipy.spatial import cKDTree
+
+    names = list(weights.components)
+    if len(names) != 1:
+        raise FieldError("kernel.matrices.component-weights-needed", names=names)
+    part = weights.components[names[0]]
+    n = len(part.nodes)
+    if radius > 0.0:
+        points = weights.table.coordinates[part.nodes]
+        tree = cKDTree(points)
+        near = tree.sparse_distance_matrix(tree, radius, output_type="coo_matrix")
+        i = np.concatenate([near.row, np.arange(n)]).astype(np.int64)
+        j = np.concatenate([near.col, np.arange(n)]).astype(np.int64)
+        d = np.concatenate([near.data, np.zeros(n)])
+        own = (near.row == near.col).nonzero()[0]
+        kept = np.ones(len(i), bool)
+        kept[own] = False
+        i, j, d = i[kept], j[kept], d[kept]
+        values = np.maximum(1.0 - d / radius, 0.0) ** power * part.values[j]
+        shares = sp.coo_array((values, (i, j)), shape=(n, n)).tocsr()
+    else:
+        shares = sp.csr_array(sp.diags_array(part.values.copy()))
+    total: FloatArray = np.asarray(shares.sum(axis=1)).ravel()
+    if (total == 0.0).any():
+        raise FieldError("kernel.matrices.weights-around-node-zero")
+    W = sp.csr_array(sp.diags_array(1.0 / total) @ shares)
+    W.data[W.data <= least] = 0.0
+    codes = np.zeros(n, dtype=np.int64)
+    numbering = Numbering(weights.table, (unknown,), (dual,), part.nodes, codes, 0)
+    return matrix_from_sparse(W, numbering, "RIGIDITE", False)

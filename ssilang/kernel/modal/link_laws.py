@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.modal.links import (
@@ -19,13 +19,18 @@ from ssilang.kernel.modal.links import (
     EXPONENT,
     F0,
     FACTOR,
+    FIRST,
     FN,
     FORCE,
     FREQUENCY,
     FRICTION,
     FT,
     GAP,
+    IF_TOUCHED,
     KINEMATIC,
+    LAST,
+    LINE,
+    MC,
     NX,
     NY,
     NZ,
@@ -35,7 +40,10 @@ from ssilang.kernel.modal.links import (
     PLASTIC,
     PLASTIC_PART,
     PLASTIC_SUM,
+    POLYNOMIAL,
     POWER,
+    RADIUS,
+    RING,
     S0,
     SINE,
     SINE_OF_TIME,
@@ -47,11 +55,13 @@ from ssilang.kernel.modal.links import (
     TANGENT,
     TANGENT_DAMP,
     TOUCHES,
+    VC,
     VN,
     VT,
     WEAR,
     XP,
     LinkArrays,
+    Points,
     X,
 )
 
@@ -185,48 +195,229 @@ def friction(
 
 
 @compiled
-def contact(
-    links: LinkArrays, i: int, x: FloatArray, v: FloatArray, t: float, s: FloatArray,
-    f: FloatArray, record: FloatArray,
-) -> None:  # fmt: skip
-    """Force of link i, a plane or a circle, on a relative motion; fills `f` and `record`."""
+def turn(
+    points: Points, p: int, q: FloatArray, sign: float, x: FloatArray, rows: FloatArray
+) -> None:
+    """Add what the rotation of its body, however large, moves a point by, and its rows."""
+    m = points.spins[p]
+    if m < 0:
+        return
+    e, arm, turned = points.axes[p], points.arms[p], np.empty(3)
+    sine, cosine = np.sin(q[m]), np.cos(q[m])
+    along = e[0] * arm[0] + e[1] * arm[1] + e[2] * arm[2]
+    for i in range(3):  # Rodrigues
+        j, k = (i + 1) % 3, (i + 2) % 3
+        turned[i] = cosine * arm[i] + sine * (e[j] * arm[k] - e[k] * arm[j])
+        turned[i] += (1.0 - cosine) * along * e[i]
+        x[i] += sign * (turned[i] - arm[i])
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        rows[i, m] += sign * (e[j] * turned[k] - e[k] * turned[j])
+
+
+@compiled
+def times_rows(rows: FloatArray, q: FloatArray, x: FloatArray) -> None:
+    """`x = rows q`, of rows (3, n)."""
+    for c in range(3):
+        x[c] = 0.0
+        for j in range(len(q)):
+            x[c] += rows[c, j] * q[j]
+
+
+@compiled
+def places_now(points: Points, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Where the points are (N, 3), and the rows of their motion there (N, 3, n)."""
+    places, rows = points.places.copy(), points.rows.copy()
+    x = np.empty(3)
+    for p in range(len(places)):
+        times_rows(points.rows[p], q, x)
+        turn(points, p, q, 1.0, x, rows[p])
+        for c in range(3):
+            places[p, c] += x[c]
+    return places, rows
+
+
+@compiled
+def left_of(a: FloatArray, b: FloatArray, axis: FloatArray, n: FloatArray) -> None:
+    """Unit normal of a segment to its left, seen against `axis`; nought for no length."""
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        n[i] = axis[j] * (b[k] - a[k]) - axis[k] * (b[j] - a[j])
+    size = np.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+    for i in range(3):
+        n[i] = n[i] / size if size > 0.0 else 0.0
+
+
+@compiled
+def on_line(
+    links: LinkArrays, i: int, places: FloatArray, n: FloatArray
+) -> tuple[float, int, float]:
+    """How deep the point of link i is left of its line, on which segment, and where along it.
+
+    `n` is the normal, into the obstacle. The nearest place of the line counts; at a corner of it
+    the direction to the point, and beyond an end there is no obstacle.
+    """
+    row, segments, p = links.numbers[i], links.segments, places[links.ends[i, 0]]
+    axis, w, m = row[NX : NX + 3], np.empty(3), np.empty(3)
+    least, found, where = np.inf, -1, 0.0
+    for s in range(int(row[FIRST]), int(row[LAST])):
+        a, b = places[segments[s, 0]], places[segments[s, 1]]
+        length = along = 0.0
+        for c in range(3):
+            length += (b[c] - a[c]) ** 2
+            along += (b[c] - a[c]) * (p[c] - a[c])
+        t = along / length if length > 0.0 else 0.0
+        kept = min(1.0, max(0.0, t))
+        away = 0.0
+        for c in range(3):
+            away += (p[c] - a[c] - kept * (b[c] - a[c])) ** 2
+        if away < least:
+            least, found, where = away, s, t
+    if found < 0:
+        return -np.inf, 0, 0.0
+    a, b = places[segments[found, 0]], places[segments[found, 1]]
+    left_of(a, b, axis, n)
+    kept = min(1.0, max(0.0, where))
+    overlap = off = 0.0
+    for c in range(3):
+        w[c] = p[c] - a[c] - kept * (b[c] - a[c])
+        off += w[c] * axis[c]
+    for c in range(3):
+        w[c] -= off * axis[c]
+        overlap += w[c] * n[c]
+    if abs(where - kept) <= 1e-12:
+        return overlap, found, kept
+    other = segments[found, 2] if where < 0.0 else segments[found, 3]
+    if other < 0:
+        return -np.inf, found, kept
+    left_of(places[segments[other, 0]], places[segments[other, 1]], axis, m)
+    side = w[0] * (n[0] + m[0]) + w[1] * (n[1] + m[1]) + w[2] * (n[2] + m[2])
+    size = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    if side <= 0.0 or size == 0.0:
+        return -size, found, kept
+    for c in range(3):
+        n[c] = w[c] / size
+    return size, found, kept
+
+
+@compiled
+def in_ring(
+    links: LinkArrays, i: int, places: FloatArray, n: FloatArray
+) -> tuple[float, int, float]:
+    """How far a line is out of a ring about the point of link i: overlap, segment, place along it.
+
+    `n` goes from the line to the ring's centre.
+    """
+    row, segments, p = links.numbers[i], links.segments, places[links.ends[i, 0]]
+    w = np.empty(3)
+    least, found, where = np.inf, -1, 0.0
+    for s in range(int(row[FIRST]), int(row[LAST])):
+        a, b = places[segments[s, 0]], places[segments[s, 1]]
+        from_a = to_b = 0.0
+        for c in range(3):
+            from_a += (p[c] - a[c]) * row[NX + c]
+            to_b += (b[c] - a[c]) * row[NX + c]
+        if to_b == 0.0 or from_a / to_b < 0.0 or from_a / to_b > 1.0:
+            continue
+        t = from_a / to_b
+        away = 0.0
+        for c in range(3):
+            w[c] = p[c] - a[c] - t * (b[c] - a[c])
+            away += w[c] * w[c]
+        away = np.sqrt(away)
+        if away < least:
+            least, found, where = away, s, t
+            for c in range(3):
+                n[c] = w[c] / away if away > 0.0 else 0.0
+    return (least - row[GAP], found, where) if found >= 0 else (-np.inf, 0, 0.0)
+
+
+@compiled
+def overlap_of(
+    links: LinkArrays, i: int, x: FloatArray, places: FloatArray, moving: FloatArray,
+    acting: FloatArray, n: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """How far a contact is closed, its normal `n`, and the segment that it is on (-1: none).
+
+    The rows `acting` (3, n) of LINE and RING are those of the point less those of the line.
+    """
     kind, row = links.kinds[i], links.numbers[i]
-    n = np.empty(3)
-    overlap = 0.0
     if kind == PLANE:
+        overlap = -row[GAP]
         for c in range(3):
             n[c] = row[NX + c]
             overlap += x[c] * n[c]
-        overlap -= row[GAP]
-    else:
+        return overlap, -1
+    if kind == CIRCLE:
         along = x[0] * row[NX] + x[1] * row[NY] + x[2] * row[NZ]
         for c in range(3):
             n[c] = x[c] - along * row[NX + c] - row[EX + c]
         radius = np.sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
         sense = -1.0 if row[OUTSIDE] != 0.0 else 1.0
-        overlap = sense * (radius - row[GAP])
         for c in range(3):
             n[c] = sense * n[c] / radius if radius > 0.0 else 0.0
-    rate = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
-    push = normal_force(overlap, rate, row, links.laws[i], links.law_sizes[i], s)
+        return sense * (radius - row[GAP]), -1
+    overlap, found, where = (
+        on_line(links, i, places, n) if kind == LINE else in_ring(links, i, places, n)
+    )
+    if overlap == -np.inf:
+        return overlap, -1
+    a, b = links.segments[found, 0], links.segments[found, 1]
+    for c in range(3):
+        for j in range(acting.shape[1]):
+            acting[c, j] -= (1.0 - where) * moving[a, c, j] + where * moving[b, c, j]
+    return (overlap - row[GAP] if kind == LINE else overlap), found
+
+
+@compiled
+def contact(
+    links: LinkArrays, i: int, q: FloatArray, v: FloatArray, t: float, x: FloatArray,
+    places: FloatArray, moving: FloatArray, touched: IntArray, acting: FloatArray, s: FloatArray,
+    f: FloatArray, record: FloatArray,
+) -> None:  # fmt: skip
+    """Force of link i, a contact, on a relative motion x; fills `f`, `record` and rows `acting`."""
+    row = links.numbers[i]
+    n, rate, arm = np.zeros(3), np.empty(3), np.zeros(3)
+    overlap, found = overlap_of(links, i, x, places, moving, acting, n)
+    if row[IF_TOUCHED] != 0.0 and touched[links.ends[i, 0]] == 0:
+        overlap = -np.inf
+    if row[RADIUS] != 0.0:  # the edge of a circle moves by its rotation too
+        for c in range(3):
+            arm[c] = row[RADIUS] * n[c]
+        for j in range(len(q)):
+            for c in range(3):
+                k, m = (c + 1) % 3, (c + 2) % 3
+                acting[c, j] += links.turns[i, k, j] * arm[m] - links.turns[i, m, j] * arm[k]
+        times_rows(acting, q, x)
+    times_rows(acting, v, rate)
+    vn = rate[0] * n[0] + rate[1] * n[1] + rate[2] * n[2]
+    push = 0.0
+    if overlap > -np.inf:
+        push = normal_force(overlap, vn, row, links.laws[i], links.law_sizes[i], s)
     for c in range(3):
         f[c] = -push * n[c]
-    record[FN], record[VN] = -push, rate
+        record[VC + c] = rate[c]
+    record[FN], record[VN] = -push, vn
     record[PLASTIC_PART], record[PLASTIC_SUM] = s[XP], s[CUMULATED]
     if row[FRICTION] != 0.0 and push > 0.0:
-        drive = velocity_of_obstacle(kind, n, row)
-        ft, speed = rub(push, n, x, v, drive, t, row, s)
+        drive = velocity_of_obstacle(links.kinds[i], n, row)
+        ft, speed = rub(push, n, x, rate, drive, t, row, s)
         for c in range(3):
             f[c] += ft[c]
             record[FT + c] = ft[c]
         record[VT], record[WEAR] = speed, push * speed
+    for c in range(3):
+        k, m = (c + 1) % 3, (c + 2) % 3
+        record[MC + c] = arm[k] * f[m] - arm[m] * f[k]
     s[TOUCHES] = 1.0 if push > 0.0 else 0.0
+    if found >= 0 and push > 0.0:
+        touched[links.segments[found, 0]] = touched[links.segments[found, 1]] = 1
 
 
 @compiled
 def velocity_of_obstacle(kind: int, n: FloatArray, row: FloatArray) -> FloatArray:
     """Velocity of the plane, or of the turning circle (its speed is in DX) along its tangent."""
-    if kind == PLANE:
+    if kind != CIRCLE:
         return row[DX : DX + 3].copy()
     out = np.empty(3)
     for i in range(3):
@@ -270,6 +461,24 @@ def coupling(kind: int, x: float, v: float, t: float, row: FloatArray) -> float:
     return float(factor * v)
 
 
+@compiled
+def positive_part(value: float, gap: float) -> float:
+    """What a motion is beyond a gap, in the direction that the gap's sign says."""
+    return max(0.0, value - gap if gap >= 0.0 else gap - value)
+
+
+@compiled
+def polynomial(links: LinkArrays, i: int, q: FloatArray, v: FloatArray) -> float:
+    """Product of powers of the motions of modes beyond gaps."""
+    force: float = links.numbers[i, FACTOR]
+    for term in links.terms[i]:
+        if term[0] >= 0.0:
+            mode = int(term[0])
+            force *= positive_part(q[mode], term[2]) ** term[1]
+            force *= positive_part(v[mode], term[4]) ** term[3]
+    return force
+
+
 @apart
 @compiled
 def link_forces(
@@ -277,32 +486,47 @@ def link_forces(
     state: FloatArray, record: FloatArray, total: FloatArray,
 ) -> None:  # fmt: skip
     """Forces of all links on the modes, into `total` (n,); `state` and `record` are filled."""
-    kinds, receives, sees = links.kinds, links.receives, links.sees
-    count, n = receives.shape[0], q.shape[0]
+    kinds, points = links.kinds, links.points
+    count, n = len(kinds), len(q)
     total[:] = 0.0
-    forces = np.zeros((count, 3))
+    forces, x = np.zeros((count, 3)), np.zeros(3)
+    pushes = np.zeros(links.conditions.shape[1])
+    acting = links.receives.copy()
+    places, moving = places_now(points, q)
+    touched = np.zeros(len(places), dtype=np.int64)
     for i in range(count):
-        x, rate = np.zeros(3), np.zeros(3)
-        for c in range(3):
-            for j in range(n):
-                x[c] += sees[i, c, j] * q[j]
-                rate[c] += sees[i, c, j] * v[j]
-            record[i, X + c] = x[c]
-        record[i, FN : FORCE + 1] = 0.0
-        if kinds[i] <= CIRCLE:
-            contact(links, i, x, rate, t, state[i], forces[i], record[i])
+        times_rows(links.sees[i], q, x)
+        record[i, FN:] = 0.0
+        if kinds[i] <= RING:
+            for j in range(2):
+                if links.ends[i, j] >= 0:
+                    turn(points, links.ends[i, j], q, links.signs[i, j], x, acting[i])
+            for c in range(3):
+                record[i, X + c] = x[c]
+            contact(
+                links, i, q, v, t, x, places, moving, touched, acting[i], state[i], forces[i],
+                record[i],
+            )  # fmt: skip
         else:
-            forces[i, 0] = coupling(kinds[i], x[0], rate[0], t, links.numbers[i])
-            record[i, FN], record[i, VN] = forces[i, 0], rate[0]
+            record[i, X] = x[0]
+            if kinds[i] == POLYNOMIAL:
+                forces[i, 0] = polynomial(links, i, q, v)
+            else:
+                rate = 0.0
+                for j in range(n):
+                    rate += links.sees[i, 0, j] * v[j]
+                record[i, VN] = rate
+                forces[i, 0] = coupling(kinds[i], x[0], rate, t, links.numbers[i])
+            record[i, FN] = forces[i, 0]
         record[i, FORCE] = np.sqrt(forces[i, 0] ** 2 + forces[i, 1] ** 2 + forces[i, 2] ** 2)
+        pushes[links.groups[i]] = max(pushes[links.groups[i]], record[i, FORCE])
     for i in range(count):
         acts = True
-        for k in range(count):
-            pushes = record[k, FORCE] > 1e-20
-            wanted = links.conditions[i, k]
-            if (wanted == 1 and not pushes) or (wanted == -1 and pushes):
+        for g in range(len(pushes)):
+            wanted = links.conditions[i, g]
+            if (wanted == 1 and pushes[g] <= 1e-20) or (wanted == -1 and pushes[g] > 1e-20):
                 acts = False
         if acts:
             for c in range(3):
                 for j in range(n):
-                    total[j] += receives[i, c, j] * forces[i, c]
+                    total[j] += acting[i, c, j] * forces[i, c]

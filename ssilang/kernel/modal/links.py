@@ -1,7 +1,8 @@
 """Links of a structure on its modes: shocks with gaps, friction, plastic springs, couplings.
 
 A link sees a relative motion `x = P q` (three components) and gives a force `f` on it; on the modes
-it is `P^T f`. Forces of contact act along `-n`, n from the point to the obstacle.
+it is `P^T f`. Forces of contact act along `-n`, n from the point to the obstacle. Where bodies turn
+or lines touch, P is that of the place where they are (`Points`).
 """
 
 from __future__ import annotations
@@ -15,31 +16,59 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 
-PLANE, CIRCLE, POWER, SINE, COSINE, COSINE_OF_TIME, SINE_OF_TIME, VELOCITY = range(8)
-CONTACTS = (PLANE, CIRCLE)
+(
+    PLANE, CIRCLE, LINE, RING, POWER, SINE, COSINE, COSINE_OF_TIME, SINE_OF_TIME, VELOCITY,
+    POLYNOMIAL,
+) = range(11)  # fmt: skip
+CONTACTS = (PLANE, CIRCLE, LINE, RING)
 
 # columns of the numbers of a link
 (
     NX, NY, NZ, GAP, STIFF, DAMP, EX, EY, EZ, OUTSIDE, PERMANENT, PLASTIC, KINEMATIC, FRICTION,
-    SLIDE, STICK, TANGENT, TANGENT_DAMP, DX, DY, DZ, FACTOR, EXPONENT, FREQUENCY, COLUMNS,
-) = range(25)  # fmt: skip
+    SLIDE, STICK, TANGENT, TANGENT_DAMP, DX, DY, DZ, FACTOR, EXPONENT, FREQUENCY, RADIUS, FIRST,
+    LAST, IF_TOUCHED, COLUMNS,
+) = range(29)  # fmt: skip
 # columns of the state of a link: plastic part, its cumulated value, contact and adherence,
 # anchor of adherence, force there, time there, last sliding direction
 XP, CUMULATED, TOUCHES, STICKS, A0, F0, T0, S0, STATES = 0, 1, 2, 3, 4, 7, 10, 11, 14
 # columns of what is recorded: relative motion, normal force, tangential force, normal and sliding
-# velocities, power of wear, plastic part, its cumulated value, norm of the force
-X, FN, FT, VN, VT, WEAR, PLASTIC_PART, PLASTIC_SUM, FORCE, RECORDS = (
-    0,
-    3,
-    4,
-    7,
-    8,
-    9,
-    10,
-    11,
-    12,
-    13,
-)
+# velocities, power of wear, plastic part, its cumulated value, norm of the force, velocity where a
+# circle touches, moment of the force about its centre
+(
+    X, _, _, FN, FT, _, _, VN, VT, WEAR, PLASTIC_PART, PLASTIC_SUM, FORCE, VC, _, _, MC, _, _,
+    RECORDS,
+) = range(20)  # fmt: skip
+
+
+class Points(NamedTuple):
+    """Points whose place counts: of lines, and of rigid bodies that turn.
+
+    Rows of their motion (N, 3, n), places at rest (N, 3), the mode that turns their body (-1 where
+    none does), its axis and their place from its centre (N, 3).
+    """
+
+    rows: FloatArray
+    places: FloatArray
+    spins: IntArray
+    axes: FloatArray
+    arms: FloatArray
+
+
+def no_points(n: int) -> Points:
+    """Points of a structure of n modes that has no lines and no turning bodies."""
+    none = np.zeros((0, 3))
+    return Points(np.zeros((0, 3, n)), none, np.zeros(0, dtype=np.int64), none, none)
+
+
+def segments_of(pairs: IntArray, first: int = 0) -> IntArray:
+    """Segments (S, 4) of a line: two points, the segments before and behind, -1 at its ends.
+
+    `first` is the number of the first of them among all segments.
+    """
+    starts = {int(a): first + i for i, (a, _) in enumerate(pairs)}
+    ends = {int(b): first + i for i, (_, b) in enumerate(pairs)}
+    rows = [[a, b, ends.get(int(a), -1), starts.get(int(b), -1)] for a, b in pairs]
+    return np.array(rows, dtype=np.int64).reshape(-1, 4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +78,8 @@ class Link:
     Attributes
     ----------
     kind : int
-        PLANE (also between two points), CIRCLE, or a coupling of modes.
+        PLANE (also between two points), CIRCLE, LINE (a point and a line), RING (a circle about a
+        point and a line that goes through it), or a coupling of modes.
     receives : array (3, n)
         P above: the force acts on `P q`.
     sees : array (3, n)
@@ -59,7 +89,16 @@ class Link:
     law : array (m, 2) or None
         Points (overlap, force) of the spring; else a line of slope STIFF.
     conditions : dict
-        Number of another link: whether it must (True) or must not (False) push for this one to act.
+        Group of others: whether one must (True) or none may (False) push for this one to act.
+    group : int
+        Number of those that a script names as one; else the link is its own.
+    turns : array (3, n) or None
+        Rotation of a circle of the radius RADIUS, whose edge touches.
+    ends : tuple of (int, float)
+        Points whose bodies turn, by their number among the `Points`, and the sign of their motion
+        in x; of LINE and RING the point.
+    terms : array (k, 5)
+        Of POLYNOMIAL, by mode: its number, exponent and gap of displacement and of velocity.
     """
 
     kind: int
@@ -68,10 +107,18 @@ class Link:
     numbers: dict[int, float]
     law: FloatArray | None = None
     conditions: dict[int, bool] = field(default_factory=dict)
+    group: int | None = None
+    turns: FloatArray | None = None
+    ends: tuple[tuple[int, float], ...] = ()
+    terms: FloatArray = field(default_factory=lambda: np.zeros((0, 5)))
 
 
 class LinkArrays(NamedTuple):
-    """Links as arrays: kinds (L,), rows (L, 3, n), numbers (L, COLUMNS), conditions (L, L)."""
+    """Links as arrays: kinds (L,), rows (L, 3, n), numbers (L, COLUMNS), conditions (L, G).
+
+    `ends` (L, 2) are points, -1 where there is none, with `signs`; `terms` (L, k, 5) ends with
+    modes -1; `segments` (S, 4) as `segments_of` makes them.
+    """
 
     kinds: IntArray
     receives: FloatArray
@@ -80,9 +127,18 @@ class LinkArrays(NamedTuple):
     law_sizes: IntArray
     laws: FloatArray
     conditions: IntArray
+    groups: IntArray
+    turns: FloatArray
+    ends: IntArray
+    signs: FloatArray
+    terms: FloatArray
+    points: Points
+    segments: IntArray
 
 
-def link_arrays(links: Sequence[Link], n: int) -> LinkArrays:
+def link_arrays(
+    links: Sequence[Link], n: int, points: Points | None = None, segments: IntArray | None = None
+) -> LinkArrays:
     """Links as arrays for the compiled loop.
 
     Raises
@@ -94,7 +150,12 @@ def link_arrays(links: Sequence[Link], n: int) -> LinkArrays:
     sizes = np.array([0 if k.law is None else len(k.law) for k in links], dtype=np.int64)
     laws = np.zeros((count, int(sizes.max(initial=2)), 2))
     numbers = np.zeros((count, COLUMNS))
-    conditions = np.zeros((count, count), dtype=np.int64)
+    groups = np.array(
+        [i if k.group is None else k.group for i, k in enumerate(links)], dtype=np.int64
+    )
+    conditions = np.zeros((count, int(groups.max(initial=-1)) + 1), dtype=np.int64)
+    ends, signs = np.full((count, 2), -1, dtype=np.int64), np.zeros((count, 2))
+    terms = np.full((count, max((len(k.terms) for k in links), default=0), 5), -1.0)
     for i, link in enumerate(links):
         for column, value in link.numbers.items():
             numbers[i, column] = value
@@ -102,12 +163,21 @@ def link_arrays(links: Sequence[Link], n: int) -> LinkArrays:
             laws[i, : len(link.law)] = link.law
         for other, wanted in link.conditions.items():
             conditions[i, other] = 1 if wanted else -1
+        for j, (point, sign) in enumerate(link.ends):
+            ends[i, j], signs[i, j] = point, sign
+        terms[i, : len(link.terms)] = link.terms
         _check(i, link)
-    rows = np.zeros((2, count, 3, n))
+    rows = np.zeros((3, count, 3, n))
     for i, link in enumerate(links):
         rows[0, i], rows[1, i] = link.receives, link.sees
+        rows[2, i] = 0.0 if link.turns is None else link.turns
     kinds = np.array([k.kind for k in links], dtype=np.int64)
-    return LinkArrays(kinds, rows[0], rows[1], numbers, sizes, laws, conditions)
+    points = no_points(n) if points is None else points
+    segments = np.zeros((0, 4), dtype=np.int64) if segments is None else segments
+    return LinkArrays(
+        kinds, rows[0], rows[1], numbers, sizes, laws, conditions, groups, rows[2], ends, signs,
+        terms, points, segments,
+    )  # fmt: skip
 
 
 def _check(place: int, link: Link) -> None:

@@ -33,15 +33,18 @@ for _name in UNKNOWN:
         ElementKind(_name, "POI1", "shape", tuple(Mode), {"RIGIDITE": 1}, default=False)
     )
 
+register_element(ElementKind("LIAI", "POI1", "link", tuple(Mode), {"RIGIDITE": 1}, default=False))
+
 
 class _ShapeFamily(StrainlessFamily):
-    """Points that stand for shapes: they have no strains."""
+    """Points that stand for shapes, or for links (no unknown): they have no strains."""
 
     refusal = "kernel.modal.shapes-no-strains"
 
     def layout(self, zone: Zone) -> Layout:
         """ALFA or BETA."""
-        return Layout(zone.cells.nodes, zone.cells.raw, np.array([0]), (UNKNOWN[zone.element],))
+        unknowns = (UNKNOWN[zone.element],) if is_shape(zone) else ()
+        return Layout(zone.cells.nodes, zone.cells.raw, np.arange(len(unknowns)), unknowns)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Refused: `shape_matrix` makes the mass of all shapes together."""
@@ -49,6 +52,7 @@ class _ShapeFamily(StrainlessFamily):
 
 
 register_family("shape", _ShapeFamily())
+register_family("link", _ShapeFamily())
 
 
 def is_shape(zone: Zone) -> bool:

@@ -3,7 +3,8 @@
 Each function is replaced by `r + sum_i p_i / (U_i - x_i) + q_i / (x_i - L_i)`, which has its value
 and slopes at the present point; what is sought is the least of that problem (K. Svanberg, Int. J.
 Num. Meth. Eng. 24, 1987). It is separable: for given multipliers each variable has a closed form,
-and the multipliers are found as the greatest value of the dual function.
+and the multipliers are found as the greatest value of the dual function. `least_linear` takes
+tangents in place of the shares.
 """
 
 from __future__ import annotations
@@ -99,3 +100,28 @@ def least(problem: Shares, x: FloatArray, ceiling: FloatArray) -> FloatArray:
         options={"maxiter": 1000, "ftol": 1e-15, "gtol": 1e-12},
     )
     return problem.nearest(found.x, x)
+
+
+def least_linear(
+    x: FloatArray,
+    values: FloatArray,
+    slopes: FloatArray,
+    bounds: tuple[FloatArray, FloatArray],
+    ceiling: FloatArray,
+) -> FloatArray:
+    """The variables (n,) of the least first tangent under those of the conditions, in bounds.
+
+    Conditions of finite `ceiling` (m,) may be missed at that cost (a slack variable each).
+    """
+    from scipy.optimize import linprog
+
+    soft = np.flatnonzero(np.isfinite(ceiling))
+    slack = np.zeros((len(ceiling), len(soft)))
+    slack[soft, np.arange(len(soft))] = -1.0
+    found = linprog(
+        np.concatenate([slopes[0], ceiling[soft]]),
+        A_ub=np.hstack([slopes[1:], slack]) if len(ceiling) else None,
+        b_ub=slopes[1:] @ x - values[1:] if len(ceiling) else None,
+        bounds=[*zip(*bounds, strict=True), *[(0.0, None)] * len(soft)],
+    )
+    return np.asarray(found.x, dtype=float)[: len(x)]  # bounds make that there is one

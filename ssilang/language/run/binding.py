@@ -30,7 +30,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import UNSAID
 
 Heads = tuple[tuple[int, Mapping[str, tuple[tuple[int, Keyword | Select, str], ...]]], ...]
 """Keywords, with their place and their word, by what it begins with; by the length compared."""
@@ -47,7 +47,7 @@ class _Level:
 
 
 _Kept = tuple[
-    list[Operand], int, tuple[bool, bool, int], list[tuple[_Level, dict[str, Any], set[str]]]
+    list[Operand], int, tuple[bool, bool, int, int], list[tuple[_Level, dict[str, Any], set[str]]]
 ]
 
 
@@ -58,6 +58,7 @@ class Binder:
         self.call = call
         self.main = main  # the operand that chose the form
         self.taken = 0  # keywords
+        self._odd: list[tuple[bool, SsiError]] = []  # numbers: whether outside of their range
         self._levels: list[_Level] = []
         self._wordless = trial.wordless or call.wordless()
         self._keywords_there = trial.keywords
@@ -217,12 +218,24 @@ class Binder:
         raise self._lacking(a)
 
     def _given(self, a: Argument, operand: Operand) -> Any:
-        if a.range is not ANY_NUMBER and (wrong := a.range.flaw(operand.value, a.name)):
-            raise self._told(wrong[0], a, operand, wrong[1])
-        if a.usual is not ANY_NUMBER and (odd := a.usual.flaw(operand.value, a.name)):
-            warning = self._told("unusual", a, operand, odd[1])
-            self.call.session.report(warning)
+        if a.range is not UNSAID and (wrong := a.range.flaw(operand.value, a.name)):
+            self._odd.append((True, self._told(wrong[0], a, operand, wrong[1])))
+        elif a.usual is not UNSAID and (odd := a.usual.flaw(operand.value, a.name)):
+            self._odd.append((False, self._told("unusual", a, operand, odd[1])))
         return operand if a.whole else operand.value
+
+    def tell_ranges(self) -> None:
+        """Refuse the first number outside of its range, once all else fits; tell the unusual.
+
+        Raises
+        ------
+        SsiError
+            'out-of-range' or 'not-increasing'.
+        """
+        for refused, error in sorted(self._odd, key=lambda told: not told[0]):
+            if refused:
+                raise error
+            self.call.session.report(error)
 
     def _told(
         self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
@@ -355,14 +368,14 @@ class Binder:
         return (
             list(self.call.operands),
             len(self.call.used),
-            (self._wordless, self._keyless, self.taken),
+            (self._wordless, self._keyless, self.taken, len(self._odd)),
             [(v, dict(v.values), set(v.seen)) for v in levels],
         )
 
     def _put_back(self, kept: _Kept) -> None:
-        operands, used, (self._wordless, self._keyless, self.taken), levels = kept
+        operands, used, (self._wordless, self._keyless, self.taken, odd), levels = kept
         self.call.operands[:] = operands
-        del self.call.used[used:]
+        del self.call.used[used:], self._odd[odd:]
         for level, values, seen in levels:
             level.values.clear()
             level.values.update(values)
@@ -566,6 +579,7 @@ def _bound(form: Form, call: Call, trial: Trial) -> Bound:
                 values[entry.name] = binder.operand(entry)
         else:
             values = binder.bind(entries)
+        binder.tell_ranges()
         if form.said is not None and "word" not in form.injected:
             values.pop("word", None)
         words_alone = trial.keyed and binder.taken and not call.operands

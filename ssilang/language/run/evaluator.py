@@ -11,6 +11,7 @@ from ssilang.language.run.call import Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
+from ssilang.language.run.not_built import put_off
 from ssilang.language.run.phrase_errors import (
     name_as_word,
     no_result,
@@ -62,7 +63,7 @@ class Evaluator(PhraseRunner):
         session.evaluator = self
         self.statement_count = 0
         self._compiled: dict[tree.Statement | tree.Paren, Value | None] = {}
-        self._cut_short: set[tree.Statement] = set()  # conditions warned of
+        self._warned: set[tree.Statement] = set()  # statements warned of
         self._run_node: dict[type, Callable[[Any], None]] = {
             tree.Statement: self._tolerant,
             tree.If: self._if,
@@ -89,13 +90,18 @@ class Evaluator(PhraseRunner):
         if unread := _behind_condition(items):
             # SI ends its statement: what stands there for want of a ; is not run
             items = items[:1]
-            if statement not in self._cut_short:
-                self._cut_short.add(statement)
-                self.session.warn("behind-condition", unread.span, name=unread.span.text)
+            self._warn_once(statement, "behind-condition", unread.span, name=unread.span.text)
         results = self.phrase(items, statement.span)
         if len(results) != 1 or not isinstance(results[0].value, bool):
             raise self._unfit("condition", results, statement.span)
         self.run(node.then if results[0].value else node.otherwise)
+
+    def _warn_once(
+        self, statement: tree.Statement, code: str, span: Span | None, **data: object
+    ) -> None:
+        if statement not in self._warned:
+            self._warned.add(statement)
+            self.session.warn(code, span, **data)
 
     def _loop(self, node: tree.Loop) -> None:
         limit = self._count(node)
@@ -163,10 +169,19 @@ class Evaluator(PhraseRunner):
     # ---- statements ------------------------------------------------------------------------
 
     def _tolerant(self, statement: tree.Statement) -> None:
-        """Run a statement; with OPTI ERRE IGNORE its errors are shown and the run goes on."""
+        """Run a statement; with OPTI ERRE IGNORE its errors are shown and the run goes on.
+
+        It goes on too behind an operator of Cast3M that is not built, until its result is read.
+        """
         try:
             self._statement(statement)
         except SsiError as error:
+            known = {*self.session.frame.names(), *self.session.library.standard_names}
+            if later := put_off(statement, error, known):
+                self._warn_once(statement, "not-built-yet", error.span, **error.data)
+                for target in statement.targets:
+                    self.store(target, later)
+                return
             if self.session.options.get("ERRE") != "IGNORE":
                 raise
             if error.span is None:

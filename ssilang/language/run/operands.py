@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language.run.call import Operand
 from ssilang.language.run.leftovers import is_call, is_named_object
+from ssilang.language.run.not_built import read
 from ssilang.language.run.procedures import method_of
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -74,7 +75,7 @@ class OperandReader(ABC):
             value = self.session.library.find(item.text)
             if value is None:
                 return [Operand(Mot(item.word), item.span)]
-        return [Operand(value, item.span, item.text)]
+        return [Operand(read(value, item.span), item.span, item.text)]
 
     def _paren(self, item: tree.Paren) -> list[Operand]:
         value = self.scalar(item)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.text.source import Span
 from ssilang.language.values import ANNULE, Mot, Objet
 
@@ -73,10 +74,10 @@ class Frame:
             self.variables[name] = ANNULE
 
     def names(self) -> set[str]:
-        """All visible names."""
-        found: set[str] = set()
+        """All visible names of what can be read."""
+        found: dict[str, Any] = {}
         frame: Frame | None = self
         while frame is not None:
-            found.update(frame.variables)
+            found = {**frame.variables, **found}
             frame = frame.caller
-        return found
+        return {name for name, value in found.items() if type(value) is not NotBuilt}

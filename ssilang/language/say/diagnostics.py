@@ -27,7 +27,7 @@ _INDICES_SHOWN = 20
 _KINDS = {"error": "label-error", "warning": "label-warning"}
 
 
-_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line")
+_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here")
 """Data that phrases add to errors: sentences that are said before the hint (`phrase_errors`)."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ssilang.language.registry import (
@@ -25,8 +25,8 @@ from ssilang.language.registry import (
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
-from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.messages.message import spoken, teller
+from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID
+from ssilang.messages.message import examples, spoken, teller
 
 WIDTH = 88
 TABLE_WIDTH = 100
@@ -53,7 +53,8 @@ class Page:
 def operator_page(found: Operator) -> Page:
     """The page of an operator, from the registry."""
     forms = tuple(form.entries for form in found.forms)
-    return Page(found.name, found.full_name, "operator", found.family, "", found.help, forms)
+    help_ = replace(found.help, examples=examples(found.family, found.name))
+    return Page(found.name, found.full_name, "operator", found.family, "", help_, forms)
 
 
 # ---- procedures: the comment at the head of their file is their help --------------------------
@@ -236,7 +237,7 @@ def _said(a: Argument, language: str) -> str:
     told = [
         f"; {teller(language)(code) + ' ' if code else ''}{bounds_told(b, a.name, language)}"
         for code, b in bounds
-        if b != ANY_NUMBER
+        if b not in (UNSAID, ANY_NUMBER)
     ]
     return f"{_meaning(a, language)}{unit}{default}{''.join(told)}"
 

@@ -9,7 +9,22 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.reader import Reader, Unsound
 from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
-from ssilang.language.text.words import grammar_words
+from ssilang.remembered import remembered
+from ssilang.resources import resource
+
+Words = list[tuple[str, str]]
+
+
+def grammar_words() -> Words:
+    """Names and regular expressions of the grammar's terminals, in the order of trial."""
+    grammar = resource("grammar", "ssi.lark").read_text(encoding="utf-8")
+    return [(name, pattern) for name, pattern in remembered("words", grammar, _words)]
+
+
+def _words() -> Words:
+    from ssilang.language.text.by_grammar import words_of_grammar
+
+    return words_of_grammar()
 
 
 @lru_cache(maxsize=1)

@@ -2,18 +2,20 @@
 
 The vocabulary holds meanings; which parameters a law or an element has, which are mandatory, on
 which cells it stands, is known by the kernel (`ssilang.operators.vocabulary.words` joins both).
-Each list is a module, loaded when a word of it is first asked for.
+Each list is a file of TOML beside this one, read when a word of it is first asked for.
 """
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
+from typing import Any
 
 from ssilang.language.near import LIKE, nearest_names
-from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word
+from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word, read_range
+from ssilang.remembered import remembered
 
 __all__ = [
     "KINDS", "WORDS_OF", "Option", "Quantity", "Unit", "Word", "all_meanings", "find", "full_name",
@@ -21,7 +23,7 @@ __all__ = [
 ]  # fmt: skip
 
 KINDS = ("formulation", "law", "element", "parameter", "component", "option")
-"""The lists of words; each is the tuple WORDS of the module named after it in the plural."""
+"""The lists of words; the file of each is named after it in the plural."""
 
 WORDS_OF: dict[str, tuple[str, ...]] = {
     "MODE": ("formulation", "law", "element"), "MATE": ("parameter",), "CARA": ("parameter",),
@@ -40,8 +42,29 @@ def words(kind: str) -> tuple[Word, ...]:
     """All words of a list."""
     if kind not in KINDS:
         raise KeyError(kind)
-    found: tuple[Word, ...] = importlib.import_module(f"{__name__}.{kind}s").WORDS
-    return found
+    path = Path(__file__).with_name(f"{kind}s.toml")
+    found = path.stat()
+    rows = remembered(f"{kind}s", f"{found.st_mtime_ns} {found.st_size}", lambda: _rows(path))
+    return tuple(_word(kind, row) for row in rows)
+
+
+def _rows(path: Path) -> Any:
+    """The tables of a file, one a word."""
+    import tomllib
+
+    return tomllib.loads(path.read_text(encoding="utf-8"))["word"]
+
+
+def _word(kind: str, row: dict[str, Any]) -> Word:
+    """A word of a list from its table in the list's file."""
+    said = (row["name"], row["en"], row["fr"], tuple(row.get("of", ())), row.get("kind", ""))
+    if kind == "option":
+        values = tuple(Word(v["name"], v["en"], v["fr"]) for v in row.get("values", ()))
+        return Option(*said, row.get("takes", ""), values, row.get("default", ""))
+    if kind not in ("component", "parameter"):
+        return Word(*said)
+    within, usual = (read_range(row.get(name, "")) for name in ("range", "usual"))
+    return Quantity(*said, row.get("unit"), within, usual, row.get("default"))
 
 
 @cache

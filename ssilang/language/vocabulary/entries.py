@@ -29,7 +29,7 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
-from ssilang.language.vocabulary.terms import ANY_NUMBER, Range, read_range
+from ssilang.language.vocabulary.terms import UNSAID, Range, read_range
 from ssilang.messages.message import spoken
 from ssilang.resources import resource
 
@@ -106,8 +106,8 @@ class TableEntry:
     needed: bool = False
     means: tuple[str, ...] = ()
     taken_over: bool = False
-    range: Range = ANY_NUMBER
-    usual: Range = ANY_NUMBER
+    range: Range = UNSAID
+    usual: Range = UNSAID
 
     @property
     def index(self) -> str:

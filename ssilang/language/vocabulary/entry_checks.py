@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
 _TRUTH = "LOGIQUE"
+_TRUTH_WORDS = {"VRAI": True, "FAUX": False}
 
 
 _OF_ENTRIES = {"out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing"}
@@ -59,6 +60,23 @@ def allowed(entry: TableEntry) -> str:
     return " | ".join([*kinds, *map(as_written, entry.values)])
 
 
+def meant_truth(entry: TableEntry, value: Any) -> Any:
+    """The LOGIQUE that the word 'VRAI' or 'FAUX' means where an entry takes one, else the value.
+
+    Quotes around VRAI and FAUX make them words; published decks write them so.
+    """
+    free = "MOT" in entry.types and not entry.values
+    if not isinstance(value, Mot) or _TRUTH not in entry.types or free:
+        return value
+    return _TRUTH_WORDS.get(str(value).upper().rstrip(), value)
+
+
+def truth_told(procedure: str, where: tuple[object, ...], meant: bool) -> dict[str, object]:
+    """Data of the warning of a word that means a LOGIQUE."""
+    word = "VRAI" if meant else "FAUX"
+    return {"procedure": procedure, "operator": procedure, "where": shown(where), "word": word}
+
+
 def checked(
     session: Session, entry: TableEntry, value: Any, where: tuple[object, ...], **data: object
 ) -> Any:
@@ -71,6 +89,7 @@ def checked(
     SsiError
         If it is of another type, or no allowed word, or holds what no calculation can use.
     """
+    value = meant_truth(entry, value)
     found, place = type_of(value), shown(where)
     if entry.types and found not in entry.types:
         if found != "ENTIER" or "FLOTTANT" not in entry.types:
@@ -129,6 +148,7 @@ class TableCheck:
         """
         if type(table) is not Table:  # made by procedures, their values not even found yet
             return
+        self._words_of_truth(table, path, where)
         given = [(i, v) for i, v in table.items() if not isinstance(v, Annule)]
         for index, value in given:
             entry = self.declared.at(path, index)
@@ -141,6 +161,18 @@ class TableCheck:
                 missing = 1 if entry.index == NUMBER else entry.index
                 raise self._error("entry-missing", shown((*where, missing)))
         self._without_effect(table, path, where, given)
+
+    def _words_of_truth(
+        self, table: Table, path: tuple[str, ...], where: tuple[object, ...]
+    ) -> None:
+        """Put the LOGIQUE in place of the word that means it, and tell."""
+        for index, value in list(table.items()):
+            entry = self.declared.at(path, index)
+            meant = value if entry is None else meant_truth(entry, value)
+            if meant is not value:
+                told = truth_told(self.declared.name, (*where, index), meant)
+                self.session.warn("word-of-truth", self.place, **told)
+                table.set(index, meant)
 
     def _without_effect(
         self,

@@ -19,6 +19,11 @@ _BODY = (
     "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'RHO' 1900. ;\nLIST (TYPE (RIGI M A)) ;"
 )
 _PLASTIC = "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{}' ;\n"
+_LINK = (
+    "OPTI DIME 2 MODE PLAN DEFO ELEM POI1 ;\nG = MANU POI1 (0. 0.) ;\n"
+    "M = MODE G 'LIAISON' 'POINT_PLAN' ;\n"
+    "A = MATE M 'NORM' (1. 0.) 'RAID' 1.E6 'JEU' 0.01 ;\nLIST (TYPE A) ;"
+)
 _ON_POINT = "OPTI DIME 2 MODE PLAN DEFO ;\nP = 0. 0. ;\nM = MODE (MANU POI1 P) 'MECANIQUE' {} ;\n"
 
 _PLASTIC_VALUES = {
@@ -76,6 +81,9 @@ EXAMPLES: dict[str, str] = {
     + "A = MATE M 'RAID' 1.E9 'VISC' 1.E7 ;\nLIST (TYPE (RIGI M A)) ;",
     "law contact": _SIDES
     + "M = MODE SOIL 'CONTACT' 'FROTTANT' 'COULOMB' BASE ;\nA = MATE M 'MU' 0.6 ;\nLIST (TYPE A) ;",
+    "law link": _LINK,
+    "element link": _LINK,
+    "formulation LIAISON": _LINK,
     "law load": _SIDES + "M = MODE SOIL 'CHARGEMENT' 'PRESSION' ;\nLIST (TYPE M) ;",
     "law choice": _SIDES
     + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ;\nLIST (TYPE M) ;",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,14 +63,12 @@ UNITS: dict[str, Unit] = {
 }
 
 
-_HUGE = sys.float_info.max  # integers may be past all reals
-
-
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Numbers from `low` to `high`; an open end does not belong to it.
+    """Finite numbers from `low` to `high`; an open end does not belong to it.
 
-    Lists of `increasing` ones have at least one number, and each is above the one before.
+    Lists of `increasing` ones have at least one number, and each is above the one before. Of one
+    without `zero` that number makes no sense.
     """
 
     low: float = -math.inf
@@ -79,30 +76,28 @@ class Range:
     open_low: bool = False
     open_high: bool = False
     increasing: bool = False
+    zero: bool = True
 
     def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
         """What is wrong with a number or a list of them: a code and data; None if nothing is.
 
-        What is neither, as a field where a number would do too, is not judged.
+        What is neither, as a field where a number would do too, is not judged; nor is anything
+        where any number has sense.
         """
-        if self == ANY_NUMBER or isinstance(value, bool):
+        if self is UNSAID or self is ANY_NUMBER or isinstance(value, bool):
             return None
-        single = isinstance(value, int | float)
         if isinstance(value, int | float):
-            near = float(value) if abs(value) <= _HUGE else math.copysign(math.inf, value)
-            numbers = np.array([near])
-        elif isinstance(value, ListReel | ListEnti):
-            numbers = np.asarray(value.values, dtype=float)
-        else:
+            return None if value in self else self._outside(value, name)
+        if not isinstance(value, ListReel | ListEnti):
             return None
+        numbers = np.asarray(value.values, dtype=float)
         with np.errstate(invalid="ignore"):
             above = numbers > self.low if self.open_low else numbers >= self.low
             below = numbers < self.high if self.open_high else numbers <= self.high
-        wrong = numbers[~(np.isfinite(numbers) & above & below)]
-        if wrong.size:
-            bound = self.text(name) or f"|{name}| < inf"
-            return "out-of-range", {"value": float(wrong[0]), "range": bound}
-        if single or not self.increasing:
+        belong = np.isfinite(numbers) & above & below & (self.zero | (numbers != 0.0))
+        if not belong.all():
+            return self._outside(float(numbers[~belong][0]), name)
+        if not self.increasing:
             return None
         falls = np.flatnonzero(np.diff(numbers) <= 0.0)
         if numbers.size and not falls.size:
@@ -112,13 +107,19 @@ class Range:
         told = {"value": after, "before": before, "place": place, "next_place": place + 1}
         return "not-increasing", {**told, "count": numbers.size}
 
+    def _outside(self, value: float, name: str) -> tuple[str, dict[str, object]]:
+        return "out-of-range", {"value": value, "range": self.text(name) or f"|{name}| < inf"}
+
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low
         below = value < self.high if self.open_high else value <= self.high
-        return above and below
+        finite = isinstance(value, int) or math.isfinite(value)  # integers may be past all reals
+        return finite and above and below and (self.zero or value != 0)
 
     def text(self, name: str) -> str:
-        """As an inequality: 'NU > -1', '-1 < NU <= 0.5'."""
+        """As an inequality: 'NU > -1', '-1 < NU <= 0.5', 'N != 0'."""
+        if not self.zero:
+            return f"{name} != 0"
         bounded = math.isfinite(self.low), math.isfinite(self.high)
         left, right = "<" if self.open_low else "<=", "<" if self.open_high else "<="
         if all(bounded):
@@ -129,7 +130,9 @@ class Range:
 
 
 def read_range(text: str) -> Range:
-    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0'."""
+    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0', 'any'."""
+    if text in _NAMED:
+        return _NAMED[text]
     increasing = text.startswith("increasing")
     low, high, opens = -math.inf, math.inf, [False, False]
     left, named, right = text.removeprefix("increasing").partition("x")
@@ -143,11 +146,16 @@ def read_range(text: str) -> Range:
     return Range(low, high, opens[0], opens[1], increasing)
 
 
-ANY_NUMBER = Range()
+UNSAID = Range()
+"""Nothing is declared: of what is no number."""
+ANY_NUMBER = Range(open_low=True, open_high=True)
+"""Any number has sense: coordinates, forces, terms of lists; of NaN operators tell themselves."""
+NOT_ZERO = Range(zero=False)
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
-NOT_POSITIVE = Range(high=0.0)
 RISING = Range(0.0, increasing=True)
+BELOW_CRITICAL = Range(0.0, 1.0, open_high=True)
+_NAMED = {"": UNSAID, "any": ANY_NUMBER, "!= 0": NOT_ZERO}
 
 
 def between(low: float, high: float) -> Range:
@@ -199,32 +207,9 @@ class Quantity(Word):
     """
 
     unit: str | None = ""
-    range: Range = ANY_NUMBER
-    usual: Range = ANY_NUMBER
+    range: Range = UNSAID
+    usual: Range = UNSAID
     default: float | None = None
-
-
-def parameter(
-    name: str,
-    unit: str | None,
-    en: str,
-    fr: str,
-    of: tuple[str, ...] = (),
-    *,
-    range: Range = ANY_NUMBER,
-    usual: Range = ANY_NUMBER,
-    default: float | None = None,
-) -> Quantity:
-    """A parameter of a material or section."""
-    return Quantity(name, en, fr, of, "", unit, range, usual, default)
-
-
-def unused_parameter(
-    name: str, unit: str | None, en: str, fr: str, of: tuple[str, ...] = ()
-) -> Quantity:
-    """A parameter that scripts may give and that nothing reads here."""
-    en, fr = f"{en} (taken, without effect)", f"{fr} (lu, sans effet)"
-    return Quantity(name, en, fr, of, "unused", unit)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,11 +16,10 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, Range
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
 
 _KINDS = ("DEPL", "VITE", "ACCE")
-_RECORD = "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (PROG 11 * 2.) ; "
 
 
 _RULE = choice(
@@ -41,7 +40,6 @@ _RULE = choice(
         "trapezoids twice ('SIMP', the default) or exactly for an acceleration linear in the "
         "steps ('LINE').",
         syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
-        examples=(_RECORD + "D V = INSI A 'LINE' ; LIST (EXTR V 'ORDO') ; LIST (EXTR D 'ORDO') ;",),
     ),
 )
 def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
@@ -63,7 +61,7 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     key(
         "degree",
         "POLY",
-        arg("degree", "ENTIER", en="from 1 to 6"),
+        arg("degree", "ENTIER", en="from 1 to 6", range=between(1, 6)),
         en="degree of the velocity's polynomial",
     ),
     family="signals",
@@ -73,12 +71,6 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
         "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
         "start, that is nearest to the velocity is taken off.",
         syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
-        examples=(
-            "T = PROG 0. PAS 0.1 5. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (1. + (2. * T)) ; "
-            "LIST ((MAXI (ABS (EXTR (COSI A 'LINE' 'POLY' 2) 'ORDO'))) < 1.E-10) ;",
-            "A = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.1 1.) 'ACCE' (SIN (PROG 0. PAS 70. 700.)) ; "
-            "D V = INSI (COSI A) ; MESS (ABS (EXTR (EXTR D 'ORDO') 11) < 1.E-12) ;",
-        ),
     ),
 )
 def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
@@ -121,10 +113,6 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
         en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
         "pseudo-velocity 'VITE' (w times it), pseudo-acceleration 'ACCE' (w squared times it).",
         syntax="EVOL2 = CHSP EVOL1 'ENTR' MOT1 'SORT' MOT2 ('COUL' COUL1) ;",
-        examples=(
-            "S = EVOL 'MANU' 'FREQ' (PROG 1. 2.) 'DEPL' (PROG 0.1 0.1) ; "
-            "LIST (CHSP S 'ENTR' 'DEPL' 'SORT' 'ACCE') ;",
-        ),
     ),
 )
 def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | None) -> Curve:
@@ -156,10 +144,6 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
         "points (cut, or filled with zeros): summed over the frequencies times their step it is "
         "the mean square.",
         syntax="EVOL1 = DSPR N1 EVOL2 ('FMIN' F1) ('FMAX' F2) (COUL1) ;",
-        examples=(
-            "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.125 NPAS 7) 'A' (SIN (PROG 0. PAS 90. NPAS 7)) "
-            "; LIST (DSPR 3 S) ;",
-        ),
     ),
 )
 def dspr(
@@ -202,7 +186,7 @@ PERIODS = opt(
         "dampings",
         "LISTREEL",
         range=NOT_NEGATIVE,
-        usual=Range(0.0, 1.0, open_high=True),
+        usual=BELOW_CRITICAL,
         en="dampings",
     ),
     PERIODS,
@@ -221,10 +205,6 @@ PERIODS = opt(
         "mean of a Gumbel law through two fractiles of Vanmarcke's ('NEWG').",
         syntax="EVOL1 = PSRS EVOL2 X1 LREEL1 (LREEL2) ('ACCE' | 'VITE' | 'DEPL') "
         "('CRAM' | 'NEWG') ('PERI' | 'FREQ') (COUL1) ;",
-        examples=(
-            "S = EVOL 'MANU' 'FREQ' (PROG 0.1 20.) 'DSP' (PROG 0.1 0.1) ; "
-            "LIST (PSRS S 10. (PROG 0.05) (PROG 0.1 0.5) 'FREQ') ;",
-        ),
     ),
 )
 def psrs(

@@ -1,4 +1,4 @@
-"""SIAR PERT: artificial signals and random perturbations."""
+"""SIAR PERT PRNS: artificial signals, random perturbations, spectra of modulated signals."""
 
 from __future__ import annotations
 
@@ -9,15 +9,30 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
+from ssilang.kernel.records.modulated import (
+    ModulatedSignal,
+    Resolution,
+    modulated_response_spectrum,
+)
 from ssilang.language.registry import ANY, Help, arg, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE, RISING
-from ssilang.operators.curves.words import one_part
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    BELOW_CRITICAL,
+    NOT_NEGATIVE,
+    POSITIVE,
+    RISING,
+    between,
+)
+from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
+from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator
 
 _SERIES = ("ACCE", "VITE", "DEPL")
-_SEED = key("seed", "INIT", arg("seed", "ENTIER"), en="start of the random numbers")
+_SEED = key(
+    "seed", "INIT", arg("seed", "ENTIER", range=ANY_NUMBER), en="start of the random numbers"
+)
 
 
 def _drawn(call: Call, seed: int | None) -> np.random.Generator:
@@ -83,10 +98,6 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
         "number of sines (slices of 0.1 Hz by default), 'INIT' start of the random numbers.",
         syntax="EVOL1 EVOL2 EVOL3 = SIAR EVOL4 (EVOL5 LREEL1) (X1) ('TINI' X2) ('ACCE') ('VITE') "
         "('DEPL') ('NCOU' N1) ('NPOI' N2) ('NSIN' N3) ('INIT' N4) ;",
-        examples=(
-            "S = EVOL 'MANU' 'FREQ' (PROG 0.5 10.) 'DSP' (PROG 0.1 0.1) ; "
-            "A = SIAR S 8. 'ACCE' 'INIT' 3 ; LIST (DIME (EXTR A 'ORDO')) ;",
-        ),
     ),
 )
 def siar(
@@ -175,12 +186,12 @@ def _bands(
 
 @operator(
     "PERT",
-    arg("values", "LISTREEL", en="values"),
+    arg("values", "LISTREEL", en="values", range=ANY_NUMBER),
     flag("signs", "SIGN", en="signs drawn, the default"),
     key(
         "degrees",
         "AMPL",
-        arg("degrees", "FLOTTANT", unit="degree"),
+        arg("degrees", "FLOTTANT", unit="degree", usual=between(0.0, 90.0)),
         en="largest angle whose sin^2 is the share given to the neighbours",
     ),
     _SEED,
@@ -190,7 +201,6 @@ def _bands(
         "square given to the neighbours ('AMPL': the share sin^2 of an angle drawn between 0 and "
         "X1 degrees; the sum of squares stays), or both. 'INIT' starts the random numbers.",
         syntax="LREEL1 = PERT LREEL2 ('SIGN') ('AMPL' X1) ('INIT' N1) ;",
-        examples=("LIST (SOMM ((PERT (PROG 1. 2. 3.) 'AMPL' 30. 'INIT' 1) ** 2)) ;",),
     ),
 )
 def pert(
@@ -199,3 +209,112 @@ def pert(
     """Perturb values."""
     generator = _drawn(call, seed)
     return ListReel(perturbed(values.values, generator, signs or degrees is None, degrees))
+
+
+@operator(
+    "PRNS",
+    arg("curve", "EVOLUTIO", en="power density per hertz"),
+    arg("modulation", "EVOLUTIO", en="a curve for each band"),
+    arg(
+        "bands",
+        "LISTREEL",
+        range=RISING,
+        en="limits of the bands",
+        unit="Hz",
+    ),
+    PERIODS,
+    opt(
+        "damping",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        usual=BELOW_CRITICAL,
+        default=0.05,
+        en="damping, 0.05 without it",
+    ),
+    KIND,
+    ABSCISSA,
+    COLOUR,
+    key(
+        "n_processes",
+        "NBPR",
+        arg("n", "ENTIER", range=POSITIVE),
+        en="number of processes, of about 2 s without it",
+    ),
+    key(
+        "n_instants",
+        "NBIN",
+        arg("n", "ENTIER", range=POSITIVE),
+        default=10,
+        en="instants of each, 10 without it",
+    ),
+    key(
+        "rest",
+        "TPLU",
+        arg("rest", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
+        default=20.0,
+        en="time behind the end, 20 without it",
+    ),
+    key(
+        "precision",
+        "PREC",
+        arg("precision", "FLOTTANT", range=POSITIVE),
+        default=1e-3,
+        en="precision of the levels, 1.E-3 without it",
+    ),
+    flag("defaults", "NBDE", en="the defaults"),
+    flag("root_1", "NEG1", en="accepted, changes nothing"),
+    flag("root_2", "NEG2", en="accepted, changes nothing"),
+    flag("wavelets", "ONDE", en="not available"),
+    family="signals",
+    help=Help(
+        en="Response spectrum of a random acceleration that changes in time: a stationary signal "
+        "of one-sided power density EVOL2 (per hertz), each band of frequencies of which, between "
+        "the numbers of the first list, is multiplied by its curve in EVOL3 (one more limit than "
+        "curves, which go from one instant to another, all alike). Over 75 periods from 0.04 s to "
+        "the duration, or those of the second list, for the damping given (0.05): 'ACCE' "
+        "(absolute, the default), 'VITE' or 'DEPL' (relative). The value is the mean of a Gumbel "
+        "law through two fractiles of Vanmarcke's law of the largest answer of an oscillator that "
+        "starts from rest. Time is cut into 'NBPR' processes (of about 2 s), in which modulations "
+        "are linear, of 'NBIN' instants (10) each, and goes on for 'TPLU' seconds (20); 'PREC' is "
+        "the precision of the levels (1.E-3), 'NBDE' says these defaults. PSRS does the same for "
+        "a stationary signal.",
+        syntax="EVOL1 = PRNS EVOL2 EVOL3 LREEL1 (LREEL2) (X1) ('ACCE' | 'VITE' | 'DEPL') "
+        "('PERI' | 'FREQ') (COUL1) ('NBPR' N1) ('NBIN' N2) ('TPLU' X2) ('PREC' X3) ('NBDE') ;",
+    ),
+)
+def prns(
+    call: Call,
+    curve: Curve,
+    modulation: Curve,
+    bands: ListReel,
+    periods: ListReel | None,
+    damping: float,
+    kind: str,
+    abscissa: str,
+    colour: str | None,
+    n_processes: int | None,
+    n_instants: int,
+    rest: float,
+    precision: float,
+    wavelets: bool,
+    **_: bool,
+) -> Curve:
+    """Response spectrum of a modulated power spectrum."""
+    if wavelets:
+        raise call.error("operators.curves.no-modulation-of-wavelets")
+    power = one_part(call, curve)
+    signal = ModulatedSignal(
+        power.abscissas, power.ordinates, np.asarray(bands.values, dtype=float),
+        tuple(p.abscissas for p in modulation.parts), tuple(p.ordinates for p in modulation.parts),
+    )  # fmt: skip
+    if periods is None and signal.duration <= 0.04:
+        raise call.error("operators.curves.duration-too-short", duration=signal.duration)
+    over = np.geomspace(0.04, signal.duration, 75) if periods is None else periods.values
+    if n_processes is None:
+        n_processes = max(round(signal.duration / 2.0), 1)
+    resolution = Resolution(n_processes, n_instants, rest, precision)
+    order = np.argsort(over)
+    values = modulated_response_spectrum(signal, over[order], damping, kind, resolution)
+    index = shade(colour, power.colour)
+    part = spectrum_part(over[order], values, abscissa, kind, damping, index)
+    return Curve((part,), curve.title)

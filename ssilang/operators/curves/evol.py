@@ -39,7 +39,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -66,9 +66,9 @@ _ENTRIES: dict[str, list[Entry]] = {
         key("type", "TYPE", arg("type", "MOT"), en="type of the ordinates"),
         key("legend", "LEGE", arg("legend", "MOT"), en="legend"),
         _ABSCISSA,
-        arg("x", *_LISTS, en="abscissas"),
+        arg("x", *_LISTS, en="abscissas", range=ANY_NUMBER),
         _ORDINATE,
-        arg("y", *_LISTS, en="ordinates"),
+        arg("y", *_LISTS, en="ordinates", range=ANY_NUMBER),
     ],
     "COMP": [
         choice(
@@ -82,11 +82,11 @@ _ENTRIES: dict[str, list[Entry]] = {
             en="legends",
         ),
         _ABSCISSA,
-        arg("x", "LISTREEL", en="abscissas"),
+        arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER),
         _ORDINATE,
-        arg("first", "LISTREEL", en="first parts"),
+        arg("first", "LISTREEL", en="first parts", range=ANY_NUMBER),
         opt("second_name", "MOT", en="name of the second"),
-        arg("second", "LISTREEL", en="second parts"),
+        arg("second", "LISTREEL", en="second parts", range=ANY_NUMBER),
     ],
     "CHPO": [
         arg("field", "CHPOINT", en="field"),
@@ -95,9 +95,9 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
     "TEMP": [
         arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
         opt("index", "MOT", en="what of the results"),
-        opt("steps", "LISTENTI", en="steps, all without it"),
+        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
         opt(
             "names",
             "MOT",
@@ -106,11 +106,11 @@ _ENTRIES: dict[str, list[Entry]] = {
             kind="component",
         ),
         opt("support", "POINT", "MAILLAGE", en="points"),
-        many("cell", "ENTIER", en="zone, cell, point"),
+        many("cell", "ENTIER", en="zone, cell, point", range=POSITIVE),
     ],
     "RECO": [
         arg("history", "LISTCHPO", "TABLE", en="contributions in time"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
         _BASIS,
         opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
         opt("load", "CHARGEME", en="load of pseudo-modes"),
@@ -134,23 +134,17 @@ _ENTRIES: dict[str, list[Entry]] = {
         flag("modes", "ALFA", en="of its modes"),
         opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks"),
         _COMPONENT,
-        opt("times", "LISTREEL", en="times", unit="s"),
+        opt("times", "LISTREEL", en="times", unit="s", range=ANY_NUMBER),
     ],
     "PJBA": [
         arg("history", "LISTCHPO", "TABLE", en="fields in time"),
-        opt("times", "LISTREEL", en="their times", unit="s"),
-        opt("steps", "LISTENTI", en="steps, all without it"),
+        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
+        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
         _BASIS,
-        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it"),
+        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE),
         opt("metric", "RIGIDITE", en="matrix of the product"),
     ],
 }
-
-_MODE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; "
-    "T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; "
-    "Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ; "
-)
 
 
 @operator(
@@ -180,15 +174,6 @@ _MODE = (
         "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
         "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
         "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
-        examples=(
-            "E = EVOL 'ROUG' 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; LIST E ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; "
-            "E = EVOL 'CHPO' (X * X) 'SCAL' L ; LIST E ;",
-            _MODE + "LIST (EVOL 'RECO' (SUIT Q1 (Q1 * 2.)) (PROG 0. 1.) T1 'UX' P1) ;",
-            _MODE + "TI = TABL 'INITIAL' ; TI . 'VITESSE' = Q1 ; R = DYNE 'DE_VOGELAERE' T1 TI 4 "
-            "0.1 ; LIST ((EVOL 'RECO' R T1 'DEPL' P1 'UX') ET (EVOL 'SOLU' R 'VITE' T1 'ALFA')) ;",
-            _MODE + "U = RECO Q1 T1 ; LIST (EVOL 'PJBA' (SUIT U (U * 2.)) (PROG 0. 1.) T1) ;",
-        ),
     ),
     reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
 )

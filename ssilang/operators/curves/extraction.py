@@ -15,7 +15,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
@@ -44,10 +44,10 @@ def ordinate_list(part: CurvePart) -> ListReel | ListEnti | ListMots:
 
 
 _MAIN = main("curve", "EVOLUTIO", en="curves")
-_NUMBER = opt("place", "ENTIER", en="number of the curve")
+_NUMBER = opt("place", "ENTIER", en="number of the curve", range=POSITIVE)
 _BY_PLACE = flag("by_place", "INDI", en="limits are places of points")
-_LOW = arg("low", "FLOTTANT", en="first abscissa")
-_HIGH = arg("high", "FLOTTANT", en="last abscissa")
+_LOW = arg("low", "FLOTTANT", en="first abscissa", range=ANY_NUMBER)
+_HIGH = arg("high", "FLOTTANT", en="last abscissa", range=ANY_NUMBER)
 _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
 
 
@@ -59,7 +59,14 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
             "ABSC": [_NUMBER],
             "ORDO": [_NUMBER],
             "COUR": [
-                arg("which", "ENTIER", "LISTENTI", "MOT", en="number, numbers, or name of an axis")
+                arg(
+                    "which",
+                    "ENTIER",
+                    "LISTENTI",
+                    "MOT",
+                    en="number, numbers, or name of an axis",
+                    range=POSITIVE,
+                )
             ],
             "PAS": [arg("step", "ENTIER", range=POSITIVE, en="one point of so many")],
             "AVAN": [_BY_PLACE, _HIGH],
@@ -91,19 +98,6 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
     "MOT1 = EXTR EVOL1 'LEGX' | 'LEGY' | 'LEGE' | 'COUL' (N1) ;",
     en="Of curves: abscissas or ordinates as a list (also by the name of an axis), some of the "
     "curves, some of their points, names of axes, colours.",
-    examples=(
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'ORDO') ;",
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 5. 6. 7.) ; LIST (EXTR E 'APRE' 1. 'ZERO') ;",
-        (
-            "E = (EVOL 'ROUG' 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 5. 6. 7.)) ET\n"
-            "(EVOL 'VERT' 'MANU' 't' (PROG 0. 1. 2.) 'v' (PROG 8. 9. 7.)) ;\n"
-            "LIST (EXTR E 'ABSC' 2) ; LIST (EXTR E 'v') ; LIST (EXTR E 'COUL') ;\n"
-            "F = EXTR E 'COUR' 2 ; LIST (EXTR F 'ORDO') ; F = EXTR E 'COUR' 'u' ;\n"
-            "LIST (EXTR (EXTR F 'PAS' 2) 'ABSC') ; LIST (EXTR (EXTR F 'AVAN' 1.) 'ORDO') ;\n"
-            "LIST (EXTR (EXTR F 'COMP' 'INDI' 2 3 'ZERO') 'ABSC') ;\n"
-            "MESS (EXTR E 'LEGX') (EXTR E 'LEGY' 2) (EXTR E 'LEGE' 1) (EXTR E 'COUL' 1) ;"
-        ),
-    ),
 )
 def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
     """A part of curves, by a word."""
@@ -240,7 +234,6 @@ def copy_curves(curve: Curve) -> Curve:
     flag("absolute", "ABSO", en="by absolute values"),
     syntax="EVOL2 = ORDO EVOL1 ('CROI' | 'DECR') ('ABSO') ;",
     en="Of curves: points in order of abscissas.",
-    examples=("LIST (ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.))) ;",),
 )
 def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
     """Points in order of abscissas."""
@@ -258,13 +251,12 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
 @CHAN.form(
     said("TITR", *_FIELD_OF),
     CURVE,
-    opt("place", "ENTIER", en="number of the curve, all without it"),
+    opt("place", "ENTIER", en="number of the curve, all without it", range=POSITIVE),
     arg("name", "MOT", en="title, legend or name"),
     of=("EVOLUTIO",),
     syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",
     en="TITR, LEGE, NOMABS, NOMORD change the title, the legend, the names of the axes of curves "
     "(of curve N1 only).",
-    examples=("E = CHAN 'LEGE' (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.)) 'measured' ; LIST E ;",),
 )
 def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
     """Other titles, legends, names of axes."""
@@ -305,7 +297,6 @@ def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     gives=_EXTREME,
     syntax="N1 X1 Y1 = MAXI EVOL1 ('ABS') ;",
     en="Of a curve: place, abscissa and ordinate of the largest ordinate; of several, lists.",
-    examples=("I X Y = MAXI (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 3. 9. 1.)) ; LIST Y ;",),
 )
 def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     """The largest ordinate."""

@@ -40,6 +40,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
@@ -49,24 +50,34 @@ from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.workspace import workspace
 
 _WHERE = "where the function is wanted"
-_NUMBER = arg("value", "FLOTTANT", en=_WHERE)
-_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE)
-_LIST = arg("value", "LISTREEL", en=_WHERE)
+_NUMBER = arg("value", "FLOTTANT", en=_WHERE, range=ANY_NUMBER)
+_NUMBER_OR_FIELD = arg("value", "FLOTTANT", "CHPOINT", "MCHAML", en=_WHERE, range=ANY_NUMBER)
+_LIST = arg("value", "LISTREEL", en=_WHERE, range=ANY_NUMBER)
 _FUNCTION = either(
     "function",
     group("curve", CURVE),
     group(
         "lists",
-        arg("x", "LISTREEL", en="abscissas"),
-        arg("y", "LISTREEL", en="ordinates"),
+        arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER),
+        arg("y", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     ),
 )
 
 
 _SPLINE = (
     flag("smooth", "SPLI", en="by a cubic spline"),
-    key("left", "DGAU", arg("left", "FLOTTANT"), en="slope of the spline at the left end"),
-    key("right", "DDRO", arg("right", "FLOTTANT"), en="slope of the spline at the right end"),
+    key(
+        "left",
+        "DGAU",
+        arg("left", "FLOTTANT", range=ANY_NUMBER),
+        en="slope of the spline at the left end",
+    ),
+    key(
+        "right",
+        "DDRO",
+        arg("right", "FLOTTANT", range=ANY_NUMBER),
+        en="slope of the spline at the right end",
+    ),
 )
 
 
@@ -102,19 +113,6 @@ ipol = operator(
         syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
         "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
         "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
-        examples=(
-            "LIST (IPOL 1.5 (PROG 0. 1. 2.) (PROG 0. 10. 30.)) ;",
-            "LIST (IPOL (PROG 0.5 5.) (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 4.))) ;",
-            "LIST (IPOL 'TOUS' 0.5 (PROG 0. 1. 0.) (PROG 2. 4. 8.)) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (2. 0.) ; C = COOR 1 L ;\n"
-                "P = IPOL (COOR 'CURV' L) 0.7 ; LIST (COOR 1 P) ;\n"
-                "T = TABL 'RESULTAT' ; T . 1.5 = C ; T . 3. = 4. * C ;\n"
-                "LIST (MAXI (IPOL T 2.)) ;\n"
-                "N = NUAG 'COMP' 'X' (PROG 0. 2.) 'COMP' 'F' (PROG 1. 5.) ;\n"
-                "LIST (IPOL N (NOMC 'X' C) 'GRILL') ;"
-            ),
-        ),
     ),
 )(_interpolate)
 
@@ -145,13 +143,13 @@ def all_values(call: Call, value: float, function: Chosen) -> ListReel:
     key(
         "power",
         "PID",
-        opt("power", "FLOTTANT", default=1.0),
+        opt("power", "FLOTTANT", default=1.0, range=POSITIVE),
         en="weights by powers of the distance",
     ),
     key(
         "cut",
         "ELIM",
-        opt("cut", "FLOTTANT", default=0.0),
+        opt("cut", "FLOTTANT", default=0.0, range=NOT_NEGATIVE),
         default=0.0,
         en="distance within which a point gives its own values",
     ),
@@ -173,7 +171,7 @@ def of_cloud(
 
 @ipol.form(
     arg("table", "TABLE", en="fields by times"),
-    arg("time", "FLOTTANT", en="time", unit="s"),
+    arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER),
     gives="CHPOINT|MCHAML",
 )
 def in_table(call: Call, table: Table, time: float) -> Any:
@@ -198,7 +196,7 @@ def in_table(call: Call, table: Table, time: float) -> Any:
 
 @ipol.form(
     arg("field", "CHPOINT", en="curvilinear abscissas"),
-    arg("distance", "FLOTTANT", en="distance along the line", unit="m"),
+    arg("distance", "FLOTTANT", en="distance along the line", unit="m", range=ANY_NUMBER),
 )
 def on_line(call: Call, field: NodeField, distance: float) -> Point:
     """A point of a line."""
@@ -224,8 +222,8 @@ def _through(field: Any, curve: Curve) -> Any:
 
 
 for _kind in ("CHPOINT", "MCHAML"):
-    rule("*", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
-    rule("*", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
+    rule("* /", _kind, "EVOLUTIO")(lambda sign, field, curve: _through(field, curve))
+    rule("* /", "EVOLUTIO", _kind)(lambda sign, curve, field: _through(field, curve))
 
 
 # ---- integrals ----------------------------------------------------------------------------------
@@ -241,15 +239,15 @@ _PLACE = ("ENTIER", "LISTENTI")
     key(
         "bounds",
         "BORN",
-        arg("low", *_BOUND, en="lower ones"),
-        arg("high", *_BOUND, en="upper ones"),
+        arg("low", *_BOUND, en="lower ones", range=ANY_NUMBER),
+        arg("high", *_BOUND, en="upper ones", range=ANY_NUMBER),
         en="between abscissas",
     ),
     key(
         "places",
         "INDI",
-        arg("low", *_PLACE, en="first ones"),
-        arg("high", *_PLACE, en="last ones"),
+        arg("low", *_PLACE, en="first ones", range=POSITIVE),
+        arg("high", *_PLACE, en="last ones", range=POSITIVE),
         en="between places",
     ),
     gives="FLOTTANT|LISTREEL|NUAGE",
@@ -258,7 +256,6 @@ _PLACE = ("ENTIER", "LISTENTI")
     en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
     "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
     "list. Without 'BORN' abscissas may go back: a loop gives the area inside it.",
-    examples=("LIST (INTG (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ;",),
 )
 def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
     """Integrals of curves."""
@@ -302,7 +299,6 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     help=Help(
         en="Primitive of curves by trapezes, zero at the first abscissa.",
         syntax="EVOL2 = PRIM EVOL1 ;",
-        examples=("LIST (PRIM (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 1. 1. 1.))) ;",),
     ),
 )
 def prim(curve: Curve) -> Curve:

@@ -1,20 +1,34 @@
-"""FILT of a record, TOUR of two components, ZOND: a record matched to a spectrum."""
+"""FILT of a record, TOUR of two components, ZOND for a spectrum, ONDE: its wavelets."""
 
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
-from ssilang.kernel.curves.curve import Curve
+import numpy as np
+
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.records.directions import turned
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched
-from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import Help, arg, flag, key, operator
+from ssilang.kernel.records.signals import (
+    constant_step,
+    modulus_ridge,
+    phase_ridge,
+    scales,
+    settled,
+    transform,
+)
+from ssilang.language.registry import Help, arg, by, choice, flag, key, operator
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.signals import filt
-from ssilang.operators.curves.words import CURVE, check_together, one_part
+from ssilang.operators.curves.words import COLOUR, CURVE, check_together, one_part, shade
 from ssilang.operators.mesh.copies.images import tour
+from ssilang.operators.workspace import workspace
 
 
 @filt.form(
@@ -26,12 +40,7 @@ from ssilang.operators.mesh.copies.images import tour
     en="A record itself, filtered by Butterworth's of order N1 (4): without what is slower than F1 "
     "('PHAU') or faster than F2 ('PBAS'). Forth and back, without phase, both corners count "
     "twice (half the amplitude there); 'CAUS': one pass (0.707 there), with a phase.",
-    syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;",
-    examples=(
-        "T = PROG 0. PAS 0.01 4. ; A = EVOL 'MANU' 'TEMP' T 'ACCE' (SIN (T * 3600.)) ;\n"
-        "B = FILT A 'PHAU' 0.2 'PBAS' 2. ; LIST ((MAXI (EXTR B 'ORDO')) < 0.01) ;",
-    ),
-)  # fmt: skip
+    syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;")  # fmt: skip
 def filtered_records(
     call: Call, curve: Curve, order: int, low: float | None, high: float | None, causal: bool
 ) -> Curve:
@@ -53,15 +62,11 @@ def filtered_records(
 @tour.form(
     arg("first", "EVOLUTIO", en="component along x"),
     arg("second", "EVOLUTIO", en="component along y"),
-    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg"),
+    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
     gives=("EVOLUTIO", "EVOLUTIO"),
     en="Two horizontal components of a record along axes turned by an angle in degrees, from x to "
     "y.",
     syntax="EVOL1 EVOL2 = TOUR EVOL3 EVOL4 FLOT1 ;",
-    examples=(
-        "T = PROG 0. 0.1 ; X = EVOL 'MANU' T (PROG 0. 2.) ; Y = EVOL 'MANU' T (PROG 0. 1.) ;\n"
-        "A B = TOUR X Y 90. ; LIST (EXTR A 'ORDO') ; LIST (EXTR B 'ORDO') ;",
-    ),
 )
 def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> tuple[Curve, Curve]:
     """Turn two components."""
@@ -78,8 +83,9 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
     "ZOND",
     arg("record", "EVOLUTIO", en="acceleration"),
     arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz"),
-    key("damping", "AMOR", arg("xi", "FLOTTANT"), default=0.05, en="damping"),
-    key("tolerance", "TOLE", arg("x", "FLOTTANT"), default=0.05,
+    key("damping", "AMOR", arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
+        default=0.05, en="damping"),
+    key("tolerance", "TOLE", arg("x", "FLOTTANT", range=POSITIVE), default=0.05,
         en="largest misfit, 0.05 without it"),
     family="signals",
     gives=("EVOLUTIO", "FLOTTANT"),
@@ -87,24 +93,138 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
         en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
         "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
         "part of the target.",
-        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
-        examples=(
-            "T = PROG 0. PAS 0.02 8. ; B = SIN (22.5 * T) ;\n"
-            "A = EVOL 'MANU' 'TEMP' T 'ACCE' (B * (SIN (T * 700.))) ;\n"
-            "C = EVOL 'MANU' 'FREQ' (PROG 1. 2. 4.) 'ACCE' (PROG 2. 3. 2.) ;\n"
-            "D X = ZOND A C ; LIST (X < 0.05) ;",
-        ),
-    ),
+        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;"),
 )  # fmt: skip
 def zond(
     call: Call, record: Curve, target: Curve, damping: float, tolerance: float
 ) -> tuple[Curve, float]:
     """Match a record."""
     part, wanted = one_part(call, record), one_part(call, target)
-    if not tolerance > 0.0:
-        raise call.error("operators.curves.tolerance-not-positive", tolerance, tolerance=tolerance)
     found = matched(
         part.abscissas, part.ordinates, wanted.abscissas, wanted.ordinates, damping, tolerance
     )
     made = dataclasses.replace(part, ordinates=found.values)
     return Curve((made,), record.title), found.misfit
+
+
+@operator(
+    "ONDE",
+    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
+    CURVE,
+    choice(
+        "form",
+        ("CRMO", "CRPH", "REIM", "MOPH"),
+        default="CRMO",
+        en="ridge by the modulus (default) or by the phase, or the transform as a field",
+    ),
+    key(
+        "lowest",
+        "FMIN",
+        arg("lowest", "FLOTTANT", range=NOT_NEGATIVE, unit="Hz"),
+        default=0.0,
+        en="lowest frequency",
+    ),
+    key(
+        "highest",
+        "FMAX",
+        arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
+        default=0.0,
+        en="highest frequency",
+    ),
+    key(
+        "count",
+        ("NFRQ", "DFRQ"),
+        arg("count", "FLOTTANT", range=POSITIVE),
+        default=("NFRQ", 50.0),
+        en="number of frequencies, 50 without it",
+    ),
+    key(
+        "turn",
+        "EPSI",
+        arg("turn", "FLOTTANT", range=POSITIVE),
+        default=1e-4,
+        en="tolerance of the phase, 1.E-4 without it",
+    ),
+    key(
+        "pulsation",
+        "PULS",
+        arg("pulsation", "FLOTTANT", range=POSITIVE),
+        default=5.0,
+        en="pulsation of the wavelet, 5 without it",
+    ),
+    COLOUR,
+    family="signals",
+    full_name="ONDE",
+    gives=by("form", dict.fromkeys(("REIM", "MOPH"), ("CHPOINT", "MAILLAGE")), "EVOLUTIO"),
+    help=Help(
+        en="Continuous wavelet transform (Morlet's wavelet of pulsation 'PULS', 5 by default) of a "
+        "signal on 2**N1 points, scaled so that a sine gives its amplitude. 'REIM' or 'MOPH': "
+        "nodal field (PREE PIMA, or MODU and PHAS in degrees) and its mesh, a unit square with "
+        "time in abscissa and frequency in ordinate (evenly spaced in 1/f), zero near the ends. "
+        "'CRMO' or 'CRPH': its ridge, by the largest modulus or where the phase turns at the "
+        "wavelet's pulsation to 'EPSI' (1.E-4): frequency and amplitude in time.",
+        syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
+        "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
+        "('EPSI' X5) ('PULS' X4) (COUL1) ;",
+    ),
+)
+def onde(
+    call: Call,
+    power: int,
+    curve: Curve,
+    form: str,
+    lowest: float,
+    highest: float,
+    count: tuple[str, float],
+    turn: float,
+    pulsation: float,
+    colour: str | None,
+) -> Any:
+    """Wavelet transform."""
+    if not 1 <= power <= 20:
+        raise call.error("operators.curves.power-of-two-of-wavelets", power, power=power)
+    part, rows = one_part(call, curve), int(count[1])
+    if not 0.0 < lowest < highest or rows < 1 or pulsation <= 0.0:
+        raise call.error("operators.curves.frequencies-must-increase", fmin=lowest, fmax=highest)
+    step, n = constant_step(part.abscissas), 2**power
+    if n * (rows + 1) > 20_000_000:
+        raise call.error("operators.curves.transform-too-large")
+    scale = scales(lowest, highest, rows, pulsation)
+    found = transform(part.ordinates, step, n, scale, pulsation)
+    times = part.abscissas[0] + step * np.arange(n)
+    if form in ("REIM", "MOPH"):
+        return _square(call, times, found, scale, form)
+    if form == "CRMO":
+        t, f, size = modulus_ridge(times, found, scale, pulsation)
+    else:
+        t, f, size = phase_ridge(times, found, scale, pulsation, turn)
+    index = shade(colour, 0)
+    parts = (
+        CurvePart(t, f, "TEMPS", "FREQ (HZ)", "FREQUENCE", index),
+        CurvePart(t, size, "TEMPS", "MODULE", "MODULE", index),
+    )
+    return Curve(parts, curve.title)
+
+
+def _square(
+    call: Call, times: FloatArray, found: ComplexArray, scale: FloatArray, form: str
+) -> tuple[NodeField, Mesh]:
+    ws = workspace(call.session)
+    rows, n = found.shape
+    if ws.dimension < 2:
+        raise call.error("operators.curves.two-dimensions-wanted")
+    xy = np.zeros((rows * n, ws.dimension))
+    xy[:, 0] = np.tile(np.linspace(0.0, 1.0, n), rows)
+    xy[:, 1] = np.repeat(np.linspace(1.0, 0.0, rows), n)
+    ids = ws.nodes.add(xy, ws.density)
+    grid = np.asarray(ids).reshape(rows, n)
+    corners = (grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:], grid[:-1, :-1])
+    cells = np.stack([c.ravel() for c in corners], axis=1)
+    mesh = Mesh.of(ws.nodes, "QUA4", cells, ws.colour)
+    inside = np.array([settled(times, float(a)) for a in scale])
+    values = np.where(inside, found, 0.0).ravel()
+    if form == "REIM":
+        pair = {"PREE": values.real.copy(), "PIMA": values.imag.copy()}
+    else:
+        pair = {"MODU": np.abs(values), "PHAS": np.degrees(np.angle(values))}
+    return NodeField.of(ws.nodes, np.asarray(ids), pair, "DIFFUS"), mesh

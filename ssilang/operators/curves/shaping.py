@@ -13,10 +13,8 @@ from ssilang.kernel.records.signals import constant_step
 from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, RISING, between
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
-
-_LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
 
 
 @operator(
@@ -28,15 +26,14 @@ _LINE = "E = EVOL 'MANU' 'X' (PROG 0. 1. 2.) 'Y' (PROG 0. 1. 4.) ; "
         en="by the value at the end (default), or along the last two points",
     ),
     CURVE,
-    arg("first", "FLOTTANT", en="abscissa to reach"),
-    opt("second", "FLOTTANT", en="another one"),
+    arg("first", "FLOTTANT", en="abscissa to reach", range=ANY_NUMBER),
+    opt("second", "FLOTTANT", en="another one", range=ANY_NUMBER),
     family="curves",
     help=Help(
         en="Curves continued to one or two abscissas outside their range: with the value at the "
         "end ('BORN', the default) or along the line of the last two points ('LINE'). Abscissas "
         "inside change nothing.",
         syntax="EVOL2 = PROL ('BORN' | 'LINE') EVOL1 X1 (X2) ;",
-        examples=(_LINE + "LIST (PROL 'LINE' E 3. -1.) ;",),
     ),
 )
 def prol(call: Call, rule: str, curve: Curve, first: float, second: float | None) -> Curve:
@@ -82,7 +79,6 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
     help=Help(
         en="Curves joined end to end, two by two: the one that begins first stands first.",
         syntax="EVOL3 = CONC EVOL1 EVOL2 ;",
-        examples=(_LINE + "F = EVOL 'MANU' (PROG 3. 4.) (PROG 0. 5.) ; LIST (CONC F E) ;",),
     ),
 )
 def conc(call: Call, first: Curve, second: Curve) -> Curve:
@@ -129,10 +125,6 @@ def _start(part: CurvePart) -> float:
         "step: positive, with the signal's sum of squares on each interval (the modulation of a "
         "signal). 'REDU': intervals of N2 samples of the signal, N1 intervals at least.",
         syntax="EVOL1 = LSQF EVOL2 N1 ('UNIF') ('REDU' N2) ;",
-        examples=(
-            "S = EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 2. -2. 2. -2. 2. -2. 2. -2. 2.) ; "
-            "LIST (LSQF S 2) ;",
-        ),
     ),
 )
 def lsqf(
@@ -163,11 +155,6 @@ def lsqf(
         en="Poincaré map: displacement and velocity of a node at the instants where a shock "
         "begins, that is where the contact force EVOL2 leaves zero.",
         syntax="EVOL1 = MAPP (COUL1) EVOL2 EVOL3 EVOL4 ;",
-        examples=(
-            "T = PROG 0. PAS 1. 4. ; F = EVOL 'MANU' T (PROG 0. 0. 5. 0. 7.) ; "
-            "D = EVOL 'MANU' T (PROG 1. 2. 3. 4. 5.) ; V = EVOL 'MANU' T (PROG 9. 8. 7. 6. 5.) ; "
-            "LIST (MAPP F D V) ;",
-        ),
     ),
 )
 def mapp(call: Call, colour: str | None, force: Curve, moved: Curve, speed: Curve) -> Curve:
@@ -201,7 +188,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     key(
         "percent",
         "DECL",
-        arg("p", "FLOTTANT", unit="%"),
+        arg("p", "FLOTTANT", unit="%", range=between(0.0, 100.0)),
         default=1e-6,
         en="threshold of the largest absolute value, 1.E-6 without it",
     ),
@@ -217,16 +204,10 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
         "absolute value passes 'DECL' percent of its largest (1.E-6 by default); 'NCHO' keeps "
         "the first ones.",
         syntax="EVOL1 = CMOY EVOL2 'ACQU' X1 ('DECL' X2) ('NCHO' N1) ;",
-        examples=(
-            "E = EVOL 'MANU' (PROG 0. PAS 1. 7.) (PROG 0. 3. 1. 0. 5. 3. 0. 0.) ; "
-            "LIST (CMOY E 'ACQU' 1.) ;",
-        ),
     ),
 )
 def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
     """Mean shock."""
-    if count is not None and count < 1:
-        raise call.error("operators.curves.count-of-shocks", count, count=count)
     parts = []
     for p in records.parts:
         constant_step(p.abscissas)
@@ -238,11 +219,11 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
 @operator(
     "LAPL",
     flag("inverse", "INVERSE", en="the inverse transform"),
-    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s"),
-    arg("real", "LISTREEL", en="real parts"),
-    arg("imaginary", "LISTREEL", en="imaginary parts"),
-    arg("shift", "FLOTTANT", en="real part a of the variable"),
-    arg("group", "ENTIER", en="group size"),
+    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s", range=RISING),
+    arg("real", "LISTREEL", en="real parts", range=ANY_NUMBER),
+    arg("imaginary", "LISTREEL", en="imaginary parts", range=ANY_NUMBER),
+    arg("shift", "FLOTTANT", en="real part a of the variable", range=ANY_NUMBER),
+    arg("group", "ENTIER", en="group size", range=POSITIVE),
     family="signals",
     full_name="LAPLACE",
     help=Help(
@@ -250,10 +231,6 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
         "(2**N of them, from 0, at a constant step), the real and imaginary parts of F(a + i w), "
         "the number a, and the group size L: the result has 2**N / L times over 2 pi / step.",
         syntax="EVOL1 = LAPL 'INVERSE' LREEL1 LREEL2 LREEL3 X1 N1 ;",
-        examples=(
-            "W = PROG 0. PAS 0.5 NPAS 1023 ; D = (W * W) + 1.44 ; "
-            "E = LAPL 'INVERSE' W (1.2 / D) (-1. * W / D) 0.2 4 ; LIST (EXTR (EXTR E 'ORDO') 50) ;",
-        ),
     ),
 )
 def lapl(

@@ -33,10 +33,8 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.language.vocabulary.terms import POSITIVE, between
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
 from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
-
-_SIGNAL = "S = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.01 NPAS 63) 'A' (PROG 64 * 1.) ; "
 
 
 def spectrum(
@@ -75,12 +73,6 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
         "list of fields: lists of real and imaginary fields, and the frequencies.",
         syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
         "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
-        examples=(
-            _SIGNAL + "F = TFR 6 S 'MOPH' ; LIST (EXTR (EXTR F 'MODU') 1) ;",
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; L = SUIT C C C C ;\n"
-            "R I F = TFR 2 L (PROG 0. 'PAS' 0.5 1.5) 'REIM' ; LIST F ;\n"
-            "LIST (EXTR R 'VALE' 'UX' P) ;",
-        ),
     ),
 )
 def tfr(
@@ -112,7 +104,7 @@ def _check_power(call: Call, power: int) -> None:
 @tfr.form(
     _POWER,
     arg("fields", "LISTCHPO", en="fields at constant step"),
-    arg("times", "LISTREEL", en="their times", unit="s"),
+    arg("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
     _FORM,
     *LIMITS,
 )
@@ -163,7 +155,6 @@ def tfr_of_fields(
         en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
         "constant step: a real signal; inverse of TFR.",
         syntax="EVOL2 = TFRI EVOL1 ;",
-        examples=(_SIGNAL + "R = TFRI (TFR 6 S 'REIM') ; LIST (MAXI (EXTR R 'ORDO')) ;",),
     ),
 )
 def tfri(call: Call, curve: Curve) -> Curve:
@@ -178,7 +169,7 @@ def tfri(call: Call, curve: Curve) -> Curve:
     return Curve((part,), curve.title)
 
 
-_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
+_CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
 
 
 @operator(
@@ -190,7 +181,7 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
         {
             "PHAU": [_CUT],
             "PBAS": [_CUT],
-            "OMEG": [arg("cut", "ENTIER", en="exponent")],
+            "OMEG": [arg("cut", "ENTIER", en="exponent", range=ANY_NUMBER)],
         },
         en="high-pass, low-pass, or power of the circular frequency",
     ),
@@ -211,11 +202,6 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz")
         "(i 2 pi f)**N ('OMEG').",
         syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
         "'DFRQ' F2 ;",
-        examples=(
-            "LIST (DIME (FILT 4 'TYPE' 'PBAS' 2. 'DFRQ' 0.5)) ;",
-            "LIST (FILT 2 'TYPE' 'PHAU' 2. 'DFRQ' 2.) ;\n"
-            "LIST (FILT 2 'TYPE' 'OMEG' 2 'SORT' 'REIM' 'DFRQ' 1.) ;",
-        ),
     ),
 )
 def filt(
@@ -255,7 +241,6 @@ def filt(
     help=Help(
         en="Hanning's mean (1/4, 1/2, 1/4) of a spectrum, N1 times.",
         syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
-        examples=("LIST (HANN (EVOL 'MANU' (PROG 1. 2. 3.) (PROG 0. 4. 0.)) 1) ;",),
     ),
 )
 def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
@@ -294,7 +279,6 @@ _PERCENT = opt(
         "where shocks begin ('DEBU') and end ('FIN').",
         syntax="LENT1 = COMT EVOL1 (X1) ; N1 (LREE1) (LENT2) (LENT3) = COMT EVOL1 (X1) ('MAXI') "
         "('DEBU') ('FIN') ;",
-        examples=("LIST (COMT (EVOL 'MANU' (PROG 0. PAS 1. 4.) (PROG 0. 3. 0. 2. 0.))) ;",),
     ),
 )
 def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, ends: bool) -> Any:
@@ -321,7 +305,6 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
         en="Length of the abscissas where the absolute value of each curve is above a level, in "
         "percent of its largest.",
         syntax="LREE1 = TOTE EVOL1 (X1) ;",
-        examples=("LIST (TOTE (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.)) 50.) ;",),
     ),
 )
 def tote(curve: Curve, percent: float) -> ListReel:
@@ -344,19 +327,13 @@ _AXIS = arg("name", "MOT", en="name of the ordinates")
         optional=False,
         en="constant step",
     ),
-    arg("values", "LISTREEL", en="ordinates"),
+    arg("values", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     family="signals",
     help=Help(
         en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
         "('NOCO': pairs one after the other with 'COUP', else all times then all values, or two "
         "lists, the first of which holds the step or 0).",
         syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
-        examples=(
-            "LIST (FDT 'ACCE' 'CONS' 0.5 (PROG 1. 2. 3.)) ;",
-            "LIST (FDT 'ACCE' 'NOCO' 'COUP' (PROG 0. 1. 0.5 2.)) ;\n"
-            "LIST (FDT 'ACCE' 'NOCO' (PROG 0. 0.5 1. 2.)) ; LIST (FDT 'ACCE' (PROG 0.5) "
-            "(PROG 1. 2.)) ;",
-        ),
     ),
 )
 def fdt(name: str, step: float, values: ListReel) -> Curve:
@@ -368,8 +345,8 @@ def fdt(name: str, step: float, values: ListReel) -> Curve:
     _AXIS,
     flag("given", "NOCO", en="times are given"),
     flag("pairs", "COUP", en="by pairs"),
-    arg("values", "LISTREEL", en="times and ordinates, or the step or 0"),
-    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate"),
+    arg("values", "LISTREEL", en="times and ordinates, or the step or 0", range=ANY_NUMBER),
+    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate", range=ANY_NUMBER),
 )
 def fdt_of_times(
     call: Call, name: str, given: bool, pairs: bool, values: ListReel, second: ListReel | None

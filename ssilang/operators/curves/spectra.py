@@ -1,4 +1,4 @@
-"""OSCI SPO VALP: oscillators under a signal, response spectra, eigenvalues of a tridiagonal."""
+"""Spectra of oscillators, linear and yielding (SPON), of floors (ZSPP), their envelopes; VALP."""
 
 from __future__ import annotations
 
@@ -11,14 +11,26 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.directions import rotated_spectra
-from ssilang.language.registry import Help, arg, choice, key, operator, opt
+from ssilang.kernel.records.floors import Storey, floor_spectrum
+from ssilang.language.registry import Help, arg, choice, flag, key, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    BELOW_CRITICAL,
+    NOT_NEGATIVE,
+    POSITIVE,
+    RISING,
+    between,
+)
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
+from ssilang.operators.mesh.selection.boundaries import enve
 
 _TIMES = key(
-    "times", "TEMPS", arg("t", "LISTREEL", unit="s"), en="times; those of the signal without it"
+    "times",
+    "TEMPS",
+    arg("t", "LISTREEL", unit="s", range=RISING),
+    en="times; those of the signal without it",
 )
 _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
 
@@ -40,8 +52,10 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         en="frequency",
     ),
     _TIMES,
-    key("start", "DEPL", arg("x0", "FLOTTANT"), default=0.0, en="X at the start"),
-    key("speed", "VITE", arg("v0", "FLOTTANT"), default=0.0, en="X' at the start"),
+    key("start", "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"),
+    key(
+        "speed", "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
+    ),
     _COLOUR,
     arg("signal", "EVOLUTIO", en="signal g(t)"),
     family="modal",
@@ -50,10 +64,6 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         "start (0); exact for a signal linear between its points.",
         "EVOL2 = OSCI EVOL1 'AMOR' A1 'FREQ' F1 ('TEMPS' LREEL1) ('DEPL' X0) ('VITE' V0) "
         "('COUL' MOT1) ;",
-        (
-            "T1 = PROG 0. PAS 0.01 1. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (0. * T1) ;"
-            " X1 = OSCI G1 'AMOR' 0.05 'FREQ' 2. 'DEPL' 1. ; LIST (EXTR X1 'ORDO') ;",
-        ),
     ),
 )
 def osci(
@@ -103,7 +113,7 @@ def osci(
     key(
         "percentiles",
         "ROTD",
-        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median"),
+        arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", range=between(0.0, 100.0)),
         en="percentiles over all directions of two components",
     ),
     arg("signal", "EVOLUTIO", en="acceleration"),
@@ -117,12 +127,6 @@ def osci(
         "EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
         "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;\nEVOL2 = SPO EVOL1 EVOL3 'ROTD' LREEL4 'AMOR' LREEL1 "
         "('FREQ' LREEL2) ('COUL' MOT2) 'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
-        (
-            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
-            " LIST (SPO G1 (0. * G1) 'ROTD' (PROG 50. 100.) 'AMOR' 0.05 'FREQ' (PROG 2.) 'ACCE') ;",
-            "T1 = PROG 0. PAS 0.01 2. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (SIN (720. * T1)) ;"
-            " S1 = SPO G1 'AMOR' (PROG 0.05) 'FREQ' (PROG 1. 2. 4.) 'ACCE' ; LIST S1 ;",
-        ),
     ),
 )
 def spo(
@@ -198,12 +202,12 @@ def _valp(
 
 operator(
     "VALP",
-    arg("diagonal", "LISTREEL", en="diagonal"),
-    arg("below", "LISTREEL", en="sub-diagonal"),
+    arg("diagonal", "LISTREEL", en="diagonal", range=ANY_NUMBER),
+    arg("below", "LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
     key(
         "accuracy",
         ("ITERATION", "ABSOLU", "RELATIF"),
-        arg("number", "FLOTTANT"),
+        arg("number", "FLOTTANT", range=ANY_NUMBER),
         repeated=True,
         en="accepted: exact to rounding",
     ),
@@ -213,6 +217,214 @@ operator(
         "Eigenvalues, increasing, of the tridiagonal matrix of given diagonal and sub-diagonal and "
         "of ones above the diagonal.",
         "LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
-        ("LIST (VALP (PROG 2. 2.) (PROG 1.)) ;",),
     ),
 )(_valp)
+
+
+@operator(
+    "ZSPP",
+    arg(
+        "modes",
+        "LISTREEL",
+        range=POSITIVE,
+        en="frequencies of modes",
+        unit="Hz",
+    ),
+    arg(
+        "dampings",
+        "LISTREEL",
+        range=NOT_NEGATIVE,
+        usual=BELOW_CRITICAL,
+        en="their dampings",
+    ),
+    arg("shares", "LISTREEL", en="their participations", range=ANY_NUMBER),
+    arg(
+        "frequencies",
+        "LISTREEL",
+        range=POSITIVE,
+        en="frequencies of the spectrum",
+        unit="Hz",
+    ),
+    arg(
+        "damping",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        usual=BELOW_CRITICAL,
+        en="its damping",
+    ),
+    arg("power", "EVOLUTIO", en="power density"),
+    arg("envelope", "EVOLUTIO", en="envelope"),
+    family="signals",
+    help=Help(
+        en="Standard deviations and peak factors of a floor spectrum, for SPPLANC, the procedure "
+        "to call: frequencies, dampings and participations of modes, frequencies of the spectrum, "
+        "its damping, power density, envelope.",
+        syntax="LREEL1 LREEL2 = ZSPP LREEL3 LREEL4 LREEL5 LREEL6 X1 EVOL1 EVOL2 ;",
+    ),
+)
+def zspp(
+    modes: ListReel,
+    dampings: ListReel,
+    shares: ListReel,
+    frequencies: ListReel,
+    damping: float,
+    power: Curve,
+    envelope: Curve,
+) -> tuple[ListReel, ListReel]:
+    """Relative displacements of oscillators on a floor."""
+    storey = Storey(*(np.asarray(v.values, dtype=float) for v in (modes, dampings, shares)))
+    over = np.asarray(frequencies.values, dtype=float)
+    density, shape = ((c.parts[0].abscissas, c.parts[0].ordinates) for c in (power, envelope))
+    deviations, factors = floor_spectrum(storey, density, shape, over, damping)
+    return ListReel(deviations), ListReel(factors)
+
+
+_LAWS = ("CINE", "ISOT", "ELAS")
+_POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
+
+
+def _spon(
+    call: Call,
+    demand: bool,
+    signal: Curve,
+    linear: Curve,
+    dampings: ListReel,
+    law: tuple[str, ListReel] | None,
+    takeda: bool,
+    kinds: list[str],
+    colour: str,
+) -> Curve:
+    from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
+
+    if takeda:
+        raise call.error("operators.curves.takeda-not-available")
+    if law is None or len(kinds) != 2:
+        raise call.error("operators.curves.law-and-kinds-wanted")
+    name, numbers = law
+    if len(numbers.values) < 2:
+        raise call.error("operators.curves.ductility-and-hardening-wanted")
+    if len(linear.parts) != len(dampings.values):
+        raise call.error("operators.curves.spectra-and-dampings-differ")
+    record = signal.parts[0]
+    t, g = np.asarray(record.abscissas, float), np.asarray(record.ordinates, float)
+    given, wanted = kinds
+    ductility, hardening = (float(v) for v in numbers.values[:2])
+    shade = index_of(colour)
+    made = []
+    for xi, part in zip(dampings.values, linear.parts, strict=True):
+        f = np.asarray(part.abscissas, float)
+        w = 2.0 * np.pi * f
+        limits = np.asarray(part.ordinates, float) / w ** _POWER[given] / ductility
+        if demand:
+            x = limits_for_ductility(t, g, f, float(xi), name, hardening, ductility, limits)
+        else:
+            x = yielding_peaks(t, g, f, float(xi), name, hardening, limits)
+        y = x * w ** _POWER[wanted]
+        made.append(CurvePart(f, y, "FREQ", wanted, f"{100.0 * xi:g} %", shade))
+    return Curve(tuple(made), signal.title)
+
+
+operator(
+    "SPON",
+    flag("demand", "DEMA", en="limits at which the ductility is the given one"),
+    key("signal", "SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal"),
+    key(
+        "linear",
+        "SPEL",
+        arg("linear", "EVOLUTIO"),
+        optional=False,
+        en="linear spectra, one for each damping",
+    ),
+    key(
+        "dampings",
+        "AMOR",
+        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
+        optional=False,
+        en="dampings",
+    ),
+    key(
+        "law",
+        _LAWS,
+        arg("numbers", "LISTREEL", en="ductility and ratio", range=NOT_NEGATIVE),
+        en="kinematic or isotropic hardening, or non-linear elastic",
+    ),
+    flag("takeda", "TAKE", en="not available"),
+    key(
+        "kinds", tuple(_POWER), repeated=True, en="what the linear spectrum is, then what is wanted"
+    ),
+    key("colour", "COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
+    family="modal",
+    help=Help(
+        "Spectra of oscillators that yield, one for each damping: bilinear with kinematic ('CINE') "
+        "or isotropic ('ISOT') hardening, or non-linear elastic ('ELAS'), of given ductility and "
+        "ratio of the slope beyond the limit to the elastic one. EVOL2 is the linear spectrum "
+        "(kind MOT1) of the signal EVOL1, of equal steps. The elastic limit is the linear "
+        "displacement divided by the ductility and the spectrum (kind MOT3) that of the largest "
+        "displacements; with 'DEMA' the limit is sought at which the ductility is the given one "
+        "and the spectrum is that of the limits.",
+        "EVOL3 = SPON ('DEMA') 'SIGN' EVOL1 'SPEL' EVOL2 'DEPL'|'VITE'|'ACCE' 'AMOR' LREEL1 "
+        "'CINE'|'ISOT'|'ELAS' LREEL2 ('COUL' COUL1) 'DEPL'|'VITE'|'ACCE' ;",
+    ),
+)(_spon)
+
+
+SAME = 1e-6  # relative: dampings this near are one
+
+
+def _spectra(call: Call, table: Table) -> list[tuple[Curve, list[float]]]:
+    """Spectra of a table with the dampings of their curves."""
+    found = []
+    for index, entry in table.items():
+        if type(index) is not int or not isinstance(entry, Table):
+            continue
+        curve, dampings = entry.get(Mot("SPECTRE")), entry.get(Mot("AMORTISSEMENT"))
+        if not isinstance(curve, Curve) or not isinstance(dampings, ListReel):
+            raise call.error("operators.curves.spectrum-and-dampings-wanted", table, index=index)
+        if len(dampings) != len(curve.parts):
+            raise call.error(
+                "operators.curves.curves-and-dampings-differ",
+                index=index,
+                n_parts=len(curve.parts),
+                n_dampings=len(dampings),
+            )
+        found.append((curve, [float(v) for v in dampings.values]))
+    if not found:
+        raise call.error("operators.curves.table-has-no-spectrum", table)
+    return found
+
+
+def largest(parts: list[CurvePart]) -> CurvePart:
+    """Largest of curves linear between their points, each within its own abscissas."""
+    x = np.unique(np.concatenate([p.abscissas for p in parts]))
+    rows = [np.interp(x, p.abscissas, p.ordinates, left=-np.inf, right=-np.inf) for p in parts]
+    first = parts[0]
+    y = np.max(rows, axis=0)
+    return CurvePart(x, y, first.abscissa_name, first.ordinate_name, first.legend, first.colour)
+
+
+@enve.form(arg("table", "TABLE", en="spectra"))
+def envelope_of_spectra(call: Call, table: Table) -> Table:
+    """Envelope of spectra."""
+    spectra = _spectra(call, table)
+    every = sorted({d for _, dampings in spectra for d in dampings})
+    kept = [d for i, d in enumerate(every) if not i or d - every[i - 1] > SAME * max(d, 1e-12)]
+    parts = []
+    for damping in kept:
+        same = [
+            p
+            for curve, dampings in spectra
+            for p, d in zip(curve.parts, dampings, strict=True)
+            if abs(d - damping) <= SAME * max(damping, 1e-12)
+        ]
+        parts.append(largest(same))
+    made = Table()
+    made.set(Mot("SPECTRE"), Curve(tuple(parts), spectra[0][0].title))
+    made.set(Mot("AMORTISSEMENT"), ListReel(kept))
+    return made
+
+
+enve.extend_help(
+    syntax="TAB1 = ENVE TAB2 ;",
+    en="Of a table of spectra (at 1, 2 ... tables with SPECTRE, curves, and AMORTISSEMENT, their "
+    "dampings): a table with the envelope, the largest ordinate for each damping.",
+)

@@ -10,6 +10,7 @@ from ssilang.kernel.curves.curve import CurvePart
 from ssilang.language.registry import Like, main, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 
@@ -23,15 +24,12 @@ from ssilang.operators.workspace import workspace
         "MOT",
         en="colour, its number, or one for each part",
         kind="colour",
+        range=ANY_NUMBER,
     ),
     gives=Like("value"),
     syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
     en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
     "(the first ones of a LISTMOTS, which may be longer); without a colour, in that of OPTI COUL.",
-    examples=(
-        "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG 1. 2.) ; F = (E ET E) COUL (MOTS ROUG VERT) ; "
-        "DESS F ;",
-    ),
 )
 def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
     if given is None:

@@ -26,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import ListEnti, Table, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -44,7 +45,13 @@ def _corner() -> Keyword:
 
 
 def _bounds(name: str, word: str, en: str) -> Keyword:
-    return key(name, word, arg("low", "FLOTTANT"), arg("high", "FLOTTANT"), en=en)
+    return key(
+        name,
+        word,
+        arg("low", "FLOTTANT", range=ANY_NUMBER),
+        arg("high", "FLOTTANT", range=ANY_NUMBER),
+        en=en,
+    )
 
 
 def _title_place(name: str, word: str, en: str) -> Select:
@@ -68,8 +75,8 @@ _OPTIONS: tuple[Entry, ...] = (
     flag("square", "CARR", en="square frame"),
     _bounds("x_limits", "XBOR", "bounds of the abscissas"),
     _bounds("y_limits", "YBOR", "bounds of the ordinates"),
-    key("x_step", "XGRA", arg("d", "FLOTTANT"), en="step of the abscissas"),
-    key("y_step", "YGRA", arg("d", "FLOTTANT"), en="step of the ordinates"),
+    key("x_step", "XGRA", arg("d", "FLOTTANT", range=POSITIVE), en="step of the abscissas"),
+    key("y_step", "YGRA", arg("d", "FLOTTANT", range=POSITIVE), en="step of the ordinates"),
     flag("extremes", "MIMA", en="extreme values are written"),
     key(
         "difference",
@@ -83,7 +90,7 @@ _OPTIONS: tuple[Entry, ...] = (
     key(
         "chosen",
         "CHOI",
-        many("numbers", "ENTIER", "LISTENTI"),
+        many("numbers", "ENTIER", "LISTENTI", range=POSITIVE),
         default=(),
         en="numbers of the curves drawn",
     ),
@@ -101,7 +108,13 @@ _OPTIONS: tuple[Entry, ...] = (
         {
             "LEGE": [
                 _corner(),
-                key("at", "XY", arg("x", "FLOTTANT"), arg("y", "FLOTTANT"), en="place"),
+                key(
+                    "at",
+                    "XY",
+                    arg("x", "FLOTTANT", range=ANY_NUMBER),
+                    arg("y", "FLOTTANT", range=ANY_NUMBER),
+                    en="place",
+                ),
             ]
         },
         en="legend",
@@ -133,16 +146,6 @@ _OPTIONS: tuple[Entry, ...] = (
         "('CHOI' N1 ...) "
         "('TITR' T) ('TITX' T) ('TITY' T) ('POSX' M) ('POSY' M) ('XFMT' F) ('YFMT' F) ('AXES') "
         "('LEGE' (PLACE)) (TAB1) ;",
-        examples=(
-            "EV = EVOL 'MANU' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; DESS EV 'GRIL' 'MIMA' ;",
-            "E1 = EVOL 'MANU' 'LEGE' 'exact' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ;\n"
-            "E2 = EVOL 'MANU' 'LEGE' 'found' 't' (PROG 0. 1. 2.) 'u' (PROG 0. 3.5 1.) ;\n"
-            "DESS (E1 ET E2) 'ECAR' ;",
-            (
-                "E = EVOL 'MANU' (PROG -1. 0. 2.) (PROG -3. 9. 1.) ;\n"
-                "DESS E 'AXES' 'POSX' 'CENT' 'POSY' 'EXCE' 'LEGE' 'NE' ;"
-            ),
-        ),
     ),
 )
 def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: Any) -> None:
@@ -245,30 +248,39 @@ def _styles(call: Call, table: Table, sizes: list[int]) -> dict[str, Any]:
             raise call.error(
                 "operators.drawing.portion", n=n, first=start, last=end, n_points=sizes[n - 1]
             )
+    dashes = {
+        n: codes for n, codes in _by_number(table, "LIGNE_VARIABLE").items() if 1 <= n <= len(sizes)
+    }
+    beyond = [
+        n
+        for n, codes in dashes.items()
+        if isinstance(codes, ListEnti) and len(codes.values) >= sizes[n - 1]
+    ]
+    if beyond:
+        call.warn("operators.drawing.dashes-beyond", curves=beyond, n_curves=len(beyond))
     return {
         "styles": styles,
         "names": {n: str(text) for n, text in _by_number(table, "TITRE").items()},
         "spans": {n: (first.get(n), last.get(n)) for n in {*first, *last}},
-        "dash_codes": {
-            n: _dashes(call, n, codes, sizes)
-            for n, codes in _by_number(table, "LIGNE_VARIABLE").items()
-            if 1 <= n <= len(sizes)
-        },
+        "dash_codes": {n: _dashes(call, n, codes, sizes) for n, codes in dashes.items()},
     }
 
 
 def _dashes(call: Call, n: int, codes: Any, sizes: list[int]) -> IntArray:
-    """Dashes of all segments of curve n, of which the table must give each."""
+    """Dashes of all segments of curve n, of which the table must give each.
+
+    Published decks give one for each point: those behind the last segment are told and left out.
+    """
     if not isinstance(codes, ListEnti):
         raise call.error("operators.drawing.dashes-list", n=n, found=type_of(codes))
-    if len(codes.values) != sizes[n - 1] - 1:
-        raise call.error(
-            "operators.drawing.dashes-count", n=n, count=len(codes.values), wanted=sizes[n - 1] - 1
-        )
-    wrong = codes.values[(codes.values < 0) | (codes.values > _DASHES)]
+    given, wanted = len(codes.values), sizes[n - 1] - 1
+    if given < wanted:
+        raise call.error("operators.drawing.dashes-count", n=n, count=given, wanted=wanted)
+    dashes = codes.values[:wanted]
+    wrong = dashes[(dashes < 0) | (dashes > _DASHES)]
     if len(wrong):
         raise call.error("operators.drawing.dashes-code", n=n, code=int(wrong[0]), last=_DASHES)
-    return codes.values
+    return dashes
 
 
 def _by_number(table: Table, name: str) -> dict[int, Any]:

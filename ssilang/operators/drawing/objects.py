@@ -1,7 +1,8 @@
-"""DEFO and VECT: deformed shapes and arrows for TRAC; their unions."""
+"""DEFO VECT ANNO: deformed shapes, arrows and texts for TRAC; their unions."""
 
 from __future__ import annotations
 
+from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.fields.arrows import (
@@ -13,7 +14,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart, automatic_scale
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
     Help,
     arg,
@@ -22,11 +23,13 @@ from ssilang.language.registry import (
     many,
     operator,
     opt,
+    said,
     shared,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
-from ssilang.operators.dispatch import EXTR, union
+from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.dispatch import EXTR, shared_operator, union
 from ssilang.operators.workspace import workspace
 
 
@@ -50,7 +53,7 @@ def is_colour(word: str) -> bool:
     choice("colour", COLOURS, en="colour"),
     arg("mesh", "MAILLAGE", en="mesh"),
     arg("displacement", "CHPOINT", en="displacements", unit="m"),
-    opt("scale", "FLOTTANT", en="amplification"),
+    opt("scale", "FLOTTANT", en="amplification", range=ANY_NUMBER),
     opt("arrows", "VECTEUR", en="arrows drawn on it"),
     opt("field", "CHPOINT", en="field shown on it"),
     opt("cells", "MCHAML", en="field in cells shown on it"),
@@ -62,10 +65,6 @@ def is_colour(word: str) -> bool:
         "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
         "field to show on it. ET puts several shapes into one picture.",
         syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; D = DEFO L U 1. 'ROUG' ; TRAC D ;",
-        ),
     ),
 )
 def defo(
@@ -101,20 +100,12 @@ VECT = shared(
         "principal stresses, or of the one named, with a LISTMOTS of colours.",
         syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
         "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "F = MANU 'CHPO' L 2 'FX' 0. 'FY' -1. ; V = VECT F 'FORC' 'ROUG' ; TRAC V L ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "V = VECT (MANU 'CHML' M 'VX' 3. 'VY' 4.) M 0.1 (MOTS 'VX' 'VY') ; TRAC V S ;"
-            ),
-        ),
     ),
     full_name="VECTEUR",
 )
-_SCALE = opt("scale", "FLOTTANT", en="amplification, chosen by the picture by default")
+_SCALE = opt(
+    "scale", "FLOTTANT", en="amplification, chosen by the picture by default", range=ANY_NUMBER
+)
 
 
 @VECT.form(
@@ -209,10 +200,6 @@ def _in_cells(
     choice("what", ("AMPL",), optional=False, en="amplification"),
     syntax="X1 = EXTR DEFO1 'AMPL' ;",
     en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
-        "LIST (EXTR (DEFO 3. L U) 'AMPL') ;",
-    ),
 )
 def amplification(call: Call, shape: Deformed, what: str) -> float:
     """By how much the displacement is amplified."""
@@ -222,3 +209,49 @@ def amplification(call: Call, shape: Deformed, what: str) -> float:
     if first.scale is not None:
         return float(first.scale)
     return automatic_scale(first.mesh, first.displacement)
+
+
+ANNO = shared_operator(
+    "ANNO", "drawing", "Makes texts that TRAC adds to a picture; ET puts several together."
+)
+
+
+@union(("ANNOTATI", "ANNOTATI"))
+def _both(left: Annotation, right: Annotation) -> Annotation:
+    return left.joined(right)
+
+
+@ANNO.form(
+    said("CATE"),
+    arg("colour", "MOT", en="colour", kind="colour"),
+    arg("text", "MOT", en="its meaning"),
+    syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
+    en="CATE: a line of the legend, a colour and its meaning.",
+)
+def _category(colour: str, text: str) -> Annotation:
+    return Annotation((Category(index_of(colour), str(text)),))
+
+
+@ANNO.form(
+    said("ETIQ"),
+    arg("point", "POINT", en="where"),
+    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
+    opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
+    syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
+    "(FLOT1) (LOGI1) MOT1 ;",
+    en="ETIQ: a text at a point, in a colour, on one of its sides, at a distance, with a line to "
+    "the point unless LOGI1 is FAUX.",
+)
+def _tag(
+    call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
+) -> Annotation:
+    colour, place = 0, "NE"
+    for word in words[:-1]:
+        if word.strip().upper() in PLACES:
+            place = word.strip().upper()
+        elif is_colour(word):
+            colour = index_of(word)
+        else:
+            raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
+    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))

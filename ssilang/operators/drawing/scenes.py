@@ -41,6 +41,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.session import Session
 from ssilang.language.values import type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
     picture_formats,
@@ -77,7 +78,12 @@ _OPTIONS: tuple[Entry, ...] = (
     flag("cell_numbers", "ELEM", en="numbers of the cells"),
     flag("hidden", "CACH", en="the back is hidden"),
     choice("filled", ("FACE", "FACB", "FSDB"), en="faces are filled"),
-    key("shrink", "ECLA", opt("size", "FLOTTANT", default=0.5), en="cells are shrunk by a factor"),
+    key(
+        "shrink",
+        "ECLA",
+        opt("size", "FLOTTANT", default=0.5, range=POSITIVE),
+        en="cells are shrunk by a factor",
+    ),
     key("beyond", "COUP", *_POINTS, en="only what is beyond a plane"),
     key("section", "SECT", *_POINTS, en="what a plane cuts"),
     key("title", "TITR", _TEXT, en="title"),
@@ -149,6 +155,7 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         *_OBJECTS,
         whole=True,
         en="meshes, deformed shapes, arrows, fields, levels, eye, texts",
+        range=ANY_NUMBER,
     ),
     *_OPTIONS,
     family="drawing",
@@ -171,11 +178,6 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
         "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
         "TRAC (N1 | LISTREEL1) CHPO1 (MAIL1 | DEFO1) (MAIL2) (VEC1) ('LEGE' T) ('NOLE') ... ;\n"
         "TRAC (N1 | LISTREEL1) MODEL1 MCHAML1 (DEFO1) (MAIL1) ... ; TRAC 'ARET' MAIL1 MAIL2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-            "S = TRAN L 3 (0. 1.) ; TRAC S 'NOEU' 'TITR' 'A square' ;",
-            "OPTI DIME 2 ELEM SEG2 ; TRAC (DROI 4 (0. 0.) (1. 0.)) 'COUL' 'ROUG' ;",
-        ),
     ),
 )
 def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:

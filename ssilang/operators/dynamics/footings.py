@@ -43,16 +43,7 @@ from ssilang.language.values import ListChpo, ListReel, Table
         "(across it), PRESSION (largest), OUVERTURE (largest), ENFONCEMENT (mean motion of the "
         "upper side into the soil); MOMENT, ROTATION and BRAS (from the centre to the edges) by "
         "axis; AIRE. A macro-element whose ground yields needs its internal variables.",
-        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 (TAB3) ;",
-        examples=(
-            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 4 (0. 0.) (4. 0.) ; "
-            "F = S PLUS (0. 0.) ; J = RACC 1.E-3 F S ; "
-            "M = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ; "
-            "A = MATE M 'KN' 2.E7 'KS' 2.E7 ; U = (MANU 'CHPO' F 2 'UX' 0. 'UY' -1.E-3) ET "
-            "(MANU 'CHPO' S 2 'UX' 0. 'UY' 0.) ; T = TABL ; T . 1 = SIGM M A U ; "
-            "R = ZSEM M A (SUIT U) T ; LIST (R . 'FORCE') ;",
-        ),
-    ),
+        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 (TAB3) ;"),
 )  # fmt: skip
 def zsem(
     call: Call,

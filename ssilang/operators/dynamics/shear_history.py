@@ -35,11 +35,6 @@ MOST_VALUES = 1 << 20
         "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
         "the strain.",
         syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
-        examples=(
-            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0. 0.) (1. 0.)) (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ; U = NOMC 'UX' ((COOR 2 S) * 3.E-3) ; "
-            "LIST (MAXI (ZGAM M (SUIT (U * -2.) U))) ;",
-        ),
     ),
 )
 def zgam(model: Model, motion: ListChpo | Table) -> CellField:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -67,6 +68,8 @@ def zbil(session: Session, given: Table, found: Table) -> None:
 def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
     """Peaks of the floors' spectra, a row for each floor and damping."""
     rows = []
+    values = cast(ListReel, found.get("ACCELERATIONS", ListReel(())))
+    largest = dict(enumerate(values.values.tolist(), 1))
     for number, floor, spectra, _ in _each_floor(given, found):
         for part in spectra.parts:
             top = int(np.argmax(part.ordinates))
@@ -77,9 +80,23 @@ def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
                     "damping": part.legend,
                     "acceleration": float(part.ordinates[top]),
                     "frequency": float(part.abscissas[top]),
+                    "largest": largest.get(number),
+                    "frequencies": part.abscissas,
+                    "accelerations": part.ordinates,
                 }
             )
     return rows
+
+
+def figures_of(verdicts: Sequence[dict[str, Any]]) -> dict[str, float]:
+    """Peaks by name, floors' largest accelerations as PLANCHER_1; a second footing's end in _2."""
+    found: dict[str, float] = {}
+    for number, verdict in enumerate(verdicts, 1):
+        end = f"_{number}" if number > 1 else ""
+        named = {name: peak["value"] for name, peak in verdict["peaks"].items()}
+        named |= {f"PLANCHER_{f['floor']}": f["largest"] for f in verdict["floors"]}
+        found |= {f"{name}{end}": float(v) for name, v in named.items() if v is not None}
+    return found
 
 
 def _each_floor(given: Table, found: Table) -> list[tuple[int, Table, Curve, Curve]]:

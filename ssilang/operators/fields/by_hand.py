@@ -1,33 +1,44 @@
-"""MANU 'CHPO' and 'CHML': fields from values."""
+"""MANU 'CHPO' and 'CHML': fields from values; ZERO: fields of zeros."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
+from ssilang.kernel.elements.results.tensors import PRINCIPAL
+from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_curves import through
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
-from ssilang.kernel.materials.model import Model
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
+    Help,
     arg,
     choice,
     each,
     flag,
     key,
     many,
+    operator,
     opt,
     said,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
+from ssilang.operators.statics.stresses import on_zones
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
@@ -42,12 +53,14 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     said("CHPO"),
     _TITLE,
     NATURE,
-    opt("count", "ENTIER", en="number of pairs"),
+    opt("count", "ENTIER", en="number of pairs", range=POSITIVE),
     _ON_NODES,
     each(
         "pairs",
         arg("component", "MOT", en="name of a component"),
-        arg("value", "FLOTTANT", "LISTREEL", en="its value, or one value a point"),
+        arg(
+            "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
+        ),
         at_least=1,
         times="count",
     ),
@@ -55,7 +68,6 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
     "points, a list with one value a point. Words after the last pair need N1, the number of "
     "pairs.",
-    examples=("OPTI DIME 2 ; P = 0. 0. ; LIST (MANU 'CHPO' P 'UX' 3. 'UY' 4.) ;",),
 )
 def node_field(
     call: Call,
@@ -76,7 +88,7 @@ def node_field(
     NATURE,
     _ON_NODES,
     arg("names", "LISTMOTS", en="names of the components"),
-    arg("values", "LISTREEL", en="their values, 0 for those behind the last"),
+    arg("values", "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER),
     syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
 )
 def node_field_of_lists(
@@ -138,19 +150,13 @@ _CURVES = (
     *_CURVES,
     each(
         "pairs",
-        arg("abscissa", "FLOTTANT", en="abscissa"),
+        arg("abscissa", "FLOTTANT", en="abscissa", range=ANY_NUMBER),
         arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
     syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
     en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
     "against numbers that increase (the indices of a table of them).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; A = MANU 'CHML' L 'YOUN' 3. ; "
-        "C = MANU 'CHML' 'EVOL' 'T' 20. A 100. (0.5 * A) ; LIST (EXTR C 'YOUN' 1 1 1) ; "
-        "T = TABL ; T . 20. = A ; T . 100. = 2. * A ; "
-        "LIST (EXTR (MANU 'CHML' 'EVOL' 'T' T) 'YOUN' 1 1 1) ;",
-    ),
 )
 def curves_in_cells(
     call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
@@ -192,6 +198,7 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         "FLOTTANT",
         en="of a field that is zero but at one point, whose cell was the value: number of the "
         "point, of the zone if not 1, then the value",
+        range=ANY_NUMBER,
     ),
     syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
     "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
@@ -199,13 +206,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
     "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
     "everywhere but at one point of one cell.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "LIST (MAXI (MANU 'CHML' L 'SCAL' 3.)) ;",
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-        "LIST (MAXI (MANU 'CHAM' MO 'POSI' 'GRAVITE' 'V' 2 1 7.)) ;",
-    ),
 )
 def cell_field(
     call: Call,
@@ -297,3 +297,77 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
     made = np.empty((n, 1), dtype=object)
     made[:, 0] = [value] * n
     return made
+
+
+def _scalar(support: Support) -> tuple[str, Support]:
+    return "SCALAIRE", support
+
+
+_TITLES: dict[str, tuple[str, Support]] = {
+    "NOEUD": _scalar("NOEUD"),
+    "GRAVITE": _scalar("GRAVITE"),
+    "RIGIDITE": _scalar("RIGIDITE"),
+    "MASSE": _scalar("MASSE"),
+    "STRESSES": _scalar("STRESSES"),
+    "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
+    "FORCES": ("FORCES", "NOEUD"),
+    "TEMPERAT": ("TEMPERATURES", "NOEUD"),
+    "GRADIENT": ("GRADIENT", "STRESSES"),
+    "CONTRAIN": ("CONTRAINTES", "STRESSES"),
+    "DEFORMAT": ("DEFORMATIONS", "STRESSES"),
+    "PRINCIPA": ("PRINCIPALE", "STRESSES"),
+    "MATERIAU": ("CARACTERISTIQUES", "STRESSES"),
+    "CARACTER": ("CARACTERISTIQUES", "STRESSES"),
+    "DEFINELA": ("DEFORMATIONS INELASTIQUES", "STRESSES"),
+    "VARINTER": ("VARIABLES INTERNES", "STRESSES"),
+    "MAHOOKE": ("MATRICE DE HOOKE", "RIGIDITE"),
+    "HOTANGEN": ("MATRICE DE HOOKE TANGENTE", "RIGIDITE"),
+}
+
+
+def _names(zone: Zone, what: str) -> tuple[str, ...]:
+    family = family_of(zone)
+    tables: dict[str, Callable[[], tuple[str, ...]]] = {
+        "DEPLACEM": lambda: tuple(dict.fromkeys(family.layout(zone).unknowns)),
+        "FORCES": lambda: tuple(dict.fromkeys(family.layout(zone).duals)),
+        "TEMPERAT": lambda: ("T",),
+        "GRADIENT": lambda: names_of_gradient(zone),
+        "CONTRAIN": lambda: family.stress_names(zone),
+        "DEFORMAT": lambda: family.strain_names(zone),
+        "DEFINELA": lambda: family.strain_names(zone),
+        "PRINCIPA": lambda: PRINCIPAL,
+        "MATERIAU": lambda: material_names(zone).all,
+        "CARACTER": lambda: geometric_names(zone).all,
+        "VARINTER": lambda: variable_names(zone) or ("EPSE",),
+    }
+    return tables[what]() if what in tables else ("SCAL",)
+
+
+@operator(
+    "ZERO",
+    arg("model", "MMODEL", en="model"),
+    choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
+    family="fields",
+    help=Help(
+        en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
+        "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
+        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
+        "HOTANGEN).",
+        syntax="CHAM1 = ZERO MODL1 MOT1 ;",
+    ),
+)
+def zero(call: Call, model: Model, word: str | None) -> CellField:
+    """Zeros."""
+    if word is None:
+        raise call.error("operators.fields.which-zeros", titles=_TITLES)
+    title, support = _TITLES[word]
+
+    def make(zone: Zone) -> CellFieldBlock:
+        if word in ("MAHOOKE", "HOTANGEN"):
+            s = len(family_of(zone).strain_names(zone))
+            return hooke_block(zone, np.zeros((1, n_points(zone.element, support), s, s)), support)
+        shape = (len(zone.cells), n_points(zone.element, support))
+        components = {n: np.zeros(shape) for n in _names(zone, word)}
+        return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+
+    return on_zones(model, title, make)

@@ -22,6 +22,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing, union
 
@@ -109,18 +110,14 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
 @EXTR.form(
     main("field", "MCHAML", en="field in cells"),
     arg("component", "MOT", kind="component", en="component"),
-    opt("zone", "ENTIER", en="number of the zone"),
-    opt("cell", "ENTIER", en="number of the cell in it"),
-    opt("point", "ENTIER", en="number of the point in it"),
+    opt("zone", "ENTIER", en="number of the zone", range=POSITIVE),
+    opt("cell", "ENTIER", en="number of the cell in it", range=POSITIVE),
+    opt("point", "ENTIER", en="number of the point in it", range=POSITIVE),
     gives=ANY,
     syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;",
     en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
     "mesh, names of components or constituents, of the components that vary (COVA: curves, "
     "clouds), of what they depend on (DEVA), number of zones.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "A = MATE M 'YOUN' 2. 'NU' 0.3 'SECT' 1. ; LIST (EXTR A 'YOUN' 1 3 1) ;",
-    ),
 )
 def extr_value(
     call: Call,

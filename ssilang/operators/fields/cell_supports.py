@@ -24,14 +24,11 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import When, arg, choice, flag, main, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.workspace import workspace
 
 SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
-_EXAMPLE = (
-    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
-    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 ; "
-)
 
 
 _TITLE = opt("title", "MOT", en="sub-type of the result")
@@ -51,7 +48,6 @@ def _trimmed(title: str | None) -> str | None:
     syntax="CHAM2 = CHAN 'NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES' MODL1 CHAM1 ;",
     en="With a support's name: the field in cells at the nodes, centres or integration points of "
     "the elements, by least squares on their shape functions.",
-    examples=(_EXAMPLE + "B = CHAN 'STRESSES' M A ; LIST (TYPE B) ;",),
 )
 def chan_support(
     word: str, model: Model, field: NodeField | CellField, title: str | None
@@ -71,7 +67,6 @@ def chan_support(
     syntax="CHAM1 = CHAN 'CHAM' CHPO1 GEO1 | MODL1 ('NOEUD' | 'GRAVITE' | ...) (TYP1) ;",
     en="CHAM: the field in cells that a nodal field gives by interpolation, at the nodes (default) "
     "or at the points of a support.",
-    examples=(_EXAMPLE + "T = MANU 'CHPO' S 1 'T' 3. ; C = CHAN 'CHAM' T S ; LIST (TYPE C) ;",),
 )
 def chan_cells(
     field: NodeField | CellField, place: Model | Mesh, support: str, title: str | None
@@ -97,7 +92,6 @@ def chan_cells(
     syntax="CHPO1 = CHAN 'CHPO' MODL1 CHAM1 ('MOYE' | 'SOMM' | 'SUPP') ;",
     en="CHPO: the nodal field with, at each node, the mean (or sum) of the values that the cells "
     "around it have there; 'SUPP' makes a new node at each point that carries the field.",
-    examples=(_EXAMPLE + "C = CHAN 'CHPO' M A ; LIST (MAXI (EXCO 'NU' C)) ;",),
 )
 def chan_nodal(
     call: Call, model: Model | None, field: NodeField | CellField, rule: str
@@ -158,7 +152,6 @@ def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) ->
     syntax="TAB2 = REDU CHAM1 TAB1 ;",
     en="A field in cells restricted to each model (or mesh) of a table ESCLAVE, as PART makes it: "
     "a table ESCLAVE of fields.",
-    examples=(_EXAMPLE + "LIST (DIME (REDU A (PART 'ARLE' M 2))) ;",),
 )
 def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
     """Field in cells on each part of a model."""
@@ -177,10 +170,6 @@ def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
     _MODEL,
     syntax="CHAM2 = REDU TAB1 MODL1 ;",
     en="A table ESCLAVE of fields in cells, joined and restricted to a model.",
-    examples=(
-        _EXAMPLE + "T = TABL 'ESCLAVE' ; T . 1 = REDU A (S ELEM 1) ; T . 2 = REDU A (S ELEM 2) ; "
-        "LIST (INTG M (REDU T M) 'NU') ;",
-    ),
 )
 def redu_table(call: Call, table: Table, model: Model) -> CellField:
     """The fields of a table on a model."""
@@ -195,10 +184,9 @@ _POINTS = main("field", "MCHAML", en="field in cells")
 
 @COOR.form(
     _POINTS,
-    arg("axis", "ENTIER", en="axis, from 1"),
+    arg("axis", "ENTIER", en="axis, from 1", range=POSITIVE),
     syntax="CHAM2 = COOR N1 CHAM1 ; CHAM2 CHAM3 (CHAM4) = COOR CHAM1 ;",
     en="Of a field in cells: the coordinates of the points that it stands on, as fields in cells.",
-    examples=(_EXAMPLE + "X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ; LIST (MAXI X) ;",),
 )
 def coor_cells(call: Call, field: CellField, axis: int) -> CellField:
     """One coordinate as a field in cells."""

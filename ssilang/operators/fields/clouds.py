@@ -24,6 +24,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
 
@@ -31,9 +32,6 @@ from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
 @union(("NUAGE", "NUAGE"))
 def _joined(first: Cloud, second: Cloud) -> Cloud:
     return first.joined(second)
-
-
-_EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
 
 
 @operator(
@@ -45,13 +43,6 @@ _EXAMPLE = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 6. 9. ; "
         en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
         "(names with their types first), or the values of a field, one row a node or point.",
         syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
-        examples=(
-            _EXAMPLE + "LIST N ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; N = NUAG (COOR 1 L) ;\n"
-                "LIST N ;"
-            ),
-        ),
     ),
 )
 def nuag(field: NodeField | CellField) -> Cloud:
@@ -121,7 +112,7 @@ def _by_rows(call: Call) -> Cloud:
 
 
 _COMPONENT = arg("component", "MOT", en="column")
-_LIMIT = arg("limit", "FLOTTANT", en="limit")
+_LIMIT = arg("limit", "FLOTTANT", en="limit", range=ANY_NUMBER)
 
 
 def _columns(cloud: Cloud) -> Collection[str]:
@@ -141,7 +132,7 @@ def _columns(cloud: Cloud) -> Collection[str]:
             "ENTR": [
                 _COMPONENT,
                 _LIMIT,
-                arg("upper", "FLOTTANT", en="upper limit"),
+                arg("upper", "FLOTTANT", en="upper limit", range=ANY_NUMBER),
             ],
         },
         optional=False,
@@ -153,7 +144,6 @@ def _columns(cloud: Cloud) -> Collection[str]:
     "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ;",
     en="Of a cloud: names of components; the row of the largest or smallest value, of the value "
     "just below or above a number; the rows between two numbers; the object of a single row.",
-    examples=(_EXAMPLE + "LIST (EXTR (EXTR N 'MAXI' 'Y') 'X') ;",),
 )
 def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
     """Rows of a cloud, or the names of its columns."""

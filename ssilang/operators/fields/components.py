@@ -27,16 +27,16 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
 
 _FIELDS = ("CHPOINT", "MCHAML")
 _LAGRANGE = frozenset({"LX", "FLX"})
-_POINT_FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
 
 
-_FIELD = arg("field", *_FIELDS, en="field")
+_FIELD = arg("field", *_FIELDS, en="field", range=ANY_NUMBER)
 _NODAL = arg("field", "CHPOINT", en="field at nodes")
 _IN_CELLS = arg("field", "MCHAML", en="field in cells")
 NATURE = key(
@@ -62,13 +62,6 @@ _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
         en="Field of some components, under new names if they are given (one component of a field "
         "at nodes is called SCAL without). 'NOID': a missing component is no error.",
         syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
-        examples=(
-            _POINT_FIELD + "LIST (EXCO 'UX' C) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ;\n"
-                "LIST (EXCO (MOTS 'UX' 'UY') C (MOTS 'FX' 'FY')) ;"
-            ),
-        ),
     ),
 )
 def exco(
@@ -149,10 +142,6 @@ _ONE_NAME = (
         en="Field with other names of components: one name for a single component, or a list of "
         "old names and a list of new ones.",
         syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
-        examples=(
-            _POINT_FIELD + "LIST (NOMC (MOTS 'UX') (MOTS 'FX') C) ;",
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. ; LIST (NOMC 'T' C) ;",
-        ),
     ),
 )
 def nomc(
@@ -212,7 +201,6 @@ CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
     NATURE,
     syntax="CHPO2 = CHAN 'ATTRIBUT' CHPO1 'NATURE' 'INDETER' | 'DIFFUS' | 'DISCRET' ;",
     en="ATTRIBUT changes the nature of a field at nodes.",
-    examples=(_POINT_FIELD + "D = CHAN 'ATTRIBUT' C 'NATURE' 'DISCRET' ; MESS (EXTR D 'NATU') ;",),
 )
 def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField:
     """Another nature."""
@@ -306,7 +294,6 @@ def _component_names(field: NodeField) -> Collection[str]:
     "a mesh, 0. where it has none), its mesh of points, names of components, title, type, nature. "
     "A point that the field does not stand on is refused, but for fields of nature DISCRET "
     "(forces), which are zero there, and with 'NOID'.",
-    examples=(_POINT_FIELD + "LIST (EXTR C 'UY' P) ; LIST (EXTR C 'VALE' 'UX') ;",),
 )
 def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
     """A part of a field at nodes."""
@@ -380,7 +367,6 @@ def _values(
     syntax="CHPO2 = REDU CHPO1 MAIL1 | POIN1 | CHPO3 ;",
     en="Of a field at nodes: the part on the points of a mesh, on a point, or where another field "
     "has a value other than zero.",
-    examples=(_POINT_FIELD + "LIST (REDU C P) ;",),
 )
 def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
     """A field on fewer nodes."""
@@ -396,7 +382,6 @@ def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
     arg("names", "MOT", "LISTMOTS", kind="component", en="components"),
     syntax="CHPO2 = ENLE CHPO1 MOT1 | LMOT1 ;",
     en="Of a field at nodes: without some components.",
-    examples=(_POINT_FIELD + "LIST (ENLE C 'UX') ;",),
 )
 def without(field: NodeField, names: str | ListMots) -> NodeField:
     """A field without some components."""

@@ -1,4 +1,4 @@
-"""MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs)."""
+"""MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs); PILE for strains."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.fields.cell_algebra import component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
@@ -25,6 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
@@ -141,20 +143,18 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
-        many("others", "ENTIER", "FLOTTANT", en="more numbers"),
+        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=ANY_NUMBER),
         gives="FLOTTANT|ENTIER",
         syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
         en=f"Of numbers: the {en}.",
-        examples=(f"LIST ({name} 3. -7. 5.) ;",),
     )(partial(_of_numbers, largest=largest))
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
-        many("others", "LISTREEL", "LISTENTI", en="lists of the same length"),
+        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=ANY_NUMBER),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
         syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
         en=f"Of a list: the {en} value; of several, item by item.",
-        examples=(f"LIST ({name} (PROG 3. -7. 5.) 'ABS') ;",),
     )(partial(_of_lists, largest=largest))
     operator.form(
         main("value", "CHPOINT", en="field at nodes"),
@@ -165,11 +165,6 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
         syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
         en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
         "fields at nodes, value by value.",
-        examples=(
-            f"OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST ({name} (COOR 1 L)) ; "
-            "U = MANU 'CHPO' L 2 'UX' 3. 'UY' -5. ; "
-            f"LIST ({name} U (MOTS 'UX')) ; LIST ({name} 'ABS' U 'SANS' (MOTS 'UX')) ;",
-        ),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells"),
@@ -192,10 +187,6 @@ _add_forms(MINI, False, "smallest")
         en="Nodal field divided by its value of largest size, which becomes 1; among the "
         "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
         syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
-            "LIST (MINI (MAX1 (X - 4.))) ;",
-        ),
     ),
 )
 def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | None) -> NodeField:
@@ -207,3 +198,32 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
     if largest == 0.0:
         raise call.error("operators.fields.field-is-zero", field)
     return node_algebra.applied(field, lambda v: v / largest)
+
+
+@operator(
+    "PILE",
+    arg("first", "MCHAML", en="where one starts"),
+    arg("second", "MCHAML", en="direction"),
+    arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
+    family="fields",
+    full_name="PILEPS",
+    help=Help(
+        "The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
+        "of the fields in cells E1 and E2 (strains), component by component.",
+        "X1 = PILE MCHAML1 MCHAML2 CRIT ;",
+    ),
+)
+def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
+    """Largest factor before a component passes the limit."""
+    if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
+        raise call.error("operators.fields.fields-of-other-zones", second)
+    best = np.inf
+    for a, b in zip(first.blocks, second.blocks, strict=True):
+        for name, values in b.components.items():
+            start, step = np.broadcast_arrays(a.components[name], values)
+            moving = step != 0.0
+            room = (np.sign(step[moving]) * limit - start[moving]) / step[moving]
+            best = min(best, float(room.min(initial=np.inf)))
+    if not np.isfinite(best):
+        raise call.error("operators.fields.second-field-is-zero", second)
+    return best

@@ -15,6 +15,7 @@ from ssilang.language.registry import (
     operator,
 )
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import workspace
 
 _ODD = {
@@ -27,7 +28,7 @@ _ODD = {
 @operator(
     "DFOU",
     arg("field", "CHPOINT", "MCHAML", en="field of a harmonic"),
-    arg("angle", "FLOTTANT", en="angle", unit="deg"),
+    arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
     gives=Like("field"),
     family="fields",
     full_name="DFOURIER",
@@ -37,10 +38,6 @@ _ODD = {
         "hoop ones, sin(n a) for UT and the shears RT ZT; for a negative n sin(|n| a) and "
         "cos(|n| a).",
         syntax="CH2 = DFOU CH1 X1 ;",
-        examples=(
-            "OPTI DIME 2 MODE FOUR 2 ; P = 1. 0. ; "
-            "U = MANU 'CHPO' P 2 'UR' 3. 'UT' 4. ; LIST (DFOU U 90.) ;",
-        ),
     ),
 )
 def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | CellField:

@@ -26,9 +26,6 @@ from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot,
 from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
-_LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
-
-
 _METHOD = choice("method", ("SNAPSHOTS", "CLASSIQUE"), en="for few fields, or for few unknowns")
 
 
@@ -36,7 +33,7 @@ _TABLE = flag("table", "TBAS", en="the result is a table BASE_MODALE")
 
 
 _OPTIONS = (
-    opt("numbers", "LISTENTI", en="fields to take, by number"),
+    opt("numbers", "LISTENTI", en="fields to take, by number", range=POSITIVE),
     opt("names", "LISTMOTS", kind="component", en="components"),
     opt("matrix", "RIGIDITE", en="scalar product, a mass"),
     arg("count", "ENTIER", range=POSITIVE, en="number of modes"),
@@ -61,22 +58,6 @@ _OPTIONS = (
         "'SNAPSHOTS' for few fields, 'CLASSIQUE' for few unknowns. 'TBAS': a table BASE_MODALE.",
         syntax="LPOD1 LVAL1 = POD LCHPO1 | TAB1 (MOT1) (LENTI1) (LMOTS1) 'SNAPSHOTS' | 'CLASSIQUE' "
         "(MASS1) N1 ;\nTPOD1 = POD ... N1 'TBAS' (MAIL1) ;",
-        examples=(
-            _LINE + "LC = (SUIT X) ET (2. * X) ET (X - 1.) ; M V = POD LC 'CLASSIQUE' 2 ; LIST V ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
-                "U = NOMC 'UX' (COOR 1 L) ;\n"
-                "S = SUIT U (2. * U) (U ** 2) ; M V = POD S 'SNAPSHOTS' 2 ; LIST V ;\n"
-                "T = POD S (LECT 1 2 3) (MOTS 'UX') 'SNAPSHOTS' 2 'TBAS' L ; LIST (TYPE T) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
-                "U = NOMC 'UX' (COOR 1 L) ;\n"
-                "T = TABL ; T . 'DEPLACEMENTS' = TABL ;\n"
-                "T . 'DEPLACEMENTS' . 0 = U ; T . 'DEPLACEMENTS' . 1 = U ** 2 ;\n"
-                "M V = POD T 'CLASSIQUE' 1 ; LIST V ;"
-            ),
-        ),
     ),
 )
 def pod(call: Call, fields: ListChpo, **said: Any) -> Table | tuple[ListChpo, ListReel]:

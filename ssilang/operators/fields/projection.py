@@ -11,7 +11,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes")
 
@@ -23,7 +23,9 @@ _SUPPORT = choice(
 )
 _MODEL = arg("place", "MMODEL", en="where to")
 _MESH = arg("place", "MAILLAGE", en="where to")
-_COUNT = opt("count", "ENTIER", default=3, en="integration points in each direction")
+_COUNT = opt(
+    "count", "ENTIER", default=3, en="integration points in each direction", range=POSITIVE
+)
 
 
 _TOLERANCE = opt(
@@ -51,31 +53,6 @@ _TOLERANCE = opt(
         "model, which is told, and raises SOUC.",
         syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
         "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "P = 0.3 0.4 ; C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ; "
-            "LIST (EXTR (PROI (MANU 'POI1' P) C) 'SCAL' P) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "T = (DROI 3 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; N = MODE T 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) M ;\n"
-                "LIST (MAXI (PROI N C)) ; LIST (MAXI (PROI N C 'NOEU')) ;\n"
-                "LIST (MAXI (PROI N C 'GRAV')) ;\n"
-                "LIST (MAXI (PROI N C 'RIGI')) ; LIST (MAXI (PROI N C 'MASS')) ;\n"
-                "LIST (MAXI (PROI N C 'STRE')) ; LIST (MAXI (PROI N C 'MINI' 3)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "T = (DROI 3 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;\n"
-                "C = CHAN 'CHAM' (NOMC 'SCAL' (COOR 1 S)) S ;\n"
-                "LIST (MAXI (PROI T C 'NOEU')) ; LIST (MAXI (PROI T C 'GRAV')) ;\n"
-                "LIST (MAXI (PROI T C 'RIGI')) ; LIST (MAXI (PROI T C 'MASS')) ;\n"
-                "LIST (MAXI (PROI T C 'STRE')) ;"
-            ),
-        ),
     ),
 )
 def proi(
@@ -112,8 +89,6 @@ def proi_by_least_squares(
     call: Call, place: Model, fields: tuple[CellField, ...], count: int, tolerance: float
 ) -> CellField:
     """Projection on a model by least squares."""
-    if count < 1:
-        raise call.error("operators.fields.integration-points-none", count, points=count)
     made = by_least_squares(fields[-1], place, count, tolerance, lost := Lost())
     _tell(call, fields[-1], lost, "operators.fields.projected-zero-outside")
     return made

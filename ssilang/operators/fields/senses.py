@@ -24,16 +24,6 @@ from ssilang.language.values import Table
         "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
         "their difference (one component).",
         "TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
-        (
-            "OPTI DIME 2 ELEM SEG2 ; C = CERC 8 'ROTA' 360. (1. 0.) (0. 0.) 'ELIM' ; "
-            "T = SENS (CCON (INVE C)) ; LIST (T . 1) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "T = SENS (MANU 'CHML' M 'SCAL' 3.) (MANU 'CHML' M 'SCAL' 1.) ;\n"
-                "LIST (T . 1) ;"
-            ),
-        ),
     ),
 )
 def sens(call: Call, contours: Table) -> Table:

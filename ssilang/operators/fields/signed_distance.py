@@ -23,9 +23,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
-_LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
-
-
 _ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of the surface (3D)")
 
 
@@ -55,19 +52,6 @@ _ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of 
         "SEG2; 'TROI' (3D) the abscissa TAU along the front besides.",
         syntax="CHP1 = PSIP MAIL1 MAIL2 (X1) ;\nCHP1 CHP2 = PSIP MAIL1 MAIL2 (X1) 'DEUX' P1 (P2) "
         "| MAIL3 ; CHP1 CHP2 CHP3 = PSIP MAIL1 MAIL2 (X1) 'TROI' MAIL3 ;",
-        examples=(
-            _LINE + "P = (0.5 2.) ET (3. -1.) ; LIST (PSIP P L) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; B = 2. 0. ; L = DROI 2 A B ;\n"
-                "P = MANU 'POI1' (0.5 2.) ;\n"
-                "D1 D2 = PSIP P L 'DEUX' B ; MESS (MAXI D1) (MAXI D2) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM QUA4 ; L = DROI 2 (0 0 0) (2 0 0) ; S = L TRAN 2 (0 1 0) ;\n"
-                "P = MANU 'POI1' (0.5 0.5 2) ;\n"
-                "D1 D2 D3 = PSIP P S 'TROI' L ; MESS (MAXI D1) (MAXI D2) (MAXI D3) ;"
-            ),
-        ),
     ),
 )
 def psip(

@@ -134,7 +134,6 @@ for _kind in ("ENTIER", "FLOTTANT"):
     main("field", "CHPOINT", en="nodal field"),
     syntax="CHPO2 = INVE CHPO1 ;",
     en="Of a nodal field: one over its values.",
-    examples=("OPTI DIME 2 ; P = 0. 0. ; C = INVE (MANU 'CHPO' P 'T' 4.) ; LIST (EXTR C 'T' P) ;",),
 )
 def _inverse(call: Call, field: NodeField) -> NodeField:
     for name, part in field.components.items():
@@ -188,7 +187,7 @@ def _multiply_cells(
     if sign == "*" and _has_matrices(a) != _has_matrices(b):
         found = call.required("MMODEL") if model is None else model
         return _stresses(found, a, b) if _has_matrices(a) else _stresses(found, b, a)
-    if model is not None:
+    if model is not None and sign == "*":
         raise call.error("operators.fields.model-for-hooke", model)
     return cell_algebra.multiplied(a, b, sign == "/", _of_objects)
 
@@ -216,12 +215,12 @@ def _stresses(model: Model, matrices: CellField, strains: CellField) -> CellFiel
     return CellField(blocks, "CONTRAINTES")
 
 
-@rule_with_call("*", "MMODEL", "MCHAML")
+@rule_with_call("* /", "MMODEL", "MCHAML")
 def _model_first(call: Call, sign: str, model: Model, a: CellField) -> CellField:
     return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
 
 
-@rule_with_call("*", "MCHAML", "MMODEL")
+@rule_with_call("* /", "MCHAML", "MMODEL")
 def _model_second(call: Call, sign: str, a: CellField, model: Model) -> CellField:
     return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
 
@@ -258,10 +257,6 @@ _NAMES = (
     *_NAMES,
     syntax="CHP3 = PSCA CHP1 CHP2 LMOT1 LMOT2 ;",
     en="Of two fields: at each place the sum of products of paired components.",
-    examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
-        "LIST (MAXI (PSCA C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY'))) ;",
-    ),
 )
 def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
@@ -311,10 +306,6 @@ def _lists_of(call: Call, *lists: ListMots) -> list[list[str]]:
     syntax="CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
     en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
     "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
-    examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; L = MOTS 'UX' 'UY' ; "
-        "LIST (PVEC C L L) ;",
-    ),
 )
 def quarter_turn(call: Call, first: NodeField, old: ListMots, new: ListMots) -> NodeField:
     """Components at nodes turned by a quarter turn."""

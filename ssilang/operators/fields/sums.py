@@ -1,4 +1,4 @@
-"""RESU, XTY, XTX, COMB: sums over fields."""
+"""RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations of fields and lists."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -15,11 +16,14 @@ from ssilang.language.registry import (
     arg,
     flag,
     main,
+    many,
     operator,
     opt,
+    shared,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.signs import paired_names
 
 # ---- measures -----------------------------------------------------------------------------------
@@ -34,10 +38,6 @@ from ssilang.operators.fields.signs import paired_names
         en="Resultant of a field at nodes: its first point with the sum of each component. "
         "The sum of a list is SOMM's.",
         syntax="CHPO2 = RESU CHPO1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (MAXI (RESU (COOR 1 L))) ;",
-            "LIST (RESU (PROG 1. 2. 4.)) ;",
-        ),
     ),
 )
 def resu(call: Call, field: NodeField) -> NodeField:
@@ -51,7 +51,7 @@ def resu(call: Call, field: NodeField) -> NodeField:
 
 
 @resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum"),
+    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", range=ANY_NUMBER),
     gives="FLOTTANT|ENTIER",
 )
 def resu_of_list(values: ListReel | ListEnti) -> float | int:
@@ -76,15 +76,6 @@ _PAIRED = (
         en="Sum over all nodes of the products of paired components of two fields; of two lists "
         "of fields, a list.",
         syntax="X1 = XTY CHPO1 CHPO2 LMOT1 LMOT2 ; LREE1 = XTY LCHP1 LCHP2 LMOT1 LMOT2 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
-            "LIST (XTY C C (MOTS 'UX' 'UY') (MOTS 'UX' 'UY')) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
-                "D = MANU 'CHPO' P 'T' 2. ; L = MOTS 'T' ;\n"
-                "LIST (XTY (SUIT C D) (SUIT D D) L L) ;"
-            ),
-        ),
     ),
 )
 def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
@@ -115,8 +106,8 @@ def _product(a: NodeField, b: NodeField, left: list[str], right: list[str]) -> f
 
 
 _FACTORS = (
-    opt("a", "FLOTTANT", en="factor of the first field"),
-    opt("b", "FLOTTANT", en="factor of the second field"),
+    opt("a", "FLOTTANT", en="factor of the first field", range=ANY_NUMBER),
+    opt("b", "FLOTTANT", en="factor of the second field", range=ANY_NUMBER),
 )
 
 
@@ -129,14 +120,6 @@ _FACTORS = (
     help=Help(
         en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
         syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; LIST (XTX (MANU 'CHPO' P 'UX' 3. 'UY' 4.)) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "LIST (XTX (MANU 'CHML' M 'SCAL' 3.)) ;"
-            ),
-        ),
     ),
 )
 def xtx(
@@ -181,11 +164,6 @@ def _weighted_sum(
         en="Linear combination of the fields of a table indexed by points, with the values of a "
         "field with one component as coefficients.",
         syntax="CHPO1 = COMB ('SEMBLABLE') CHPO2 TAB1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = MANU 'CHPO' P 'UX' 3. ; "
-            "T . Q = MANU 'CHPO' P 'UX' 5. ; A = MANU 'CHPO' (P ET Q) 'ALFA' 2. ; "
-            "LIST (MAXI (COMB A T)) ;",
-        ),
     ),
 )
 def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:
@@ -202,3 +180,71 @@ def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField
     if total is None:
         raise call.error("operators.fields.table-without-point-fields", table)
     return total
+
+
+COLI = shared(
+    "COLI",
+    "fields",
+    Help(
+        en="Linear combination: fields each followed by its coefficient, or a list of fields (or "
+        "a table 1 .. N of fields or lists) with a list of coefficients.",
+        syntax="CHP1 = COLI CHP2 X2 CHP3 X3 ... ; OBJ1 = COLI LCHP1 | TAB1 LREE1 ;",
+    ),
+    full_name="COLINEAIRE",
+)
+
+
+@COLI.form(
+    arg("held", "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"),
+    arg("factors", "LISTREEL", en="coefficients", range=ANY_NUMBER),
+    gives="CHPOINT|MCHAML|LISTREEL",
+)
+def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
+    numbers = factors.values.tolist()
+    if isinstance(held, ListChpo):
+        return _combined(call, list(held.values), numbers)
+    return _combined(call, [held.get(i) for i in range(1, len(numbers) + 1)], numbers)
+
+
+@COLI.form(
+    many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields"),
+    many("factors", "FLOTTANT", en="coefficients", range=ANY_NUMBER),
+    gives="CHPOINT|MCHAML",
+)
+def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:
+    return _combined(call, list(objects), list(factors))
+
+
+def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
+    if not objects or len(objects) != len(factors):
+        raise call.error(
+            "operators.lists.coefficient-count", n_objects=len(objects), n_factors=len(factors)
+        )
+    if all(isinstance(o, ListReel) for o in objects):
+        if len({len(o) for o in objects}) > 1:
+            raise call.error("operators.lists.lengths-differ")
+        return ListReel(sum(f * o.values for f, o in zip(factors, objects, strict=True)))
+    kinds = {type(o) for o in objects}
+    if len(kinds) > 1 or not kinds <= {NodeField, CellField}:
+        raise call.error("operators.lists.nothing-to-combine")
+    algebra: Any = node_algebra if isinstance(objects[0], NodeField) else cell_algebra
+    total = algebra.applied(objects[0], lambda v: v * factors[0])
+    for factor, field in zip(factors[1:], objects[1:], strict=True):
+        total = algebra.added(total, field, factor)
+    return total
+
+
+@operator(
+    "SOMT",
+    arg("field", "CHPOINT", en="field of one component"),
+    family="fields",
+    help=Help(
+        en="Sum of the values of a field of a single component (SCAL, most often).",
+        syntax="X1 = SOMT CHPO1 ;",
+    ),
+)
+def somt(field: NodeField) -> float:
+    """Sum values."""
+    if len(field.components) != 1:
+        raise KernelError("operators.lists.single-component")
+    return float(next(iter(field.components.values())).values.sum())

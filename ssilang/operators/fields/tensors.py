@@ -50,11 +50,6 @@ from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import MODEL, on_zones, state_and_rest
 
-_SQUARE = (
-    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
-    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
-    "U = MANU 'CHPO' S 2 'UX' 1. 'UY' 0. 'NATURE' 'DIFFUS' ; "
-)
 _SKINS = ("SUPE", "MOYE", "INFE")
 
 
@@ -122,7 +117,6 @@ def _tensor(
         "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
         "in COQ6 and COQ8 that of the stresses at each point.",
         syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
-        examples=(_SQUARE + "LIST (MAXI (VMIS M (SIGM M A U))) ;",),
     ),
 )
 def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
@@ -140,7 +134,6 @@ def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     help=Help(
         en="Tresca's equivalent stress: the largest difference of principal stresses.",
         syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-        examples=(_SQUARE + "LIST (MAXI (TRES M (SIGM M A U))) ;",),
     ),
 )
 def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
@@ -162,7 +155,6 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
         "plane, unless 'TRID' is given.",
         syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
         "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
-        examples=(_SQUARE + "LIST (MAXI (EXCO 'SI11' (PRIN (SIGM M A U) M))) ;",),
     ),
 )
 def prin(
@@ -194,7 +186,6 @@ def prin(
         en="The three invariants of a stress or strain field: trace, sum of the principal minors "
         "of order two, determinant.",
         syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-        examples=(_SQUARE + "I J K = INVA M (SIGM M A U) ; LIST (MAXI I) ;",),
     ),
 )
 def inva(
@@ -223,7 +214,6 @@ def inva(
         en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
         "material twice the energy); INTG integrates it.",
         syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
-        examples=(_SQUARE + "E = ENER M (SIGM M A U) (EPSI M U) ; LIST (INTG M E) ;",),
     ),
 )
 def ener(
@@ -267,7 +257,6 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
         "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
         "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
         syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
-        examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (GRAD M U))) ;",),
     ),
 )
 def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...]) -> CellField:
@@ -302,9 +291,8 @@ def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...
     syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
     "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
     en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
-    "with the parameters CAR1 beams and bars count with their section, plane stress with its "
-    "thickness.",
-    examples=(_SQUARE + "LIST (INTG M A 'YOUN') ;",),
+    "with the parameters CAR1 beams and bars count with their section, shells and plane stress "
+    "with their thickness.",
 )
 def intg(
     call: Call,
@@ -345,7 +333,6 @@ def _only(call: Call, field: CellField) -> str:
     help=Help(
         en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
         syntax="CHAM1 = JACO MODL1 ;",
-        examples=(_SQUARE + "LIST (MINI (JACO M)) ;",),
     ),
 )
 def jaco(model: Model) -> CellField:

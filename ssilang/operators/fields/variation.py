@@ -56,19 +56,6 @@ _LAW = arg("curve", "EVOLUTIO", en="law of variation")
         "depend on.",
         syntax="CHPO2 = VARI CHPO1 EVOL1 (MOT1) ; CHAM2 = VARI MODL1 CHAM1 | CHPO1 EVOL1 (MOT1) ;\n"
         "CHAM2 = VARI 'NUAG' MODL1 CHAM1 CHAM3 | CHPO3 (MOT1) (MOT2) ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 50. ; "
-            "E = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2. 1.) ; LIST (VARI C E) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "C = MANU 'CHPO' S 1 'T' 50. ;\n"
-                "E = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2. 1.) ;\n"
-                "LIST (MAXI (VARI M C E)) ;\n"
-                "LIST (MAXI (VARI 'NUAG' M (MATE M 'YOUN' E 'NU' 0.3) C)) ;"
-            ),
-        ),
     ),
 )
 def vari(

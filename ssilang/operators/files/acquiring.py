@@ -107,10 +107,6 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
         "behind a list the number of its values. Each statement begins on a new line of the file. "
         "BRUT gives the next line as a word.",
         syntax="ACQU NOM1*TYPE1 (N1) (NOM2*TYPE2 (N2) ...) ;\nMOT1 = ACQU 'BRUT' ;",
-        examples=(
-            "OPTI SORT 'in.txt' ; SORT 'CHAI' '3 4.5 7 8' ; OPTI ACQU 'in.txt' ; "
-            "ACQU I*ENTIER X*FLOTTANT L*LISTENTI 2 ; LIST X ;",
-        ),
     ),
     gives="MOT|",
     reads_itself="its items are names and types, with * between, and numbers of values",

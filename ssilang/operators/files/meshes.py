@@ -44,11 +44,6 @@ _FILE = lead("file", "MOT", en="file")
     "is positive; those with nodes that coincide become simpler ones, those that have no "
     "counterpart are left out, both with a warning that counts them. Fields are not read. MED "
     "needs h5py.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (2. 0.) ; S = L TRAN 2 (0. 1.) ;\n"
-        "OPTI SORT 'plate.msh' ; SORT 'MESH' S ;\n"
-        "T = LIRE 'MESH' 'plate.msh' ; LIST (NBEL (T . 'L')) ; LIST (MESU (T . '@QUA4')) ;",
-    ),
 )
 def _mesh(call: Call, file: str) -> Table:
     return mesh_table(call, str(file))
@@ -66,11 +61,6 @@ _BY_WORD = {
     syntax="TAB1 = LIRE 'GMSH'|'MED'|'VTU'|'VTK'|'ABAQ'|'NAS'|'FEM'|'MEDI'|'UNV' FIC1 ;",
     en="The word of a format: as MESH, whatever the ending. NAS and FEM are Nastran's bulk data, "
     "UNV is I-DEAS' universal file.",
-    examples=(
-        "OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ;\n"
-        "OPTI SORT 'one.bdf' ; SORT 'NAS' T ; R = LIRE 'NAS' 'one.bdf' ;\n"
-        "LIST (MESU (R . '@TRI3')) ;",
-    ),
 )
 def _by_word(call: Call, word: str, file: str) -> Table:
     return mesh_table(call, str(file), _BY_WORD[word])
@@ -168,11 +158,6 @@ def _sound(mesh: Mesh) -> Mesh:
     "the ending), .inp (Abaqus: sets). Parts are the meshes and points that the script calls by a "
     "name and that lie on nodes of the mesh, or those of a table such as MAILLER's or LIRE's, "
     "whose MAILLAGE or TOTAL is the whole. Joints are left out, with a warning.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; T = MAILLER 'SEMELLE' 4. 1. 'SOL' 12. 4. ;\n"
-        "OPTI SORT 'footing.inp' ; SORT 'MESH' T ; R = LIRE 'MESH' 'footing.inp' ;\n"
-        "LIST (MESU (R . 'SEMELLE')) ;",
-    ),
 )
 def _sort(call: Call, word: str, mesh: Any) -> None:
     path = target_path(call, ".med" if word == "MED" else "")

@@ -17,49 +17,13 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
 LIRE = shared_operator(
-    "LIRE",
-    "files",
-    "Reads a file below the script's folder or the output folder.",
-    examples=(
-        (
-            "OPTI SORT 'two.procedur' ; SORT 'CHAI' 'DEBP TWICE X*''FLOTTANT'' ;\n"
-            "FINP (2. * X) ;' ;\n"
-            "LIRE 'PROC' 'two.procedur' ; LIST (TWICE 4.) ;"
-        ),
-        (
-            "OPTI DIME 3 ELEM TRI3 ; T = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
-            "OPTI SORT 'one' ; SORT 'STL ' T ; M = LIRE 'STL' 'one.stl' ; LIST (MESU M) ;"
-        ),
-        (
-            "OPTI SORT 'quake.at2' ;\n"
-            "SORT 'CHAI' 'PEER' ; SORT 'CHAI' 'event' ; SORT 'CHAI' 'UNITS OF G' ;\n"
-            "SORT 'CHAI' 'NPTS= 4, DT= .01 SEC' ; SORT 'CHAI' ' 0. 0.1 -0.2 0.05' ;\n"
-            "E = LIRE 'PEER' 'quake.at2' 9.81 ; LIST (MAXI (EXTR E 'ORDO')) ;"
-        ),
-        (
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ;\n"
-            "OPTI SORT 'one.avs' ; SORT 'AVS' L ; OPTI LECT 'one.avs' ; T = LIRE 'AVS' ;\n"
-            "LIST (TYPE T) ;"
-        ),
-        (
-            "OPTI DIME 2 ELEM SEG2 SORT 'mesh' ; L = DROI 4 (0. 0.) (1. 0.) ; SORT L ;\n"
-            "L = 0 ; OPTI LECT 'mesh' ; LIRE L ; LIST (NBEL L) ;"
-        ),
-        (
-            "OPTI SORT 'line.unv' ;\n"
-            "SORT 'CHAI' '    -1' ; SORT 'CHAI' '  2411' ;\n"
-            "SORT 'CHAI' ' 1 1 1 11' ; SORT 'CHAI' ' 0. 0. 0.' ;\n"
-            "SORT 'CHAI' ' 2 1 1 11' ; SORT 'CHAI' ' 2. 0. 0.' ; SORT 'CHAI' '    -1' ;\n"
-            "SORT 'CHAI' '    -1' ; SORT 'CHAI' '  2412' ; SORT 'CHAI' ' 1 11 1 1 7 2' ;\n"
-            "SORT 'CHAI' ' 0 1 1' ; SORT 'CHAI' ' 1 2' ; SORT 'CHAI' '    -1' ;\n"
-            "OPTI DIME 3 ; T = LIRE 'UNV' 'line.unv' ; LIST (MESU (T . 'MAILLAGE')) ;"
-        ),
-    ),
+    "LIRE", "files", "Reads a file below the script's folder or the output folder."
 )
 
 
@@ -69,16 +33,12 @@ _FILE = lead("file", "MOT", en="file")
 @LIRE.form(
     said("CSV"),
     _FILE,
-    key("first", "DEBU", arg("n", "ENTIER"), default=1, en="first line"),
+    key("first", "DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
     key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator"),
     choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines"),
     syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",
     en="CSV: a table of LISTREEL, 1 to the number of columns (COLO) or lines (LIGN) of a CSV file, "
     "from line DEBU, separated by SEPA (one character, ; if it is not given).",
-    examples=(
-        "OPTI SORT 'two.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
-        "T = LIRE 'CSV' 'two.csv' ; LIST (T . 2) ;",
-    ),
 )
 def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     sign = str(separator) or ";"

@@ -10,13 +10,19 @@ from ssilang.io.ground_motions.titled import read_titled
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import Entry, arg, flag, key, lead, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, NOT_ZERO
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.workspace import workspace
 
 _ENTRIES: tuple[Entry, ...] = (
     lead("file", "MOT", en="file"),
-    opt("factor", "FLOTTANT", en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2"),
+    opt(
+        "factor",
+        "FLOTTANT",
+        en="factor of the values: 9.81 makes m/s2 of g, 0.01 of cm/s2",
+        range=NOT_ZERO,
+    ),
     flag("in_si", "SI", en="metres and seconds, by the unit that the file names"),
 )
 """What every format of records reads: file, then a factor or 'SI'."""
@@ -39,12 +45,6 @@ def _peer(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     *_ENTRIES,
     syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1 | 'SI') ;",
     en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC).",
-    examples=(
-        "OPTI SORT 'quake.asc' ;\n"
-        "SORT 'CHAI' 'SAMPLING_INTERVAL_S: 0.01' ; SORT 'CHAI' 'NDATA: 3' ;\n"
-        "SORT 'CHAI' 'UNITS: cm/s^2' ; SORT 'CHAI' '0.' ; SORT 'CHAI' '12.' ;\n"
-        "SORT 'CHAI' '-7.' ; E = LIRE 'ESM' 'quake.asc' 'SI' ; LIST E ;",
-    ),
 )
 def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     record = read_esm(file_to_read(call, str(file), ".ASC"))
@@ -55,20 +55,11 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     said("COSMOS"),
     *_ENTRIES,
     key(
-        "number", "CANAL", arg("n", "ENTIER"), default=0,
+        "number", "CANAL", arg("n", "ENTIER", range=NOT_NEGATIVE), default=0,
         en="which record of a file that has several"),
     syntax="EVO1 = LIRE 'COSMOS' FIC1 (FLOT1 | 'SI') ('CANAL' N1) ;",
     en="COSMOS: a ground motion in version 1.20 of the COSMOS format (.V1, .V2), the first of the "
-    "file or record CANAL.",
-    examples=(
-        "OPTI SORT 'quake.v2' ; SORT 'CHAI' 'Corrected (Format v01.20)' ; SORT 'CHAI' 'event' ;\n"
-        "SORT 'CHAI' '34 Real-header values follow on 34 lines, Format= (1F8.3)' ;\n"
-        "REPE B 33 ; SORT 'CHAI' '-999.000' ; FIN B ; SORT 'CHAI' '   0.010' ;\n"
-        "SORT 'CHAI' '3 acceleration pts, units=cm/sec2 (04), Format=(3F8.3)' ;\n"
-        "SORT 'CHAI' '   0.000  12.000  -7.000' ;\n"
-        "LIST (EXTR (LIRE 'COSMOS' 'quake.v2' 'SI' 'CANAL' 1) 'ORDO') ;",
-    ),
-)  # fmt: skip
+    "file or record CANAL.")  # fmt: skip
 def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: int) -> Curve:
     found = read_cosmos(file_to_read(call, str(file), ".V2"))
     if number < 0 or number > len(found):
@@ -85,11 +76,6 @@ def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: in
     syntax="EVO1 = LIRE 'SIGNAL' FIC1 (FLOT1 | 'SI') ;",
     en="SIGNAL: ground motions as a table (CSV or blanks): a column of times and further ones, "
     "under titles that name units, as in time (s); acceleration (g). A curve for each column.",
-    examples=(
-        "OPTI SORT 'quake.csv' ; SORT 'CHAI' 'time (s);acceleration (cm/s2)' ;\n"
-        "SORT 'CHAI' '0.;0.' ; SORT 'CHAI' '0.1;20.' ; SORT 'CHAI' '0.2;-10.' ;\n"
-        "LIST (EXTR (LIRE 'SIGNAL' 'quake.csv' 'SI') 'ORDO') ;",
-    ),
 )
 def _signal(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     found = read_titled(file_to_read(call, str(file), ".csv"))

@@ -171,10 +171,6 @@ _WORDS = (
         "statements add to the file, under a LABEL if one is given. REST reads it back. The "
         "format is ssilang's own (JSON and arrays), FORMAT and MUET change nothing.",
         syntax="SAUV ('FORMAT') ('LABEL' MOT1) ('MUET') (OBJ1 OBJ2 ...) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 3 (0. 0.) (1. 0.) ; OPTI SAUV 'l.sauv' ; SAUV L ; "
-            "OPTI REST 'l.sauv' ; REST ; MESS (NBEL L) ;",
-        ),
     ),
 )
 def sauv(
@@ -261,10 +257,6 @@ def _settings(ws: Workspace) -> dict[str, Any]:
         "record of a LABEL if one is given. Its nodes are added to those that exist, as are the "
         "unknowns of OPTI INCO. Dimension and mode are those of the file if none has been set.",
         syntax="REST ('FORMAT') ('LABEL' MOT1) ;",
-        examples=(
-            "X = PROG 1. 2. ; OPTI SAUV 'x.sauv' ; SAUV X ; X = 0 ; "
-            "OPTI REST 'x.sauv' ; REST ; MESS (DIME X) ;",
-        ),
     ),
 )
 def rest(call: Call, formatted: bool, label: str, silent: bool) -> None:

@@ -12,7 +12,7 @@ from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt,
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
@@ -25,12 +25,6 @@ SORT = shared_operator(
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
     "folder. The extension may be left out.",
     "SORTIR",
-    examples=(
-        (
-            "OPTI DIME 3 ELEM TRI3 ; T = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
-            "OPTI SORT 'one' ; SORT 'STL ' T ; M = LIRE 'STL' 'one.stl' ; LIST (NBEL M) ;"
-        ),
-    ),
 )
 
 
@@ -46,7 +40,7 @@ def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Pat
 _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
 
 
-_NUMBER = arg("n", "ENTIER")
+_NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
 
 
 @SORT.form(
@@ -60,6 +54,7 @@ _NUMBER = arg("n", "ENTIER")
         "TABLE",
         at_least=1,
         en="lists, or what holds them",
+        range=ANY_NUMBER,
     ),
     key("width", "NCOL", _NUMBER, en="columns side by side"),
     key("digits", "DIGI", _NUMBER, en="decimals"),
@@ -71,7 +66,6 @@ _NUMBER = arg("n", "ENTIER")
     en="EXCE: a CSV table with a column for each list of the objects (LISTREEL LISTENTI LISTMOTS "
     "EVOLUTION TABLE), headed by the curves' axis names and the tables' indices. NCOL columns "
     "at most side by side, DIGI decimals. Further SORT statements append.",
-    examples=("OPTI SORT 'valeurs.csv' ; SORT 'EXCE' (PROG 1. 2. 3.) 'SEPA' 'VIRG' ;",),
 )
 def _exce(
     call: Call,
@@ -122,7 +116,6 @@ def _columns(value: Any, name: str, units: UnitSystem | None) -> list[Column]:
     by_hand=TEXT_IS_FREE,
     syntax="SORT 'CHAI' OBJ1 (OBJ2 ...) ;",
     en="CHAI: a line of text, written as MESS writes it. Further SORT statements append.",
-    examples=("OPTI SORT 'notes.txt' ; SORT 'CHAI' 'x =' 2.5 ;",),
 )
 def _chai(call: Call, word: str) -> None:
     text = read_text(call)
@@ -132,13 +125,12 @@ def _chai(call: Call, word: str) -> None:
 @SORT.form(
     said("BILA"),
     lead("name", "MOT", en="name of the figure"),
-    arg("value", "FLOTTANT", en="figure"),
-    opt("expected", "FLOTTANT", en="value expected"),
+    arg("value", "FLOTTANT", en="figure", range=ANY_NUMBER),
+    opt("expected", "FLOTTANT", en="value expected", range=ANY_NUMBER),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
     syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
     en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
     "and the tolerance on their distance if there are any.",
-    examples=("SORT 'BILA' 'two and two' (2. + 2.) 4. 1.E-12 ;",),
 )
 def _bila(
     call: Call, name: str, value: float, expected: float | None, tolerance: float | None

@@ -1,8 +1,15 @@
-"""SORT 'AVS ', 'STL ', 'ABAQ', 'NAS ', 'MAT ': meshes, fields and matrices in others' formats."""
+"""SORT of meshes, fields and matrices in others' formats; of named meshes in ssilang's own."""
 
 from __future__ import annotations
 
+from contextlib import closing
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.atomic import replacing, write_text
+from ssilang.io.errors import InputError
 from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
@@ -12,11 +19,15 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.language.registry import arg, choice, flag, key, opt, said
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.language.registry import arg, choice, flag, key, lead, main, named, opt, said
 from ssilang.language.run.call import Call
-from ssilang.operators.files.meshes import PLANE
-from ssilang.operators.files.outputs import run_output
+from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.files.meshes import PLANE, mesh_table
+from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.files.reading import LIRE
+from ssilang.operators.files.saving import check_settings
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
 
@@ -27,15 +38,11 @@ from ssilang.operators.workspace import workspace
     opt("nodal", "CHPOINT", en="nodal field"),
     opt("cells", "MCHAML", en="field in cells"),
     flag("follows", "SUIT", en="behind what is written"),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
+    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
     syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
     en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
     "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
     "structure to those written since OPTI SORT, TEMP adds the value 'time'.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'line' ; "
-        "SORT 'AVS ' L 'TEMP' 1.5 ;",
-    ),
 )
 def _avs(
     call: Call,
@@ -87,10 +94,6 @@ _MESH = arg("mesh", "MAILLAGE", en="mesh")
     syntax="SORT 'ABAQ' MAIL1 ;",
     en="ABAQ: the nodes and cells of a mesh of solids as an Abaqus deck (.inp); in two dimensions "
     "OPTI MODE says which: CPS, CPE or CAX.",
-    examples=(
-        "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "OPTI SORT 'ring' ; SORT 'ABAQ' S ; OPTI ACQU 'ring.inp' ; LIST (ACQU 'BRUT') ;",
-    ),
 )
 def _abaq(call: Call, mesh: Mesh) -> None:
     ws = workspace(call.session)
@@ -107,10 +110,6 @@ def _abaq(call: Call, mesh: Mesh) -> None:
     syntax="SORT 'NAS' MAIL1 ;",
     en="NAS: the nodes and cells of a mesh as Nastran bulk data (.bdf), a property number for "
     "each kind of cells.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "OPTI SORT 'plate' ; SORT 'NAS' S ; OPTI ACQU 'plate.bdf' ; LIST (ACQU 'BRUT') ;",
-    ),
 )
 def _nas(call: Call, mesh: Mesh) -> None:
     lines = nastran_lines(parted(mesh)[0])
@@ -134,10 +133,6 @@ def _nas(call: Call, mesh: Mesh) -> None:
     "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
     "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
     "of the node).",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; K = APPU 'UX' 400. P ; OPTI SORT 'k' ; "
-        "SORT 'MAT ' 'MM' 'ASSE' K 'INCO' ;",
-    ),
 )
 def _mat(
     call: Call,
@@ -164,3 +159,76 @@ def _mat(
     for target, lines in texts.items():
         write_text(target, "".join(line + "\n" for line in lines))
         output.wrote(target)
+
+
+@SORT.form(
+    main("mesh", "MAILLAGE", en="mesh"),
+    flag("kept", "NOOP", en="changes nothing"),
+    syntax="SORT MAIL1 ('NOOP') ;",
+    en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
+    "ssilang's own that LIRE reads; SAUV saves everything else too.",
+)
+def _sort_mesh(call: Call, mesh: Mesh, kept: bool) -> None:
+    frame = call.session.frame
+    encoder = Encoder()
+    names = {}
+    for name in sorted(frame.names()):
+        value = frame.find(name)
+        if value is mesh or _is_part(value, mesh):
+            names[name] = encoder.encode(value)
+    if not any(frame.find(name) is mesh for name in names):
+        names["MAILLAGE"] = encoder.encode(mesh)
+    path = target_path(call)
+    ws = workspace(call.session)
+    write_archive(
+        path, encoder.objects, encoder.arrays, [Record("", names)], {"DIME": ws.dimension}
+    )
+    run_output(call.session).wrote(path)
+
+
+def _is_part(value: Any, mesh: Mesh) -> bool:
+    if isinstance(value, Point):
+        return bool(np.isin(value.node, mesh.sorted_node_ids))
+    if isinstance(value, Mesh) and value.blocks:
+        return bool(np.isin(value.sorted_node_ids, mesh.sorted_node_ids).all())
+    return False
+
+
+@LIRE.form(
+    lead("file", "MOT", en="file, or mesh that must be there"),
+    gives="TABLE|",
+    syntax="TAB1 = LIRE FIC1 ;",
+    en="A file by its ending (LIRE 'm.msh'): as MESH.",
+)
+def _lire_file(call: Call, file: str) -> Table | None:
+    if "." in file:  # which no name has
+        return mesh_table(call, str(file))
+    _lire_own(call, file.strip().upper())
+    return None
+
+
+@LIRE.form(
+    named("wanted", optional=True, en="mesh that must be there"),
+    syntax="LIRE (GEO1) ;",
+    en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
+    "by SORT; GEO1 must be one of them if it is given.",
+)
+def _lire_own(call: Call, wanted: str) -> None:
+    path = input_path(call, option_name(call.session, "LECT", 4))
+    with closing(read_archive(path)) as archive:
+        _restore(call, archive, wanted)
+
+
+def _restore(call: Call, archive: Archive, wanted: str) -> None:
+    names = archive.records[0].names if archive.records else {}
+    if wanted and wanted not in names:
+        known = ", ".join(names)
+        raise InputError(
+            "operators.files.no-such-mesh", name=archive.path.name, wanted=wanted, known=known
+        )
+    check_settings(archive, archive.path.name)
+    ws = workspace(call.session)
+    decoder = Decoder(archive, ws.nodes)
+    for name, value in decoder.named(archive.records[:1]):
+        call.session.frame.assign(name, value)
+    ws.dimension = ws.dimension or int(archive.settings.get("DIME", 0))

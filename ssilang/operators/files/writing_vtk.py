@@ -20,6 +20,7 @@ from ssilang.language.registry import arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
@@ -71,7 +72,7 @@ class _Said:
         _FORMATS,
         en="files by instant and mesh with a list, or one file for all (VTU if nothing is said)",
     ),
-    key("time", "TEMP", arg("t", "FLOTTANT"), en="time, in s"),
+    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
     flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
@@ -87,14 +88,6 @@ class _Said:
     "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
     "models (material) whose names the script has, the field data says which is which. "
     "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "U = MANU 'CHPO' L 2 'UX' 0. 'UY' 0.1 ; "
-        "OPTI SORT 'beam' ; SORT 'VTK ' L 'BEAM' U 'DEPL' 'TEMP' 0.5 ;",
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; OPTI SORT 'bar' ; REPE BT 3 ; "
-        "T = MANU 'CHPO' L 1 'T' (100. * &BT) ; SORT 'VTK ' L T 'VTKHDF' 'TEMP' (0.1 * &BT) ; "
-        "FIN BT ;",
-    ),
 )
 def _vtk(call: Call, word: str) -> None:
     said = _read(call)

@@ -13,6 +13,7 @@ from ssilang.language.registry import Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import call_procedure
 from ssilang.language.values import ListReel, Procedure, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 _ROUNDS = 200
 """Steps of LEVM, taken and refused."""
@@ -23,21 +24,19 @@ _GAIN = 1e-12
 
 @operator(
     "MOCA",
-    arg("start", "LISTREEL", en="parameters"),
-    arg("measured", "LISTREEL", en="measured values"),
-    arg("values", "LISTREEL", en="values for the parameters"),
-    many("derivatives", "LISTREEL", at_least=1, en="derivative by each parameter"),
-    key("weights", "POIDS", arg("weights", "LISTREEL"), en="weights"),
+    arg("start", "LISTREEL", en="parameters", range=ANY_NUMBER),
+    arg("measured", "LISTREEL", en="measured values", range=ANY_NUMBER),
+    arg("values", "LISTREEL", en="values for the parameters", range=ANY_NUMBER),
+    many(
+        "derivatives", "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
+    ),
+    key("weights", "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"),
     family="lists",
     help=Help(
         en="The parameters that bring a function nearest to measured values: from its values and "
         "derivatives for a first set of parameters, those for which the sum of (weight * "
         "difference) ** 2 is least, the function taken for linear. Repeated, it serves for others.",
         syntax="LREE1 = MOCA LREE2 LREE3 LREE4 LREE5 (LREE6 ...) ('POIDS' LREE7) ;",
-        examples=(
-            "X = PROG 0. 1. 2. ; Y = PROG 1. 3. 5. ; U = PROG 3*1. ; "
-            "LIST (MOCA (PROG 0. 0.) Y (0. * X) U X) ;",
-        ),
     ),
 )
 def moca(
@@ -76,10 +75,18 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
 
 @operator(
     "LEVM",
-    key("abscissas", "ABSC", arg("list", "LISTREEL"), optional=False, en="points"),
-    key("measured", "ORDO", arg("list", "LISTREEL"), optional=False, en="values"),
-    key("spreads", "SIGM", arg("list", "LISTREEL"), optional=False, en="weights"),
-    key("start", "PARA", arg("list", "LISTREEL"), optional=False, en="first parameters, none zero"),
+    key(
+        "abscissas", "ABSC", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="points"
+    ),
+    key("measured", "ORDO", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="values"),
+    key("spreads", "SIGM", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="weights"),
+    key(
+        "start",
+        "PARA",
+        arg("list", "LISTREEL", range=ANY_NUMBER),
+        optional=False,
+        en="first parameters, none zero",
+    ),
     key(
         "function",
         "PROC",
@@ -94,12 +101,6 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
         "The procedure is given the points and the parameters; it gives the values and their "
         "derivatives by the parameters in one list, point after point.",
         syntax="LREE1 X1 = LEVM 'ABSC' LREE2 'ORDO' LREE3 'SIGM' LREE4 'PARA' LREE5 'PROC' PROC1 ;",
-        examples=(
-            "DEBP EXPO X1*LISTREEL P1*LISTREEL ; K1 = EXTR P1 1 ; Y1 = EXP (K1 * X1) ; "
-            "FINP Y1 (X1 * Y1) ;\n"
-            "P C = LEVM 'ABSC' (PROG 1. 2.) 'ORDO' (PROG 2. 4.) 'SIGM' (PROG 1. 1.) "
-            "'PARA' (PROG 0.2) 'PROC' EXPO ; LIST P ;",
-        ),
     ),
 )
 def levm(
@@ -161,7 +162,9 @@ def _damped(
 @operator(
     "GANE",
     arg("table", "TABLE", en="0: values, 1 to n: derivatives"),
-    key("damping", "AMOR", arg("factor", "FLOTTANT"), default=0.0, en="damping"),
+    key(
+        "damping", "AMOR", arg("factor", "FLOTTANT", range=NOT_NEGATIVE), default=0.0, en="damping"
+    ),
     flag("matrices", "MATR", en="not available"),
     family="lists",
     full_name="GANEWTON",
@@ -171,10 +174,6 @@ def _damped(
         "lists or nodal fields), the result the steps H1 to Hn, [J^T J + nu I] H = - J^T f. "
         "'AMOR' gives nu (Levenberg and Marquardt), else 0.",
         syntax="TAB2 = GANE TAB1 ('AMOR' X1) ;",
-        examples=(
-            "T = TABL 'VECTEUR' ; T . 0 = PROG 1. 3. ; T . 1 = PROG 1. 1. ; "
-            "H = GANE T ; LIST (H . 1) ;",
-        ),
     ),
 )
 def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:

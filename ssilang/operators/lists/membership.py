@@ -20,7 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
@@ -34,15 +34,6 @@ DANS = shared(
         "('SEQU') or in any order ('QUEL').",
         syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
         "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
-        examples=(
-            "SI (DANS (PROG 1. 2.) 2.) ; MESS 'yes' ; FINSI ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ;\n"
-                "LIST (DANS (L POIN 1) L) ; LIST (DANS (0. 7.) L) ;\n"
-                "LIST (DANS (LECT 2 3) (LECT 0 1 2 3)) ;\n"
-                "LIST (DANS 'QUEL' (PROG 3. 2.) (PROG 1. 2. 3.)) ;"
-            ),
-        ),
     ),
 )
 _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")
@@ -60,8 +51,8 @@ def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("part", "LISTENTI", en="list of integers"),
-    arg("whole", "LISTENTI", en=_SECOND),
+    arg("part", "LISTENTI", en="list of integers", range=ANY_NUMBER),
+    arg("whole", "LISTENTI", en=_SECOND, range=ANY_NUMBER),
 )
 def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
     return _as_stretch(part.values, whole.values)
@@ -69,8 +60,8 @@ def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("whole", "LISTREEL", en="list of reals"),
-    arg("number", "FLOTTANT", en="number looked for"),
+    arg("whole", "LISTREEL", en="list of reals", range=ANY_NUMBER),
+    arg("number", "FLOTTANT", en="number looked for", range=ANY_NUMBER),
 )
 def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
     return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
@@ -78,8 +69,8 @@ def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("part", "LISTREEL", en="list of reals"),
-    arg("whole", "LISTREEL", en=_SECOND),
+    arg("part", "LISTREEL", en="list of reals", range=ANY_NUMBER),
+    arg("whole", "LISTREEL", en=_SECOND, range=ANY_NUMBER),
 )
 def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
     left, right = part.values, whole.values
@@ -114,8 +105,8 @@ Subtracted = ListReel | ListEnti | ListMots
 
 @operator(
     "SAUF",
-    arg("first", *_SUBTRACTED, en="list"),
-    arg("second", *_SUBTRACTED, en="items to leave out"),
+    arg("first", *_SUBTRACTED, en="list", range=ANY_NUMBER),
+    arg("second", *_SUBTRACTED, en="items to leave out", range=ANY_NUMBER),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("first"),
@@ -123,7 +114,6 @@ Subtracted = ListReel | ListEnti | ListMots
     help=Help(
         en="The items of a list that are not in a second one.",
         syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
-        examples=("LIST ((LECT 1 2 3 4) SAUF (LECT 2 4)) ;",),
     ),
 )
 def sauf(
@@ -140,10 +130,9 @@ def sauf(
 
 @INTE.form(
     main("first", "LISTREEL", en="first list"),
-    arg("second", "LISTREEL", en="second list"),
+    arg("second", "LISTREEL", en="second list", range=ANY_NUMBER),
     syntax="LREE3 = LREE1 INTE LREE2 ;",
     en="Two lists of reals: the values of the first that the second holds as well.",
-    examples=("LIST (INTE (PROG 1. 2. 3.) (PROG 2. 3. 4.)) ;",),
 )
 def common_reals(first: ListReel, second: ListReel) -> ListReel:
     """Values in both lists, in the order of the first."""

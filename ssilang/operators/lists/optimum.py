@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.solvers.asymptotes import least, shares
+from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
@@ -14,7 +14,7 @@ _FIXED = 1.0 / 3.0  # T0: asymptotes x T0 and x / T0
 _MOVING = 0.7  # S0: they come nearer by it where a variable swings, else go off by 1/sqrt(S0)
 _GIVEN_UP = 50.0  # DELTA0: cost of giving up a condition, beside the change of F over the range
 _NEAREST, _FIRST, _FARTHEST = 0.01, 0.5, 10.0  # distances of moving ones, shares of the range
-_METHODS = ("STA", "MOV")
+_METHODS = ("STA", "MOV", "LIN")
 _HISTORY = "EXCE_ASYMPTOTES"
 
 
@@ -30,18 +30,10 @@ _HISTORY = "EXCE_ASYMPTOTES"
         "VXMIN, VXMAX, VCMAX the bounds. The table comes back with the new point in VX0: work out "
         "values and slopes there and call again. METHODE 'STA' (default) has asymptotes at T0 X "
         "and X / T0 (T0 0.3333; variables of one sign, else at twice the range), 'MOV' asymptotes "
-        "that follow the steps (S0 0.7), from those of T0 where it is given. From a point "
-        "that misses conditions, these may be given up at a cost: DELTA0 (50) times what F may "
-        "change over the range.",
+        "that follow the steps (S0 0.7), from those of T0 where it is given, 'LIN' tangents. From "
+        "a point that misses conditions, these may be given up at a cost: DELTA0 (50) times what "
+        "F may change over the range.",
         syntax="TAB1 = EXCE TAB1 ;",
-        examples=(
-            "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = 2. ; T . 'VF' = TABL ; "
-            "T . 'VF' . 0 = 4. ; T . 'VF' . 1 = 4. ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; "
-            "T . 'MC' . 1 . 0 = -2. ; T . 'MC' . 1 . 1 = -1. ; T . 'VCMAX' = TABL ; "
-            "T . 'VCMAX' . 1 = -1. ; T . 'VXMIN' = TABL ; T . 'VXMIN' . 1 = 0.1 ; "
-            "T . 'VXMAX' = TABL ; T . 'VXMAX' . 1 = 9. ;\n"
-            "T = EXCE T ; LIST (T . 'VX0' . 1) ;",
-        ),
     ),
 )
 def exce(call: Call, table: Table) -> Table:
@@ -52,9 +44,12 @@ def exce(call: Call, table: Table) -> Table:
     if (x < bounds[0]).any() or (x > bounds[1]).any():
         raise call.error("operators.lists.point-out-of-bounds", table)
     values, slopes = _functions(call, table, len(x))
-    asymptotes = _asymptotes(call, table, x, bounds)
-    problem = shares(x, values, slopes, bounds, asymptotes)
-    best = least(problem, x, _ceiling(call, table, values, slopes, high - low))
+    method, ceiling = _method(call, table), _ceiling(call, table, values, slopes, high - low)
+    if method == "LIN":
+        table.set(Mot("VX0"), _table_of(least_linear(x, values, slopes, bounds, ceiling)))
+        return table
+    asymptotes = _asymptotes(call, table, x, bounds, method)
+    best = least(shares(x, values, slopes, bounds, asymptotes), x, ceiling)
     table.set(Mot(_HISTORY), _history(table, x, asymptotes))
     table.set(Mot("VX0"), _table_of(best))
     return table
@@ -85,13 +80,17 @@ def _ceiling(
     return limits
 
 
-def _asymptotes(
-    call: Call, table: Table, x: FloatArray, bounds: tuple[FloatArray, FloatArray]
-) -> tuple[FloatArray, FloatArray]:
-    """Lower and upper asymptotes (n,)."""
+def _method(call: Call, table: Table) -> str:
     method = str(table.get("METHODE", "STA")).strip().upper()[:3]
     if method not in _METHODS:
         raise call.error("operators.lists.no-such-method", method=method, methods=list(_METHODS))
+    return method
+
+
+def _asymptotes(
+    call: Call, table: Table, x: FloatArray, bounds: tuple[FloatArray, FloatArray], method: str
+) -> tuple[FloatArray, FloatArray]:
+    """Lower and upper asymptotes (n,)."""
     extent = bounds[1] - bounds[0]
     history = table.get(_HISTORY)
     if method == "STA" or (table.has("T0") and not isinstance(history, Table)):

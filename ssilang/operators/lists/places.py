@@ -33,6 +33,7 @@ from ssilang.language.values import (
     Mot,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
@@ -43,7 +44,7 @@ _ITEM = {
     "LISTREEL": "FLOTTANT", "LISTENTI": "ENTIER", "LISTMOTS": "MOT", "LISTCHPO": "CHPOINT",
     "LISTOBJE": "*",
 }  # fmt: skip
-_PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from 1")
+_PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from 1", range=POSITIVE)
 _LIST = main("value", *LISTS, en="list")
 
 
@@ -86,10 +87,6 @@ def _plain(item: Any) -> Any:
     en="Of a list of fields, with 'VALE': their values at a point, component by component (zero "
     "where a field does not stand on it; one that none stands on is refused). The point may be "
     "left out where all fields stand on a single one.",
-    examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (EXTR (SUIT C C) 'VALE' P) ; "
-        "LIST (EXTR (SUIT C (2. * C)) 'VALE') ;",
-    ),
 )
 def _values_at(
     call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point | None
@@ -128,7 +125,6 @@ EXTR.form(
     gives="FLOTTANT|LISTREEL",
     syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
     en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
-    examples=("LIST (EXTR (PROG 5. 6. 7.) 2) ;", "LIST (EXTR (MOTS 'A' 'B' 'C') (LECT 3 1)) ;"),
 )(_extract)
 for _kind in LISTS[1:-1]:
     EXTR.form(_list(_kind), _PLACES, gives=f"{_ITEM[_kind]}|{_kind}")(_extract)
@@ -139,7 +135,6 @@ for _kind in LISTS[1:-1]:
     key("kind", "TYPE", optional=False, en="type of its objects"),
     syntax="MOT1 = EXTR LOBJ1 'TYPE' ;",
     en="Of a list of objects, with 'TYPE': the type of its objects, blank if it holds none.",
-    examples=("LIST (EXTR (ENUM 7 8) 'TYPE') ;",),
 )
 def _type_of_items(value: ListObje, kind: bool) -> Mot:
     first = type_of(value.values[0]) if value.values else ""  # all are of one type
@@ -155,7 +150,6 @@ EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
     gives=Like("value"),
     syntax="LIS2 = ENLE LIS1 N1 | LENT1 ;",
     en="Of a list: without the items at places N1 or LENT1 (places before any removal).",
-    examples=("LIST (ENLE (LECT 4 5 6) 2) ;",),
 )
 def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     gone = set(_places(call, len(value), places))
@@ -167,20 +161,15 @@ _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
 
 @ENLE.form(
     main("places", "LISTENTI", en="places, before the list"),
-    arg("value", *_OTHER_LISTS, en="list"),
+    arg("value", *_OTHER_LISTS, en="list", range=ANY_NUMBER),
     gives=Like("value"),
     en="Places may stand before a list of another type.",
-    examples=("LIST (ENLE (LECT 1 3) (MOTS 'A' 'B' 'C')) ;",),
 )
 def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
     return _remove(call, value, places)
 
 
-@DIME.form(
-    _LIST,
-    en="Of a list: its number of items.",
-    examples=("LIST (DIME (PROG 1. 2. 3.)) ;",),
-)
+@DIME.form(_LIST, en="Of a list: its number of items.")
 def _size(value: AnyList) -> int:
     return len(value)
 
@@ -191,15 +180,6 @@ INSE = shared(
     Help(
         en="New list with an item put at place N1; those from there on move up.",
         syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
-        examples=(
-            "LIST (INSE (PROG 1. 3.) 2 2.) ;",
-            (
-                "LIST (INSE (LECT 1 3) 2 7) ; LIST (INSE (MOTS 'UX' 'UZ') 2 'UY') ;\n"
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
-                "LIST (DIME (INSE (SUIT C C) 2 C)) ;\n"
-                "LIST (DIME (INSE (ENUM P P) 1 P)) ;"
-            ),
-        ),
     ),
     full_name="INSERER",
 )
@@ -220,8 +200,8 @@ def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
 for _kind, _item in _ITEM.items():
     INSE.form(
         _list(_kind),
-        arg("place", "ENTIER", en="place, from 1"),
-        arg("item", _item, en="item to put there"),
+        arg("place", "ENTIER", en="place, from 1", range=POSITIVE),
+        arg("item", _item, en="item to put there", range=ANY_NUMBER),
         gives=_kind,
     )(_insert)
 
@@ -233,18 +213,6 @@ REMP = shared(
         en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
         "word where each MOT2 is replaced by MOT3.",
         syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
-        examples=(
-            "L = PROG 1. 2. 3. ; REMP L 2 9. ; LIST L ;",
-            "LIST (REMP 'a_b' '_' ' ') ;",
-            (
-                "L = LECT 1 2 3 ; REMP L 2 9 ; LIST L ;\n"
-                "M = MOTS 'UX' 'UY' ; REMP M 2 'UZ' ; LIST M ;\n"
-                "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 5. ;\n"
-                "D = MANU 'CHPO' P 'T' 1. ;\n"
-                "S = SUIT C C ; REMP S 2 D ; LIST (MAXI (EXTR S 2)) ;\n"
-                "O = ENUM P P ; Q = 1. 0. ; REMP O 2 Q ; LIST (COOR 1 (EXTR O 2)) ;"
-            ),
-        ),
     ),
     full_name="REMPLACER",
 )
@@ -263,9 +231,9 @@ def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> No
 
 def _replacing(kind: str) -> None:
     REMP.form(
-        arg("value", kind, en="list"),
+        arg("value", kind, en="list", range=ANY_NUMBER),
         _PLACES,
-        arg("new", _ITEM[kind], kind, en="item, or one for each place"),
+        arg("new", _ITEM[kind], kind, en="item, or one for each place", range=ANY_NUMBER),
     )(_replace)
 
 
@@ -300,14 +268,13 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
 @operator(
     "SOMM",
     flag("running", "CUMU", en="partial sums"),
-    arg("value", "LISTREEL", "LISTENTI", en="values to sum"),
+    arg("value", "LISTREEL", "LISTENTI", en="values to sum", range=ANY_NUMBER),
     gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",
     help=Help(
         en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
         syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
-        examples=("LIST (SOMM (LECT 1 2 3)) ;", "LIST (SOMM 'CUMU' (PROG 1. 2. 3.)) ;"),
     ),
 )
 def somm(running: bool, value: ListReel | ListEnti) -> Any:
@@ -327,7 +294,6 @@ def somm(running: bool, value: ListReel | ListEnti) -> Any:
     gives=Like("value"),
     syntax="LIS2 = INVE LIS1 ;",
     en="Of a list: its items in reverse order.",
-    examples=("LIST (INVE (PROG 1. 2.)) ;",),
 )
 def _reverse(value: AnyList) -> Any:
     return taken(value, list(range(len(value) - 1, -1, -1)))
@@ -338,7 +304,6 @@ def _reverse(value: AnyList) -> Any:
     gives=Like("value"),
     syntax="LIS2 = COPI LIS1 ;",
     en="Of a list: a list of its own, that REMP changes without changing the first.",
-    examples=("L = PROG 1. 2. ; M = COPI L ; REMP M 1 5. ; LIST L ;",),
 )
 def _copy(value: AnyList) -> Any:
     return taken(value, list(range(len(value))))

@@ -22,6 +22,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 _REAL = ("ENTIER", "FLOTTANT")
 _FREE = "its items, steps and repetitions stand in any order"
@@ -30,22 +31,29 @@ _FREE = "its items, steps and repetitions stand in any order"
 def _items(kind: str) -> tuple[Entry, ...]:
     """What `_read_items` reads."""
     return (
-        many("items", kind, "LISTREEL", "LISTENTI", en="items, lists of them, or N * item"),
+        many(
+            "items",
+            kind,
+            "LISTREEL",
+            "LISTENTI",
+            en="items, lists of them, or N * item",
+            range=ANY_NUMBER,
+        ),
         key(
             "steps",
             "PAS",
-            arg("step", kind),
+            arg("step", kind, range=ANY_NUMBER),
             repeated=True,
             en="from the item before to the one behind by steps",
         ),
-        key("ratio", "GEOM", arg("ratio", "FLOTTANT"), en="ratio of steps"),
-        key("count", "NPAS", arg("count", "ENTIER"), en="number of steps"),
+        key("ratio", "GEOM", arg("ratio", "FLOTTANT", range=ANY_NUMBER), en="ratio of steps"),
+        key("count", "NPAS", arg("count", "ENTIER", range=NOT_NEGATIVE), en="number of steps"),
     )
 
 
 _FACTORS = (
-    key("a", "A", arg("a", "FLOTTANT"), en="slope, 1 by default"),
-    key("b", "B", arg("b", "FLOTTANT"), en="constant, 1 by default"),
+    key("a", "A", arg("a", "FLOTTANT", range=ANY_NUMBER), en="slope, 1 by default"),
+    key("b", "B", arg("b", "FLOTTANT", range=ANY_NUMBER), en="constant, 1 by default"),
 )
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
@@ -161,6 +169,9 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
             return [*real_steps(float(start), float(step), float(end), ratio), *more]
         return [*integer_steps(start, step, end), *more]
     except KernelError as problem:
+        if "FLOTTANT" in kinds and problem.code == "operators.lists.steps-lead-away":
+            call.warn("operators.lists.steps-left-out", **problem.data)
+            return [end, *more]
         raise call.error(problem.code, end, **problem.data) from None
 
 
@@ -242,9 +253,9 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "function",
         {
             "SINU": [
-                arg("frequency", "FLOTTANT", en="frequency", unit="Hz"),
-                key("phase", "PHAS", arg("p", "FLOTTANT"), en="phase, degrees"),
-                key("size", "AMPL", arg("a", "FLOTTANT"), en="amplitude"),
+                arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
+                key("phase", "PHAS", arg("p", "FLOTTANT", range=ANY_NUMBER), en="phase, degrees"),
+                key("size", "AMPL", arg("a", "FLOTTANT", range=ANY_NUMBER), en="amplitude"),
             ],
             "LINE": _FACTORS,
             "EXPO": _FACTORS,
@@ -265,11 +276,6 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
         "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;\n"
         "LREE1 = PROG 'TABL' TAB1 ;",
-        examples=(
-            "LIST (PROG 0. PAS 0.5 2. 3 * 7.) ;",
-            "LIST (PROG 'SINU' 1. (PROG 0. 0.25)) ;",
-            "T = TABL ; T . 2 = 5. ; T . 1 = 4. ; LIST (PROG 'TABL' T) ;",
-        ),
     ),
     reads_itself=_FREE,
 )
@@ -335,7 +341,6 @@ def _function_of_list(call: Call, word: str) -> ListReel:
         en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
         "values, N * I repeats.",
         syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
-        examples=("LIST (LECT 1 PAS 2 9 3 * 0) ;",),
     ),
     reads_itself=_FREE,
 )
@@ -351,12 +356,10 @@ def lect(call: Call) -> ListEnti:
 
 @operator(
     "MOTS",
-    many("words", "MOT", "ENTIER", en="words, or N * word"),
+    many("words", "MOT", "ENTIER", en="words, or N * word", range=ANY_NUMBER),
     family="lists",
     help=Help(
-        en="List of words; N * MOT1 repeats.",
-        syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
-        examples=("LIST (MOTS 'UX' 2 * 'UY') ;",),
+        en="List of words; N * MOT1 repeats.", syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;"
     ),
     reads_itself=_FREE,
 )
@@ -387,11 +390,7 @@ def mots(call: Call) -> ListMots:
     many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
     family="lists",
     full_name="SUITE",
-    help=Help(
-        en="List of nodal fields.",
-        syntax="LCHP1 = SUIT (CHPO1 CHPO2 ...) ;",
-        examples=("OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'T' 1. ; LIST (DIME (SUIT C C)) ;",),
-    ),
+    help=Help(en="List of nodal fields.", syntax="LCHP1 = SUIT (CHPO1 CHPO2 ...) ;"),
 )
 def suit(fields: tuple[Any, ...]) -> ListChpo:
     """Collect fields."""
@@ -409,11 +408,6 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
         en="List of objects of one type; N * OBJ1 repeats, TABL takes those of a table in the "
         "order of its integer indices.",
         syntax="LOBJ1 = ENUM (N1 *) OBJ1 (OBJ2 ...) ; LOBJ1 = ENUM 'TABL' TAB1 ;",
-        examples=(
-            "L = ENUM (PROG 1.) (PROG 2. 3.) ; LIST (DIME L) ;",
-            "LIST (DIME (ENUM 3 * (PROG 1. 2.))) ;",
-            "T = TABL ; T . 2 = PROG 5. ; T . 1 = PROG 4. ; LIST (EXTR (ENUM 'TABL' T) 1) ;",
-        ),
     ),
     reads_itself=_FREE,
 )

@@ -11,6 +11,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.language.registry import Help, arg, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.mesh.changes.refining import refined
 
@@ -28,16 +29,10 @@ RAFF = shared(
         "SURE cells of the mesh (the node, then those that it follows; ELEM 'SURE' takes them); "
         "RELA with a model of the mesh makes the relations that tie them.",
         "LREE2 = RAFF LREE1 N1 | FLOT1 ;\nGEO2 = RAFF GEO1 CHPO1 ;",
-        (
-            "LIST (RAFF (PROG 0. 1. 3.) 2) ; LIST (RAFF (PROG 0. 1. 3.) 0.5) ;",
-            "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"
-            " T = RAFF S (0.3 + (COOR 1 S)) ; MO = MODE T MECANIQUE ELASTIQUE ; R = RELA MO ;"
-            " MESS (NBEL T) (NBEL (T ELEM 'SURE')) (MESU (DIFF T (T ELEM 'SURE'))) ;",
-        ),
     ),
     full_name="RAFFINER",
 )
-_LIST = arg("value", "LISTREEL", en="list")
+_LIST = arg("value", "LISTREEL", en="list", range=ANY_NUMBER)
 
 RAFF.form(
     arg("mesh", "MAILLAGE", en="mesh to refine"),
@@ -47,23 +42,19 @@ RAFF.form(
 
 @RAFF.form(
     _LIST,
-    arg("number", "ENTIER", en="parts of each interval, negative for graded ones"),
+    arg("number", "ENTIER", en="parts of each interval, negative for graded ones", range=NOT_ZERO),
 )
 def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
     values, lengths = _intervals(call, value)
-    if number == 0:
-        raise call.error("operators.lists.no-parts", number)
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))
     return ListReel(_joined(values, _graded(lengths, -number)))
 
 
-@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted"))
+@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted", range=POSITIVE))
 def _refined_by_size(call: Call, value: ListReel, size: float) -> ListReel:
     values, lengths = _intervals(call, value)
-    if size <= 0.0:
-        raise call.error("operators.lists.interval-size", size, size=size)
     check_length(float(np.sum(lengths / size)))
     return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
 

@@ -9,7 +9,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.registry import Chosen, Help, arg, choice, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 
 
 @operator(
@@ -20,14 +20,13 @@ from ssilang.language.vocabulary.terms import NOT_NEGATIVE
         default="DIRE",
         en="halved, or doubled with zeros or with means",
     ),
-    arg("values", "LISTREEL", en="samples"),
+    arg("values", "LISTREEL", en="samples", range=ANY_NUMBER),
     family="lists",
     help=Help(
         en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
         "zero ('INVE') or the mean of the two neighbours ('IVIN') put after each value, up to an "
         "even length 2 n or, for odd n, 2 n - 1.",
         syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
-        examples=("LIST (DIAD 'IVIN' (PROG 1. 3. 7.)) ;",),
     ),
 )
 def diad(way: str, values: ListReel) -> ListReel:
@@ -45,15 +44,14 @@ def diad(way: str, values: ListReel) -> ListReel:
 
 @operator(
     "LTL",
-    arg("first", "LISTREEL", en="first list"),
-    opt("second", "LISTREEL", en="second one, else the first"),
-    opt("a", "FLOTTANT", default=1.0, en="factor"),
-    opt("b", "FLOTTANT", default=1.0, en="second factor"),
+    arg("first", "LISTREEL", en="first list", range=ANY_NUMBER),
+    opt("second", "LISTREEL", en="second one, else the first", range=ANY_NUMBER),
+    opt("a", "FLOTTANT", default=1.0, en="factor", range=ANY_NUMBER),
+    opt("b", "FLOTTANT", default=1.0, en="second factor", range=ANY_NUMBER),
     family="lists",
     help=Help(
         en="Dot product of two lists (or of one with itself) times two numbers.",
         syntax="X1 = LTL LREEL1 (LREEL2) (X2 (X3)) ;",
-        examples=("LIST (LTL (PROG 1. 2.) (PROG 3. 4.) 10.) ;",),
     ),
 )
 def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float) -> float:
@@ -66,8 +64,8 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
 
 @operator(
     "CVOL",
-    arg("signal", "LISTREEL", en="signal"),
-    arg("response", "LISTREEL", en="response"),
+    arg("signal", "LISTREEL", en="signal", range=ANY_NUMBER),
+    arg("response", "LISTREEL", en="response", range=ANY_NUMBER),
     key(
         "before",
         "NPNE",
@@ -87,7 +85,6 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
         "default) or zero ('PADD').",
         syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
-        examples=("LIST (CVOL (PROG 0. 0. 4. 0.) (PROG 0.5 0.25) 'PADD') ;",),
     ),
 )
 def cvol(
@@ -144,7 +141,7 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         optional=False,
         en="which function",
     ),
-    arg("values", "LISTREEL", en="arguments"),
+    arg("values", "LISTREEL", en="arguments", range=ANY_NUMBER),
     family="lists",
     full_name="FONCTION",
     help=Help(
@@ -153,13 +150,6 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         "to x, the gamma function ('GAMMA').",
         syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
         "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
-        examples=(
-            "LIST (FONC 'GAMMA' (PROG 5. 0.5)) ;",
-            (
-                "LIST (FONC 'BESS' 'J0' (PROG 0. 1. 2.)) ;\n"
-                "LIST (FONC 'FRES' 'CX' (PROG 0. 1. 2.)) ;"
-            ),
-        ),
     ),
 )
 def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
@@ -176,13 +166,12 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
 
 @operator(
     "ZLEG",
-    arg("degree", "ENTIER", en="degree"),
+    arg("degree", "ENTIER", en="degree", range=NOT_NEGATIVE),
     family="lists",
     help=Help(
         en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
         "polynomial of degree N1 and the two ends, and their weights: N1 + 1 of each.",
         syntax="LREEL1 LREEL2 = ZLEG N1 ;",
-        examples=("X W = ZLEG 2 ; LIST X ; LIST W ;",),
     ),
 )
 def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:

@@ -26,7 +26,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
 
@@ -55,7 +55,7 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     key(
         "where",
         "DANS",
-        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE"),
+        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=ANY_NUMBER),
         optional=False,
         en="where it is looked for",
     ),
@@ -70,10 +70,6 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
         "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
         "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
         syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
-        examples=(
-            "LIST (POSI 'B' 'DANS' (MOTS 'A' 'B')) ;",
-            "LIST (POSI 'a' 'DANS' 'banana' 'TOUS') ;",
-        ),
     ),
 )
 def posi(
@@ -176,14 +172,14 @@ _COST = (
     key(
         "cost",
         "COUT",
-        arg("costs", "LISTREEL", "LISTENTI"),
+        arg("costs", "LISTREEL", "LISTENTI", range=ANY_NUMBER),
         optional=False,
         en="cost of each item at each place",
     ),
     choice("method", ("HONG", "COMP"), en="changes nothing: the best is found"),
 )
 _SORTED = main("value", *SORTABLE, en="list to sort by")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it")
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", range=ANY_NUMBER)
 
 
 @ORDO.form(
@@ -217,10 +213,6 @@ def _sort_by_cost(
     en="Of lists: increasing order ('DECR': decreasing), 'ABSO' by absolute values, 'NOCA' "
     "whatever the case, 'UNIQ' without doubles; further lists follow the first one's order. "
     "'COUT' gives the least total cost, then the lists in the permutation that has it.",
-    examples=(
-        "LIST (ORDO (PROG 3. 1. 2.) 'DECR') ;",
-        "A B = ORDO (LECT 2 1) (MOTS 'X' 'Y') ; LIST B ;",
-    ),
 )
 def _sort_lists(
     call: Call,
@@ -271,10 +263,6 @@ _INDEX_EN = "index of the list to sort by"
     opt("index", en="changes nothing: all lists follow"),
     gives=ANY,
     syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
-    examples=(
-        "T = TABL ; T . 'A' = LECT 10 20 ; X T = ORDO T 'COUT' (PROG 5. 1. 1. 5.) ;\n"
-        "LIST (T . 'A') ; LIST X ;",
-    ),
 )
 def _sort_table_by_cost(
     call: Call, table: Table, cost: ListReel | ListEnti, **_: object
@@ -299,10 +287,6 @@ def _sort_table_by_cost(
     syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
     en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
     "list.",
-    examples=(
-        "T = TABL ; T . 'UNIQ' = PROG 3. 1. 2. 1. ;\nT = ORDO T 'UNIQ' 'UNIQ' ;\n"
-        "LIST (T . 'UNIQ') ; T = ORDO T 'UNIQ' ; LIST (T . 'UNIQ') ;",
-    ),
 )
 def _sort_table(
     call: Call,
@@ -337,14 +321,13 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
 
 @UNIQ.form(
     main("value", *SORTABLE, "MAILLAGE", en="list, or mesh"),
-    many("others", *SORTABLE, "MAILLAGE", en="further ones"),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones", range=ANY_NUMBER),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("value", ("others",)),
     syntax="OBJ3 (OBJ4 ...) = UNIQ OBJ1 (OBJ2 ...) (FLOT1) ('NOCA') ;",
     en="Of lists and meshes: without doubles, the first ones kept; as many results as operands. "
     "Cells are doubles on the same nodes, whatever their order and colour.",
-    examples=("LIST (UNIQ (LECT 3 1 3 2 1)) ; A B = UNIQ (PROG 1. 1.) (LECT 2 2) ; LIST B ;",),
 )
 def _unique(
     value: Sortable | Mesh,

@@ -180,7 +180,6 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix")
     en="Of a matrix: its mesh (without or with only the nodes of multipliers), its element "
     "matrices or its conditions, its symmetric or antisymmetric part, the names of its unknowns, "
     "its diagonal, or the terms of some unknowns and equations.",
-    examples=("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (EXTR (APPU UX 2. P1) 'DIAG') ;",),
 )
 def extract(call: Call, matrix: Matrix, what: Chosen) -> Mesh | Matrix | ListMots | NodeField:
     """A part of a matrix."""
@@ -262,11 +261,6 @@ def dependent(matrix: Matrix) -> Matrix:
     en="COND gives of relations the matrix of dependence T, which gives all unknowns of RIG1 by "
     "those that the relations leave free (CHPO * RIG2, CMCT), and the one that condenses forces "
     "(CHPO * RIG3). Unknowns that RIG1 does not have stay out of both products.",
-    examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; C = RELA 2. 'UX' P '-' 1. 'UX' Q ; "
-        "T D = CHAN 'COND' C ; LIST ((MANU 'CHPO' Q 1 'UX' 6.) * T) ; "
-        "LIST (D * (MANU 'CHPO' (P ET Q) 1 'FX' 1.)) ;",
-    ),
 )
 def condensing(matrix: Matrix) -> tuple[Matrix, Matrix]:
     """Matrix of dependence and its dual."""
@@ -400,14 +394,7 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
     arg("field", "CHPOINT", en="X"),
     arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
-    help=Help(
-        "Quadratic form X^T M X of a field and a matrix.",
-        "X1 = XTMX CHPO1 RIG1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 1 'UX' 3. ;"
-            " LIST (XTMX U1 (APPU 'UX' 2. P1)) ;",
-        ),
-    ),
+    help=Help("Quadratic form X^T M X of a field and a matrix.", "X1 = XTMX CHPO1 RIG1 ;"),
 )
 def xtmx(field: NodeField, matrix: Matrix) -> float:
     return _form(field, matrix, field)
@@ -422,10 +409,6 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
     help=Help(
         "Bilinear form Y^T M X of two fields (X first) and a matrix.",
         "X1 = YTMX CHPO1 CHPO2 RIG1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 1 'UX' 3. ;"
-            " LIST (YTMX U1 U1 (APPU 'UX' 2. P1)) ;",
-        ),
     ),
 )
 def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
@@ -440,11 +423,6 @@ def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
     help=Help(
         en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
         syntax="N1 = DIMN RIG1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 1 (0. 0.) (1. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.3) ; "
-            "LIST (DIMN K) ;",
-        ),
     ),
 )
 def dimn(matrix: Matrix) -> int:
@@ -452,15 +430,7 @@ def dimn(matrix: Matrix) -> int:
     return int(linear_system(matrix).free_motions.shape[1])
 
 
-@DIME.form(
-    main("matrix", "RIGIDITE", en="matrix"),
-    en="Of a matrix: its number of unknowns.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-        "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-        "LIST (DIME (RIGI MO (MATE MO 'YOUN' 1. 'NU' 0. 'SECT' 1.))) ;",
-    ),
-)
+@DIME.form(main("matrix", "RIGIDITE", en="matrix"), en="Of a matrix: its number of unknowns.")
 def unknowns(matrix: Matrix) -> int:
     """Number of unknowns."""
     return numbering_of(matrix).size

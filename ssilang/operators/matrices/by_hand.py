@@ -1,4 +1,4 @@
-"""MANU 'RIGI': matrices written by hand."""
+"""Matrices of no model: MANU 'RIGI' by hand, MFIL, XXT and ZXXT, CABL."""
 
 from __future__ import annotations
 
@@ -7,16 +7,35 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.build import field_diagonal, repeated_matrix
+from ssilang.kernel.matrices.build import (
+    cable_stiffness,
+    field_diagonal,
+    filter_weights,
+    repeated_matrix,
+    sum_of_outer_products,
+)
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Keyword, arg, choice, flag, key, many, said
+from ssilang.language.registry import (
+    Help,
+    Keyword,
+    arg,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+    said,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO, POSITIVE
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
+from ssilang.operators.workspace import workspace
 
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 
@@ -41,18 +60,19 @@ def _sign(words: Sequence[str]) -> Keyword:
         kind="component",
         en="unknowns of a node, or one list a node",
     ),
-    many("rows", "LISTREEL", at_least=1, en="terms row by row, all or the lower triangle"),
+    many(
+        "rows",
+        "LISTREEL",
+        at_least=1,
+        en="terms row by row, all or the lower triangle",
+        range=ANY_NUMBER,
+    ),
     syntax="RIG1 = MANU 'RIGI' ('TYPE' MOT1) GEO1 LMOT1 ... ('DUAL' LMOT2 ...) ('ANTI' | 'QUEL') "
     "LREEL1 ... ;",
     en="Matrix by hand. The same element matrix on all cells of a mesh: names of the unknowns of a "
     "node (or one list a node), then its terms row by row, all or the lower triangle, in one list "
     "or one a row. A field gives a diagonal, or the column (row) of one unknown. A list of fields "
     "gives the columns of a matrix on modal unknowns.",
-    examples=(
-        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ;"
-        " M1 = MANU 'RIGI' 'TYPE' 'MASSE' P1 (MOTS 'UX' 'UY') (PROG 3. 0. 3.) ;"
-        " LIST (EXTR M1 'DIAG') ;",
-    ),
 )
 def repeated(
     call: Call,
@@ -152,10 +172,6 @@ def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
     many("places", "POINT", "MAILLAGE", at_least=1, en="points"),
     syntax="GEO1 = MANU 'SUPE' | 'MULT' P1 (P2 ...) | GEO2 ;",
     en="'SUPE' and 'MULT' make one cell of all the points given, to carry a matrix by hand.",
-    examples=(
-        "OPTI DIME 2 ; G1 = MANU 'SUPE' (0. 0.) (1. 0.) (2. 0.) ; LIST (NBEL G1) ;"
-        " R1 = MANU 'RIGI' G1 (MOTS 'ALFA') (PROG 1. 0. 2. 0. 0. 3.) ;",
-    ),
 )
 def one_cell(call: Call, word: str, places: tuple[Mesh | Point, ...]) -> Mesh:
     """One cell of all the points."""
@@ -171,3 +187,88 @@ def _kind(word: str | None, default: str = "RIGIDITE") -> str:
 
 def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
     return [tuple(str(w).upper().rstrip() for w in names.values) for names in lists]
+
+
+@operator(
+    "MFIL",
+    arg("weights", "CHPOINT", en="weight of each node"),
+    opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
+    opt("power", "FLOTTANT", default=1.0, en="power", range=NOT_NEGATIVE),
+    opt("least", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
+    opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
+    opt("dual", "MOT", kind="component", en="dual, else the same"),
+    family="matrix",
+    help=Help(
+        en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
+        "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
+        "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
+        "(SCAL) and the dual (the same).",
+        syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
+    ),
+)
+def mfil(
+    call: Call,
+    weights: NodeField,
+    radius: float,
+    power: float,
+    least: float,
+    unknown: str | None,
+    dual: str | None,
+) -> Matrix:
+    """Weights of a filter."""
+    if radius < 0.0:
+        raise call.error("operators.matrices.filter-radius-negative", radius, radius=radius)
+    name = "SCAL" if unknown is None else unknown.rstrip()
+    return filter_weights(
+        weights, radius, power, least, name, name if dual is None else dual.rstrip()
+    )
+
+
+@operator(
+    "ZXXT",
+    arg("fields", "LISTCHPO", en="fields v"),
+    arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
+    family="matrix",
+    help=Help(
+        en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
+        "M_DAMPIN and M_DAMP_K.",
+        syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
+    ),
+)
+def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
+    """Sum of the outer products."""
+    vectors = [f for f in fields.values if isinstance(f, NodeField)]
+    return sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")
+
+
+@operator(
+    "XXT",
+    arg("field", "CHPOINT", en="v"),
+    opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
+    family="matrix",
+    help=Help(
+        en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
+        "all its nodes.",
+        syntax="RIG1 = XXT CHPO1 (X1) ;",
+    ),
+)
+def xxt(field: NodeField, factor: float) -> Matrix:
+    """Outer product."""
+    return sum_of_outer_products([field], [factor], "RIGIDITE")
+
+
+@operator(
+    "CABL",
+    arg("mesh", "MAILLAGE", en="cables"),
+    arg("force", "FLOTTANT", en="force", unit="N", usual=POSITIVE),
+    arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
+    family="matrix",
+    full_name="CABLE",
+    help=Help(
+        en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
+        syntax="RIG1 = CABL GEO1 X1 X2 ;",
+    ),
+)
+def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
+    """Cables."""
+    return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

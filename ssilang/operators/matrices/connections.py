@@ -72,7 +72,7 @@ def _warn_doubled_supports(
 
 
 def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:
-    from ssilang.kernel.statics.negative import negative_unknowns
+    from ssilang.kernel.statics.stability import negative_unknowns
 
     if found := negative_unknowns(matrix):
         node, name, value = found[0]
@@ -89,7 +89,7 @@ def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> No
 
 def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:
     """Warn of a matrix that has the same twice; of a stiffness ('RIGI'), of cells of its own."""
-    from ssilang.kernel.statics.repeated import repeated_blocks, repeated_cells
+    from ssilang.kernel.statics.doubled import repeated_blocks, repeated_cells
 
     blocks = [] if kind == "RIGI" else [b.nodes[:, 0] for b in repeated_blocks(matrix)]
     found = repeated_cells(matrix) if kind == "RIGI" else np.concatenate([*blocks, [0]])[:-1]

@@ -17,8 +17,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model
-from ssilang.kernel.matrices.build import nodal_diagonal
-from ssilang.kernel.matrices.lumping import lumped_matrix
+from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
@@ -117,14 +116,6 @@ def _additional(
         "rotations, or on the named unknowns; every node gets the whole value.",
         syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\n"
         "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; K = RIGI 'DEPL' 1.E6 P ; LIST (TYPE K) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "LIST (MAXI (EXTR (RIGI M (MATE M 'YOUN' 6. 'NU' 0.)) 'DIAG')) ;"
-            ),
-        ),
     ),
 )
 def rigi(
@@ -179,18 +170,6 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
         "unknowns; every node gets the whole value.",
         syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\n"
         "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; M = MASS 'DEPL' 3. P ; LIST (TYPE M) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "LIST (MAXI (EXTR (MASS M (MATE M 'YOUN' 1. 'NU' 0. 'RHO' 9.)) 'DIAG')) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; M = MASS 'UX' 4. P ;\n"
-                "T = VIBR 'SIMU' 1. 1 (APPU 'UX' 400. P) M ; LIST (EXTR (MASS T M) 'DIAG') ;"
-            ),
-        ),
     ),
 )
 def mass(
@@ -219,14 +198,6 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
         "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
         "list keep their diagonal term).",
         syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; M = LUMP (MASS 'DEPL' 3. P) ; LIST (TYPE M) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "LIST (MAXI (EXTR (LUMP M (MATE M 'YOUN' 1. 'NU' 0. 'RHO' 8.)) 'DIAG')) ;"
-            ),
-        ),
     ),
 )
 def lump(
@@ -263,24 +234,6 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
         syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
         "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
         "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; C = AMOR 'DEPL' 3. P ; LIST (TYPE C) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "L = DROI 2 (0. 0.) (1. 0.) ;\n"
-                "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "A = MATE M 'YOUN' 1.E7 'NU' 0.3 'RHO' 2000. 'VISQ' 1.E4 ;\n"
-                "C = AMOR M L A ; LIST (TYPE C) ; D = AMOR M A ; LIST (TYPE D) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
-                "M = MODE (DROI 2 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'POUT' ;\n"
-                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'VISQ' 1.E4 'SECT' 0.01 'INRY'\n"
-                "1.E-5 'INRZ' 1.E-5\n"
-                "    'TORS' 2.E-5 'OMEG' 10. ;\n"
-                "C H = AMOR M A 'COROTATIF' ; LIST (EXTR C 'COMP') ;"
-            ),
-        ),
     ),
 )
 def amor(
@@ -346,10 +299,6 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
         en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
         "take it in the place of the parameters.",
         syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
-            "; H = HOOK M (MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01) ; LIST (TYPE H) ;",
-        ),
     ),
 )
 def hook(
@@ -376,11 +325,6 @@ def hook(
         en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
         "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
         syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
-            "M = MODE L MECANIQUE ELASTIQUE BARR ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; "
-            "U = MANU 'CHPO' L 1 'UX' 1.E-3 ; K = KSIG M (SIGM M A U) ; LIST (TYPE K) ;",
-        ),
     ),
 )
 def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool) -> Matrix:
@@ -409,10 +353,6 @@ _WHOLE = flag("whole", "ASYM", en="the unsymmetric part too")
         "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
         "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
         syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
-        examples=(
-            "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 2 (1. 0.) (1. 1.) ; "
-            "M = MODE L MECANIQUE COQ2 ; K = KP M (MANU 'CHPO' L 1 'P' 2.) ; LIST (TYPE K) ;",
-        ),
     ),
 )
 def kp(
@@ -426,12 +366,7 @@ def kp(
 
 @kp.form(
     MODEL,
-    arg(
-        "modulus",
-        "FLOTTANT",
-        en="gradient of the pressure",
-        unit="N/m3",
-    ),
+    arg("modulus", "FLOTTANT", en="gradient of the pressure", unit="N/m3", range=ANY_NUMBER),
     opt("direction", "POINT", en="its direction, else the sides' normals"),
     _BUCKLING,
     _WHOLE,
@@ -439,11 +374,6 @@ def kp(
     en="With a number X1: of a pressure that grows by X1 for each unit of way along VEC1, the "
     "change of forces as the sides move in it. Without VEC1 it grows along the sides' own normals: "
     "springs of X1 for each unit of area (Winkler's soil).",
-    examples=(
-        "OPTI DIME 3 MODE TRID ELEM TRI3 ; S = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
-        "M = MODE S MECANIQUE DKT ; U = MANU 'CHPO' S 1 'UZ' 1. ; LIST (XTMX U (KP M 3.)) ; "
-        "LIST (XTMX U (KP M 3. (1. 0. 1.) 'ASYM')) ;",
-    ),
 )
 def kp_of_gradient(
     call: Call,

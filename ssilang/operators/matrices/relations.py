@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
 from ssilang.operators.mesh.changes.refining import tie_relations
 from ssilang.operators.workspace import workspace
@@ -147,46 +147,6 @@ _SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, 
         "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
         "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
         "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
-            " R1 = RELA 'MINI' 2. 'UX' P2 - 'UX' P1 ; F1 = DEPI R1 -0.1 ;",
-            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L1 = DROI 3 (0. 0.) (1. 0.) ;"
-            " R1 = RELA 'ENSE' 'UY' L1 ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "P = 0. 0. ; Q = 1. 0. ; L = MOTS 'UX' 'UY' ;\n"
-                "R = RELA 'MINI' ((MANU 'CHPO' P 'UX' 1.) ET (MANU 'CHPO' Q 'UX' -1.)) ;\n"
-                "LIST (NBNO (EXTR R 'MAIL')) ;\n"
-                "S = (DROI 2 P Q) TRAN 2 (0. 1.) ; T = MANU 'POI1' (0.3 0.2) ;\n"
-                "R = RELA T 'ACCRO' S ; LIST (EXTR R 'COMP') ;\n"
-                "R = RELA (DROI 1 (0.3 0.) (0.8 0.)) 'GLIS' (COTE 1 S) ;\n"
-                "LIST (EXTR R 'COMP') ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; R = RELA 'ACCRO' 'FORT' M T ;\n"
-                "LIST (EXTR R 'COMP') ;\n"
-                "R = RELA 'CORI' 'DEPL' S ; LIST (EXTR R 'COMP') ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG3 ;\n"
-                "R = RELA 'MILI' (DROI 2 (0. 0.) (1. 0.)) ; LIST (EXTR R 'COMP') ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
-                "R = RELA 'CORI' 'DEPL' 'ROTA' (DROI 2 (0 0 0) (1 0 0)) ;\n"
-                "LIST (EXTR R 'COMP') ;\n"
-                "OPTI ELEM CUB8 ; B = (DROI 2 (0 0 0) (2 0 0)) TRAN 2 (0 2 0) ;\n"
-                "V = B VOLU 'TRAN' 1 (0 0 1) ; M = MODE V 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "C = 1. 1. 0. ; R = RELA 'CORI' 'DEPL' 'ROTA' C B ;\n"
-                "H = BLOQ 'DEPL' 'RX' 'RZ' C ; T = BLOQ 'RY' C ;\n"
-                "K = (RIGI M (MATE M 'YOUN' 1. 'NU' 0.)) ET R ET H ET T ;\n"
-                "U = RESO K (DEPI T 0.1) ; LIST (EXTR U 'UZ' (V POIN 'PROC' (2 0 0))) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ;\n"
-                "T = RAFF S (0.3 + (COOR 1 S)) ;\n"
-                "R = RELA (MODE T 'MECANIQUE' 'ELASTIQUE') ; LIST (EXTR R 'COMP') ;"
-            ),
-        ),
     ),
 )
 def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
@@ -353,7 +313,7 @@ def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
     _SIDE,
     each(
         "terms",
-        opt("factor", "FLOTTANT", en="factor"),
+        opt("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
         arg("unknown", "MOT", kind="component", en="unknown"),
         arg("support", "MAILLAGE", "POINT", en="nodes"),
     ),

@@ -14,12 +14,6 @@ from ssilang.language.registry import Help, choice, flag, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 
-_SHAFT = (
-    "OPTI DIME 3 MODE TRID ELEM SEG2 ; L = DROI 2 (0 0 0) (0 0 1) ; M = MODE L MECANIQUE TIMO ; "
-    "A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 2. 'SECT' 1. 'INRY' 1. 'INRZ' 1. 'TORS' 2. {} ; "
-)
-
-
 _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
 
 
@@ -38,7 +32,6 @@ _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
         "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
         "(1 without a vector).",
         syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
-        examples=(_SHAFT.format("") + "LIST (EXTR (KENT 'CENTRIFUGE' M A (0 0 3)) 'DIAG') ;",),
     ),
 )
 def kent(
@@ -84,7 +77,6 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
         "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
         "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
         syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
-        examples=(_SHAFT.format("") + "LIST (TYPE (CORI M A (0 0 3))) ;",),
     ),
 )
 def cori(
@@ -114,7 +106,6 @@ def cori(
         "a parameter), in a fixed frame: an antisymmetric matrix on the velocities, counted as a "
         "damping.",
         syntax="RIG1 = GYRO MODL1 MAT1 ;",
-        examples=(_SHAFT.format("'OMEG' 3.") + "LIST (TYPE (GYRO M A)) ;",),
     ),
 )
 def gyro(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:

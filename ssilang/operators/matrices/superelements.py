@@ -1,4 +1,4 @@
-"""SUPE: super-elements, static condensation of a body onto some of its unknowns."""
+"""SUPE CMCT: static condensation of a body, matrices without some unknowns."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (
@@ -18,7 +19,7 @@ from ssilang.kernel.matrices.superelement import (
     shape_fields,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, by, choice, flag, main, opt, said, shared
+from ssilang.language.registry import Help, arg, by, choice, flag, main, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
@@ -43,23 +44,6 @@ SUPE = shared(
         "SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
         "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
         "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
-        (
-            "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 8 (4. 0.)) TRAN 2 (0. 1.) ; "
-            "MO = MODE S MECANIQUE ELASTIQUE ; L = COTE 2 S ; R = (RIGI MO (MATE MO YOUN 1.E3 NU "
-            "0.3)) ET (BLOQ 'DEPL' (COTE 4 S)) ; SU = SUPE 'RIGI' 'NOMU' R L ; F = FORC (0. "
-            "-1.) L ; "
-            "U = RESO (EXTR SU 'RIGI') (SUPE 'CHAR' SU F) ; V = SUPE 'DEPL' SU U F ; "
-            "LIST (MAXI (ABS (V - (RESO R F))) 'AVEC' (MOTS 'UX' 'UY')) ;",
-            (
-                "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;\n"
-                "S = ((0. 0.) DROI 8 (4. 0.)) TRAN 2 (0. 1.) ;\n"
-                "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "A = MATE MO 'YOUN' 1.E3 'NU' 0.3 'RHO' 2. ;\n"
-                "R = (RIGI MO A) ET (BLOQ 'DEPL' (COTE 4 S)) ;\n"
-                "SU = SUPE 'RIGI' R (COTE 2 S) ; LIST (TYPE (SUPE 'MASSE' SU (MASS MO A))) ;\n"
-                "LIST (TYPE (EXTR SU 'RIGI')) ; LIST (NBNO (EXTR SU 'ELEM')) ;"
-            ),
-        ),
     ),
 )
 _ELEMENT = arg("element", "SUPERELE", en="super-element")
@@ -154,3 +138,31 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     masters = len(element.masters)
     inner = element.numbering.size - masters
     return say("operators.matrices.super-element", masters=masters, inner=inner)
+
+
+@operator(
+    "CMCT",
+    arg("matrix", "RIGIDITE", en="relations C"),
+    arg("diagonal", "CHPOINT", en="M^-1"),
+    family="matrix",
+    help=Help(
+        en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
+        "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
+        "without the unknowns that the relations give by the others.",
+        syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
+    ),
+)
+def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
+    """On the multipliers."""
+    return condensed_on_multipliers(matrix, diagonal)
+
+
+@cmct.form(
+    arg("matrix", "RIGIDITE", en="matrix"),
+    arg(
+        "relations", "RIGIDITE", en="relations, or the first matrix that CHAN 'COND' makes of them"
+    ),
+)
+def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
+    """On the unknowns that stay."""
+    return condensed_by_relations(matrix, relations)

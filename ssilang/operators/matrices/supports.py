@@ -9,7 +9,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Matrix, Relations
@@ -29,7 +31,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -54,6 +56,8 @@ def warn_of_foreign(call: Call, unknowns: Sequence[str]) -> None:
     """Tell of displacements and rotations that no body has under the OPTI MODE in force."""
     mode = workspace(call.session).mode
     own = made.translations(mode) + made.rotations(mode)
+    if mode is Mode.GENERALISED_PLANE_STRAIN:
+        own += SECTION_UNKNOWNS
     foreign = [name for name in dict.fromkeys(unknowns) if name in _DISPLACEMENTS.difference(own)]
     if foreign:
         call.warn("operators.matrices.foreign-unknown", names=foreign, own=own, mode=mode.value)
@@ -177,17 +181,6 @@ class _Held:
         "RIG1 = BLOQ ('DEPL') ('ROTA') ('DIRE' VEC1 | CHPO1) GEO1 ;\n"
         "RIG1 = BLOQ 'RADI' | 'ORTHO' P1 (P2) GEO1 ;\n"
         "RIG1 = BLOQ TAB1 ;  (LIAISONS_STATIQUES)",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L1 = DROI 2 (0. 0.) (1. 0.) ;"
-            " B1 = BLOQ 'UX' 'UY' L1 ; LIST (NBNO (EXTR B1 'MAIL' 'MULT')) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'MINI' 'DIRE' (1. 1.) P1 ;",
-            "OPTI DIME 3 ; P = 0 0 0 ; B = BLOQ 'DEPL' P ; LIST (EXTR B 'COMP') ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
-                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; LIST (EXTR B 'COMP') ;"
-            ),
-        ),
     ),
 )
 def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
@@ -249,7 +242,13 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         en="the field SCAL gives the value of relations between unknowns of one node",
     ),
     arg("matrix", "RIGIDITE", en="conditions"),
-    arg("value", "FLOTTANT", "CHPOINT", en="one value for all, or a field of the held unknowns"),
+    arg(
+        "value",
+        "FLOTTANT",
+        "CHPOINT",
+        en="one value for all, or a field of the held unknowns",
+        range=ANY_NUMBER,
+    ),
     family="relations",
     full_name="DEPIMPOSE",
     help=Help(
@@ -257,16 +256,6 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
         "the held unknowns. With 'RELA' a field SCAL gives the value of relations between unknowns "
         "of one node. Add the result to the second member of RESO.",
         "CHPO1 = DEPI RIG1 FLOT1 | CHPO2 | 'RELA' CHPO3 ;\nDEPI TAB1 ;  (LIAISONS_STATIQUES)",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 1. 0. ; B1 = BLOQ 'UX' P1 ;"
-            " F1 = DEPI B1 1.E-3 ; LIST F1 ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
-                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
-                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
-                "RESO (K ET B) T ; LIST (EXTR (T . 1 . 'DEFORMEE') 'UX' P) ;"
-            ),
-        ),
     ),
 )
 def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> NodeField:
@@ -332,10 +321,6 @@ def _mirror(
 
 
 _PLANE_SYNTAX = "RIG1 = {} ('DEPL') ('ROTA') P1 P2 (P3 in 3D) GEO1 (FLOT1) ;"
-_PLANE_EXAMPLE = (
-    "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 0. 1. ; L1 = DROI 2 P1 P2 ;"
-    " B1 = {} 'DEPL' P1 P2 L1 1.E-3 ;"
-)
 
 
 @operator(
@@ -349,13 +334,6 @@ _PLANE_EXAMPLE = (
         "displacement across it ('DEPL'), no rotation about axes in it ('ROTA'). FLOT1 is the "
         "distance up to which a node counts (default a tenth of the density).",
         _PLANE_SYNTAX.format("SYMT"),
-        (
-            _PLANE_EXAMPLE.format("SYMT"),
-            (
-                "OPTI DIME 3 ; R = SYMT 'DEPL' (0 0 0) (1 0 0) (0 1 0) (0 0 0) 0.1 ;\n"
-                "LIST (EXTR R 'COMP') ;"
-            ),
-        ),
     ),
 )
 def symt(call: Call, **said: Any) -> Matrix:
@@ -376,13 +354,6 @@ symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
         "Conditions of antisymmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): "
         "no displacement within it, no rotation about its normal.",
         _PLANE_SYNTAX.format("ANTI"),
-        (
-            _PLANE_EXAMPLE.format("ANTI"),
-            (
-                "OPTI DIME 3 ; R = ANTI 'DEPL' (0 0 0) (1 0 0) (0 1 0) (0 0 0) 0.1 ;\n"
-                "LIST (EXTR R 'COMP') ;"
-            ),
-        ),
     ),
 )
 def anti(call: Call, **said: Any) -> Matrix:
@@ -396,7 +367,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each")
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER)
 
 
 @operator(
@@ -411,10 +382,6 @@ _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each")
         "Linear springs to the ground at the nodes of a mesh, on the unknowns named or along a "
         "direction (as in BLOQ), of stiffness FLOT1 each.",
         "RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 'UY' 1.E6 P1 ;",
-            "OPTI DIME 3 ; P = 0 0 0 ; K = APPU 'DEPL' 4. P ; LIST (EXTR K 'DIAG') ;",
-        ),
     ),
 )
 def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:

@@ -1,17 +1,22 @@
-"""CHPO: fields on the unknowns of a matrix."""
+"""Fields for a matrix: CHPO on its unknowns, ORTH makes some orthogonal for it."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.language.registry import Chosen, Help, arg, operator, select
+from ssilang.kernel.modal.basis import work
+from ssilang.kernel.statics.linear import product
+from ssilang.language.registry import Chosen, Help, arg, flag, operator, opt, select
 from ssilang.language.run.call import Call
+from ssilang.language.values import ListChpo, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.numbers.noise import session_generator
-
-_TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 
 
 @operator(
@@ -20,7 +25,7 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         "values",
         {
             "ALEATOIRE": [],
-            "UNIFORME": [arg("value", "FLOTTANT", en="value")],
+            "UNIFORME": [arg("value", "FLOTTANT", en="value", range=ANY_NUMBER)],
         },
         en="random, or the same everywhere",
     ),
@@ -31,13 +36,6 @@ _TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX'
         en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
         "random values between 0 and 1 ('ALEATOIRE').",
         syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
-        examples=(
-            _TWO + "LIST (CHPO 'UNIFORME' 2. K) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "C = CHPO 'ALEA' (APPU 'UX' 1. P) ; LIST (EXTR C 'COMP') ;"
-            ),
-        ),
     ),
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
@@ -53,3 +51,58 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
         n = len(nodes)
         made[name] = NodeValues(nodes, generator.random(n) if value is None else np.full(n, value))
     return NodeField(numbering.table, made, "DIFFUS")
+
+
+@operator(
+    "ORTH",
+    flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
+    arg("field", "CHPOINT", en="field X"),
+    arg("shapes", "LISTCHPO", en="fields U"),
+    arg("norms", "LISTREEL", en="products U K U", range=ANY_NUMBER),
+    opt("loaded", "LISTCHPO", en="fields K U"),
+    arg("matrix", "RIGIDITE", en="matrix K"),
+    opt("precision", "FLOTTANT", range=POSITIVE, en="precision"),
+    opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most"),
+    family="matrix",
+    full_name="ORTHOGONALISER",
+    help=Help(
+        en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
+        "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
+        "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
+        syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
+    ),
+)
+def orth(
+    call: Call,
+    alike: bool,
+    field: NodeField,
+    shapes: ListChpo,
+    norms: ListReel,
+    loaded: ListChpo | None,
+    matrix: Matrix,
+    precision: float | None,
+    passes: int,
+) -> NodeField:
+    """Gram and Schmidt's step."""
+    fields: list[Any] = list(shapes.values)
+    forces: list[Any] = (
+        [product(matrix, u) for u in fields] if loaded is None else list(loaded.values)
+    )
+    if not len(fields) == len(norms) == len(forces):
+        raise call.error(
+            "operators.matrices.products-do-not-match",
+            n_shapes=len(fields),
+            n_norms=len(norms),
+            n_forces=len(forces),
+        )
+    if (norms.values == 0.0).any():
+        raise call.error("operators.matrices.product-is-zero")
+    for turn in range(max(passes, 1)):
+        worst = 0.0
+        for u, k, f in zip(fields, norms.values, forces, strict=True):
+            share = work(f, field) / k
+            worst = max(worst, abs(share))
+            field = node_algebra.added(field, u, -share)
+        if precision is None or (turn and worst <= precision):
+            break
+    return field

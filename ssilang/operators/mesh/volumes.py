@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -85,7 +85,9 @@ _BASE = arg("base", "MAILLAGE", en="surface, or volume whose face 2 is swept")
 _CUTS = (
     LAYERS,
     SIZES,
-    key("places", "PROG", arg("places", "LISTREEL"), en="positions of the layers"),
+    key(
+        "places", "PROG", arg("places", "LISTREEL", range=ANY_NUMBER), en="positions of the layers"
+    ),
     flag("wordy", "VERB", en="accepted, without effect"),
 )
 
@@ -118,17 +120,6 @@ _CUTS = (
         syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
         "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
         "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
-            " V = S VOLU 3 'TRAN' (0. 0. 1.) ; LIST (NBEL V) ;",
-            (
-                "OPTI DIME 3 ELEM CUB8 ;\n"
-                "S = (DROI 2 (1 0 0) (2 0 0)) TRAN 2 (0 1 0) ;\n"
-                "V = S VOLU 3 'ROTA' 90. (0 0 0) (0 1 0) ; MESS (NBEL V) (MESU V) ;\n"
-                "V = S VOLU 'GENE' (DROI 4 (1 0 0) (1 0 2)) ; MESS (NBEL V) (MESU V) ;\n"
-                "V = VOLU 2 S (S PLUS (0 0 1)) ; MESS (NBEL V) (MESU V) ;"
-            ),
-        ),
     ),
 )
 def volu(
@@ -271,14 +262,6 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
         en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
         "after the other.",
         syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ;"
-            " M = DROI 3 (0. 0. 0.) (0. 1. 0.) ; B = L TRAN 3 (0. 1. 0.) ;"
-            " F = L TRAN 2 (0. 0. 1.) ; G = M TRAN 2 (0. 0. 1.) ; B2 = B PLUS (0. 0. 1.) ;"
-            " F2 = F PLUS (0. 1. 0.) ; G2 = G PLUS (1. 0. 0.) ;"
-            " ELIM 1E-6 (B ET B2 ET F ET F2 ET G ET G2) ;"
-            " LIST (MESU (PAVE B B2 F F2 G G2)) ;",
-        ),
     ),
 )
 def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:

@@ -173,12 +173,6 @@ pjba = operator(
         "list of fields the products with each shape (with a matrix: X^T M u).",
         "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (PJBA (FORC 'FX' 2. P1) T1) ;\n"
-            "U = MANU 'CHPO' P1 'UX' 3. ;"
-            " LIST (EXTR (PJBA (SUIT U (2. * U)) T1 1 (MASS 'UX' 4. P1)) 2) ;",
-        ),
     ),
 )(_pjba)
 
@@ -349,15 +343,6 @@ operator(
         "the first frequency, or at 'FREQ'.",
         "TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 "
         "| LCHP1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
-            " K1 = (APPU 'UX' 400. P1) ET (APPU 'UX' 900. P2) ; M1 = MASS 'UX' 4. (P1 ET P2) ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 M1 ; PM = PSMO K1 (T1 . 'MODES') (FORC 'FX' 9. P2) ;"
-            " LIST (PM . 1 . 'DEPLACEMENT') ;\n"
-            "TS = TABL 'POINT_DE_LIAISON' ; TS . 1 = TABL ; TS . 1 . 'POINT' = P2 ;\n"
-            "TS . 1 . 'NORMALE' = (1. 0.) ; PS = PSMO K1 (T1 . 'MODES') TS ;\n"
-            "LIST (PS . 1 . 'DEPLACEMENT') ;",
-        ),
     ),
 )(_psmo)
 
@@ -389,11 +374,6 @@ operator(
         "Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
         "conditions of a matrix act.",
         "TAB1 = IDLI RIG1 GEO1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ;"
-            " T1 = IDLI (RELA 'UX' P1 - 'UX' P2) (MANU 'POI1' P1) ;"
-            " LIST (T1 . 1 . 'DDL_LIAISON') ;",
-        ),
     ),
 )(_idli)
 

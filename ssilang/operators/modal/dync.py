@@ -10,7 +10,6 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.kernel.modal.links import link_arrays
 from ssilang.language.registry import Help, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
@@ -110,8 +109,7 @@ def _oscillators(
     from ssilang.kernel.continuation.link_samples import LinkForces
 
     n = len(system.M)
-    read = links_of(call, tables.get("links"), system.basis)
-    forces = LinkForces(link_arrays([r.link for r in read], n))
+    forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))
     table = tables.get("loads")
     unbalance = False
@@ -247,21 +245,6 @@ def _bifurcations(found: Response) -> Table:
     return _table(entries)
 
 
-_DUFFING = (
-    "OPTI DIME 2 ELEM SEG2 ; P1 = 0. 0. ; A1 = 0. 0. ; TM = TABL 'BASE_MODALE' ; "
-    "TM . 'MODES' = TABL 'BASE_DE_MODES' ; TM . 'MODES' . 1 = TABL 'MODE' ; "
-    "T1 = TM . 'MODES' . 1 ; T1 . 'POINT_REPERE' = A1 ; T1 . 'NUMERO_MODE' = 1 ; "
-    "T1 . 'FREQUENCE' = 0.159154943 ; T1 . 'MASSE_GENERALISEE' = 1. ; "
-    "T1 . 'DEFORMEE_MODALE' = MANU 'CHPO' P1 1 'UX' 1. 'NATURE' 'DIFFUS' ; "
-    "L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'COUPLAGE_DEPLACEMENT' ; "
-    "L1 . 'SUPPORT' = A1 ; L1 . 'ORIGINE' = A1 ; L1 . 'COEFFICIENT' = -0.25 ; "
-    "L1 . 'EXPOSANT' = 3 ; TL = TABL 'LIAISON' ; TL . 'LIAISON_A' = TABL 'LIAISON_A' ; "
-    "TL . 'LIAISON_A' . 1 = L1 ; TC = TABL 'CHARGEMENT' ; "
-    "TC . 1 = MANU 'CHPO' A1 1 'FALF' 0.2 ; TA = TABL 'AMORTISSEMENT' ; "
-    "TA . 'AMORTISSEMENT' = AMOR TM (PROG 5.) ; TI = TABL 'INITIAL' ; "
-    "TI . 'FREQUENCE' = 0.5 ; TN = TABL 'PARAMETRES_NUMERIQUES' ; TN . 'TYPE' = MOT 'FORC' ; "
-    "TN . 'VAL_FIN' = 2. ; TN . 'DS0' = 0.02 ; TN . 'DSMAX' = 0.1 ; TN . 'DSMIN' = 1.E-4 ; "
-)
 operator(
     "DYNC",
     TABLES,
@@ -279,9 +262,5 @@ operator(
         "NORME_DEPLACEMENT, STABILITE (1: unstable), Floquet exponents (by integration over one "
         "period); BIFURCATION the points LP, BP, PD and NS, each sought to the last digits.",
         "TAB1 = DYNC TMOD (TCHR) (TLIAI) (TAMOR) TINI TNUM NHBM NFFT ;",
-        (
-            _DUFFING + "R = DYNC TM TC TL TA TI TN 3 64 ; LIST (R . 'BIFURCATION' . 'TYPE') ; "
-            "LIST (MAXI (R . 'REPONSE' . 'NORME_DEPLACEMENT')) ;",
-        ),
     ),
 )(_dync)

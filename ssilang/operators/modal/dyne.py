@@ -11,8 +11,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.explicit import (
     SCHEMES,
     VARIABLES,
@@ -22,7 +24,7 @@ from ssilang.kernel.modal.explicit import (
     ModalSteps,
     integrate_modes,
 )
-from ssilang.kernel.modal.links import STATES, link_arrays
+from ssilang.kernel.modal.links import STATES
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.language.registry import Help, arg, choice, many, operator, opt
@@ -31,6 +33,7 @@ from ssilang.language.values import ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of
+from ssilang.operators.modal.dyne_models import links_table, modal_table, wanted_of
 from ssilang.operators.modal.modes import filled
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
@@ -77,15 +80,53 @@ def _dyne(
     if "system" not in tables:
         raise call.error("operators.modal.dyne-wants-table-base")
     system = system_of(call, tables["system"])
-    links = links_of(call, tables.get("links"), system.basis)
-    start = _start(call, tables.get("start"), system, len(links))
-    spaces, amplitudes = _forces(call, tables.get("loads"), system, start.time, h, steps)
-    problem = ModalProblem(
-        system.M, damping_of(call, tables.get("damping"), system), system.K, spaces, amplitudes,
-        link_arrays([r.link for r in links], len(system.M)),
-    )  # fmt: skip
-    run = integrate_modes(problem, start, ModalSteps(h, steps, every, scheme))
-    return _results(run, system, links, tables.get("output"))
+    damping = damping_of(call, tables.get("damping"), system)
+    return _integrated(call, tables, system, damping, ModalSteps(h, steps, every, scheme))
+
+
+def _integrated(
+    call: Call, tables: dict[str, Table], system: System, damping: FloatArray, steps: ModalSteps
+) -> Table:
+    """The table of results of a run."""
+    links, arrays = links_of(call, tables.get("links"), system.basis)
+    start = _start(call, tables.get("start"), system, len(arrays.kinds))
+    spaces, amplitudes = _forces(
+        call, tables.get("loads"), system, start.time, steps.h, steps.count
+    )
+    problem = ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
+    run = integrate_modes(problem, start, steps)
+    return _results(call, run, system, links, tables.get("output"))
+
+
+def results_of_models(
+    call: Call, entries: Entries, steps: ModalSteps
+) -> tuple[Table, list[tuple[Zone, Model | None, Table]]]:
+    """Step models MODAL and LIAISON of a table PASAPAS.
+
+    Gives the table of results and for each link its zone, the model that asks for its results and
+    its table.
+    """
+    model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
+    base, dampings = modal_table(model, material)
+    system = system_of(call, base)
+    links, zones = links_table(model, material)
+    asked, kept, named = Table("LIAISON_B"), entries.get("SORTIE"), []
+    for zone, link in zones:
+        index, wanted = wanted_of(zone, entries, material)
+        asked.set(link, wanted)
+        named.append((zone, index, link))
+    output = filled("SORTIE", {"LIAISON_B": asked})
+    if kept is not None and kept.has(Mot("VARIABLE")):
+        output.set(Mot("VARIABLE"), kept.get(Mot("VARIABLE")))
+    start = {n: entries.at(f"{n}S", 0) for n in ("DEPLACEMENT", "VITESSE")}
+    start = {n: f for n, f in start.items() if f is not None}
+    if entries.has("INIT_DYNE"):
+        start["REPRISE"] = entries.get("INIT_DYNE")
+    tables = {"links": links, "start": filled("INITIAL", start), "output": output}
+    if entries.has("CHARGEMENT"):
+        tables["loads"] = filled("CHARGEMENT", {"BASE_A": entries.get("CHARGEMENT")})
+    damping = np.diag([dampings[mark] for mark in system.basis.marks])
+    return _integrated(call, tables, system, damping, steps), named
 
 
 def tables_by_role(
@@ -237,7 +278,9 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 # --- what is given back ------------------------------------------------------------------------
 
 
-def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table | None) -> Table:
+def _results(
+    call: Call, run: ModalRun, system: System, links: list[ReadLink], output: Table | None
+) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
     variables = None if output is None else output.get("VARIABLE")
@@ -248,7 +291,7 @@ def _results(run: ModalRun, system: System, links: list[ReadLink], output: Table
         kind = str(variables.get("TYPE_SORTIE", kind)).rstrip()
     chosen = [i for i, name in enumerate(VARIABLES) if wanted.get(name)]
     (_as_fields if kind == "CHPOINT" else _as_lists)(table, run, system, chosen)
-    _add_links(table, run, links, output)
+    _add_links(call, table, run, system, links, output)
     table.set(Mot("REPRISE"), _restart(run, system))
     return table
 
@@ -262,24 +305,31 @@ def _as_fields(table: Table, run: ModalRun, system: System, chosen: list[int]) -
 
 
 def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
-    """A list for a single mode, else a table of lists by the number of the mode."""
+    """A table of lists by the point that marks the unknown."""
     for i in chosen:
-        lists = [ListReel(run.values[:, i, j]) for j in range(len(system.M))]
-        numbered = Table()
-        for number, values in enumerate(lists, start=1):
-            numbered.set(number, values)
-        table.set(Mot(VARIABLES[i]), lists[0] if len(lists) == 1 else numbered)
+        lists = Table()
+        for j, node in enumerate(system.numbering.nodes):
+            lists.set(Point(system.numbering.table, int(node)), ListReel(run.values[:, i, j]))
+        table.set(Mot(VARIABLES[i]), lists)
 
 
-def _add_links(table: Table, run: ModalRun, links: list[ReadLink], output: Table | None) -> None:
-    for name in ("LIAISON_A", "LIAISON_B"):
-        asked = None if output is None else output.get(Mot(name))
-        if not isinstance(asked, Table):
-            continue
-        for place, read in enumerate(links):
-            wanted = asked.get(read.table, False)
-            if wanted is True or isinstance(wanted, Table):
-                made = link_results(read, place, run.values[:, 0], run.links, wanted)
+def _add_links(
+    call: Call,
+    table: Table,
+    run: ModalRun,
+    system: System,
+    links: list[ReadLink],
+    output: Table | None,
+) -> None:
+    first, nodes = 0, system.numbering.table
+    for read in links:
+        own = run.links[:, first : first + len(read.links)]
+        first += len(read.links)
+        for name in ("LIAISON_A", "LIAISON_B"):
+            asked = None if output is None else output.get(Mot(name))
+            wanted = asked.get(read.table, False) if isinstance(asked, Table) else False
+            if wanted is True or isinstance(wanted, Table) or wanted == "VRAI":
+                made = link_results(call, read, nodes, run.values[:, 0], own, wanted)
                 table.set(read.table, made)
 
 
@@ -299,13 +349,7 @@ def _restart(run: ModalRun, system: System) -> Table:
     return filled("REPRISE", entries)
 
 
-_EXAMPLE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 39.4784176 P1 ; "
-    "B1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 1. P1) ; "
-    "P2 = B1 . 'MODES' . 1 . 'POINT_REPERE' ; "
-    "TI = TABL 'INITIAL' ; TI . 'DEPLACEMENT' = MANU 'CHPO' P2 1 'ALFA' 1. ; "
-)
-operator(
+_FORM = operator(
     "DYNE",
     choice("scheme", SCHEMES, optional=False, en="how time is stepped"),
     TABLES,
@@ -324,23 +368,47 @@ operator(
         "acceleration or Fox-Goodwin, from rest, from initial values or going on from a run "
         "(INITIAL); loads on the modes (CHARGEMENT, index 'BASE_A', made by PJBA or SEIS), "
         "damping, and links (LIAISON): POINT_PLAN, POINT_POINT, POINT_CERCLE with friction or "
-        "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, plastic springs and hinges "
-        "between points, COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE. Contacts push "
+        "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, CERCLE_CERCLE_FROTTEMENT, plastic "
+        "springs and hinges between points, lines (LIGNE_LIGNE_FROTTEMENT: nodes and another line; "
+        "LIGNE_CERCLE_FROTTEMENT: a line and circles about it), COUPLAGE_DEPLACEMENT, "
+        "COUPLAGE_VITESSE and POLYNOMIALE. A mode CORPS_RIGIDE turns a body by any angle. "
+        "Contacts push "
         "against the normal, which points "
         "into the obstacle, where the motion along it is beyond the gap. The table of results has "
         "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
         "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
         "TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
         "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
-        (
-            _EXAMPLE + "R = DYNE 'DE_VOGELAERE' B1 TI 100 0.01 ; "
-            "LIST (MAXI (R . 51 . 'DEPLACEMENT')) ;",
-            _EXAMPLE + "L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; "
-            "L1 . 'SUPPORT' = P1 ; L1 . 'NORMALE' = -1. 0. ; L1 . 'RAIDEUR' = 4.E3 ; "
-            "L1 . 'JEU' = 0. ; TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ; "
-            "TL . 'LIAISON_B' . 1 = L1 ; TS = TABL 'SORTIE' ; TS . 'LIAISON_B' = TABL 'LIAISON_B' ;"
-            " TS . 'LIAISON_B' . L1 = VRAI ; R = DYNE 'DE_VOGELAERE' B1 TI TL TS 400 1.E-3 ; "
-            "LIST (MAXI (R . L1 . 'FORCE_DE_CHOC') 'ABS') ;",
-        ),
     ),
 )(_dyne)
+
+
+@_FORM.form(
+    choice("scheme", ("DE_VOGELAERE",), optional=False, en="how time is stepped"),
+    arg("table", "TABLE", en="table PASAPAS"),
+    syntax="DYNE 'DE_VOGELAERE' TAB11 ;",
+    en="Of a table PASAPAS: models MODAL and LIAISON of MODELE with CARACTERISTIQUES, loads "
+    "projected on the modes (CHARGEMENT), DEPLACEMENTS . 0 and VITESSES . 0, NOMBRE_PAS, "
+    "PAS_DE_TEMPS and PAS_DE_SORTIE; TEMPS, DEPLACEMENTS, VITESSES and LIAISONS are written into "
+    "it.",
+)
+def _of_models(call: Call, scheme: bool, table: Table) -> None:
+    """Step what a table PASAPAS describes; results go into it, by number of the saved step."""
+    entries = Entries(call, table, "DYNE", "TAB11")
+    entries.check()
+    steps, h = entries.needed("NOMBRE_PAS"), entries.needed("PAS_DE_TEMPS")
+    plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"))
+    results, named = results_of_models(call, entries, plan)
+    made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
+    for step, time in enumerate(results.get(Mot("TEMPS_DE_SORTIE")).values):
+        made["TEMPS"].set(step, float(time))
+        entry = results.get(step + 1)
+        for name in ("DEPLACEMENT", "VITESSE"):
+            if isinstance(entry, Table) and entry.has(Mot(name)):
+                made[f"{name}S"].set(step, entry.get(Mot(name)))
+    for _, index, link in named:
+        if index is not None and results.has(link):
+            made["LIAISONS"].set(index, results.get(link))
+    for name, inner in made.items():
+        table.set(Mot(name), inner)
+    table.set(Mot("REPRISE_DYNE"), results.get(Mot("REPRISE")))

@@ -11,7 +11,7 @@ from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
 from ssilang.language.registry import Help, arg, choice, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined
@@ -45,7 +45,12 @@ operator(
         ("MASSE", "RAIDEUR", "AMORTISSEMENT"),
         en="what the matrix is, by its type without it",
     ),
-    key("chosen", "QUELCONQUE", arg("factors", "LISTREEL"), en="factors of the four blocks"),
+    key(
+        "chosen",
+        "QUELCONQUE",
+        arg("factors", "LISTREEL", range=ANY_NUMBER),
+        en="factors of the four blocks",
+    ),
     arg("matrix", "RIGIDITE", en="matrix"),
     opt("other", "RIGIDITE", en="of the imaginary rows"),
     opt(
@@ -54,6 +59,7 @@ operator(
         default=1.0,
         en="circular frequency, 1 without it",
         unit="rad/s",
+        usual=NOT_NEGATIVE,
     ),
     opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
     family="modal",
@@ -65,12 +71,6 @@ operator(
         "rows.",
         "RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
         "LREEL1) (LOG1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
-            " Z1 = (IMPE K1) ET (IMPE M1 5.) ET (IMPE C1 5.) ;"
-            " U1 = RESO Z1 (MANU 'CHPO' P1 1 'FX' 1. 'NATURE' 'DISCRET') ; LIST U1 ;",
-        ),
     ),
 )(_impe)
 
@@ -113,10 +113,5 @@ operator(
         "the N1 first couples. With the basis of the projection the shapes are physical. A "
         "positive imaginary part of f means decay.",
         "BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; C1 = CHAN 'TYPE' (APPU 'UX' 3. P1) 'AMORTISS' ;"
-            " B1 = VIBC M1 K1 C1 ; LIST (B1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
-        ),
     ),
 )(_vibc)

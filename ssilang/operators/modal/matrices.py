@@ -150,26 +150,19 @@ def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
     return _diagonal(modes, values, "AMORTISSEMENT")
 
 
-_EXAMPLE = (
-    "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-    " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; LIST (EXTR ({} T1{}) 'DIAG') ;"
-)
 rigi.extend_help(
     "RIG1 = RIGI TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
     "RIG1 = RIGI TAB1 (TAB2) ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points. Of "
     "static shapes, on BETA, with modes or without: the works of their FORCE and REACTION.",
-    (_EXAMPLE.format("RIGI", ""),),
 )
 mass.extend_help(
     "MASS1 = MASS TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
     "MASS1 = MASS TAB1 (TAB2) MASS2 ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
     "Of a modal basis: generalised masses on the diagonal. With a mass matrix of the body: its "
     "projection on modes (ALFA), on static shapes (BETA) or on both.",
-    (_EXAMPLE.format("MASS", ""),),
 )
 amor.extend_help(
     "AMOR1 = AMOR TAB1 LREEL1 ;  (BASE_MODALE)",
     "Of a modal basis: 2 x m w on the diagonal, reduced dampings x in per cent, one a mode.",
-    (_EXAMPLE.format("AMOR", " (PROG 5.)"),),
 )

@@ -19,7 +19,7 @@ from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
 from ssilang.language.registry import Chosen, Help, arg, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.workspace import solver_of, workspace
 
@@ -172,18 +172,18 @@ operator(
         "method",
         {
             "PROCHE": [
-                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz"),
-                opt("counts", "LISTENTI", en="modes near each, 1"),
+                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", range=ANY_NUMBER),
+                opt("counts", "LISTENTI", en="modes near each, 1", range=POSITIVE),
             ],
             "INTERVALLE": [
-                arg("low", "FLOTTANT", en="one end", unit="Hz"),
-                arg("high", "FLOTTANT", en="the other", unit="Hz"),
+                arg("low", "FLOTTANT", en="one end", unit="Hz", range=ANY_NUMBER),
+                arg("high", "FLOTTANT", en="the other", unit="Hz", range=ANY_NUMBER),
             ],
             "SIMULTANE": [_FREQUENCY, _COUNT],
             "IRAM": [
                 _FREQUENCY,
                 _COUNT,
-                opt("decay", "FLOTTANT", default=0.0, en="imaginary part"),
+                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", range=ANY_NUMBER),
             ],
         },
         optional=False,
@@ -228,16 +228,5 @@ operator(
         "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"
         "TAB1 = VIBR 'IRAM' F1 N1 RIG1 MASS1 (AMO1) ('LM') ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " M1 = MASS 'UX' 4. P1 ; T1 = VIBR 'SIMU' 1. 1 K1 M1 ;"
-            " LIST (T1 . 'MODES' . 1 . 'FREQUENCE') ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = (APPU 'UX' 400. P1) ET (APPU 'UY' 900. "
-            "P1) ; M1 = MASS 'DEPL' 4. P1 ;\n"
-            "T1 = VIBR 'PROCHE' (PROG 1.5 2.5) K1 M1 ; LIST (T1 . 'MODES' . 2 . 'FREQUENCE') ;\n"
-            "T1 = VIBR 'INTERVALLE' 1. 2. K1 M1 ; LIST (DIME (T1 . 'MODES')) ;\n"
-            "T1 = VIBR 'IRAM' 2. 1 K1 M1 (0.01 * K1) ;\n"
-            "LIST (T1 . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;",
-        ),
     ),
 )(_vibr)

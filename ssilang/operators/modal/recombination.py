@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.problem.loading import terms_of
 from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
@@ -28,7 +28,6 @@ _INDEX = {
     "DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION", "CONT": "DEPLACEMENT",
     "REAC": "DEPLACEMENT",
 }  # fmt: skip
-_AXES = ("UX", "UY", "UZ")
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,7 +272,7 @@ reco = operator(
     BASIS,
     _QUANTITY,
     _LOAD,
-    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load"),
+    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER),
     family="modal",
     help=Help(
         "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
@@ -284,20 +283,6 @@ reco = operator(
         "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
         "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
         "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
-            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (RECO Q1 T1) ; LIST (EXTR (RECO (SUIT Q1 (2. * Q1)) T1 1) 2) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; TI = TABL 'INITIAL' ;"
-            " TI . 'VITESSE' = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " R = DYNE 'DE_VOGELAERE' T1 TI 20 0.01 ; LIST (RECO R T1 0.15 'VITE') ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-            " T1 = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ;"
-            " Q1 = MANU 'CHPO' (T1 . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 3. ;"
-            " LIST (MAXI (EXTR (RECO (SUIT Q1 (2. * Q1)) T1) 2)) ;",
-        ),
     ),
 )(_reco)
 
@@ -307,7 +292,7 @@ reco = operator(
     BASIS,
     _QUANTITY,
     _LOAD,
-    arg("time", "FLOTTANT", en="instant", unit="s"),
+    arg("time", "FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
 )
 def reco_of_results(
     call: Call,

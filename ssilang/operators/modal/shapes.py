@@ -116,12 +116,6 @@ nnor = operator(
         "with generalised masses and displacements that follow.",
         "OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
         "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 2 'UX' 4. 'UY' -8. ;"
-            " LIST (NNOR U1) ; LIST (NNOR U1 'AVEC' (MOTS 'UX')) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; U1 = MANU 'CHPO' P1 2 'UX' 3. 'UY' -4. ;"
-            " LIST (NNOR 'EUCL' U1) ; LIST (NNOR 'EUCL' U1 (MASS 'DEPL' 4. P1)) ;",
-        ),
     ),
 )(_nnor)
 
@@ -171,10 +165,6 @@ def _known(table: Table) -> list[Shape]:
         "Second member of relations between displacements so that they speak of positions: the sum "
         "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
         "CHPO1 = JEU RIG1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 0. 0.3 ;"
-            " R1 = RELA 'MINI' 'UY' P2 - 'UY' P1 ; LIST (JEU R1) ;",
-        ),
     ),
 )
 def jeu(matrix: Matrix) -> NodeField:

@@ -16,6 +16,7 @@ from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.tables.entries import Entries
 
 _ENTRIES = {
@@ -33,7 +34,7 @@ _ENTRIES = {
     arg("model", "MMODEL", en="cables, bars"),
     arg("material", "MCHAML", en="their parameters"),
     opt("table", "TABLE", en="losses"),
-    arg("force", "FLOTTANT", en="tension at the end", unit="N"),
+    arg("force", "FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
     opt("ends", "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"),
     opt("before", "MCHAML", en="not built"),
     family="model",
@@ -45,11 +46,6 @@ _ENTRIES = {
         "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
         "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
         syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0 0) (50 0) ; M = MODE L MECANIQUE ELASTIQUE "
-            "BARR ; A = MATE M 'YOUN' 1.9E11 'NU' 0.3 'SECT' 1.E-3 ; T = TABL ; "
-            "T . 'PHIF' = 0.003 ; LIST (MINI (PREC M A 1.E5 T)) ;",
-        ),
     ),
 )
 def prec(
@@ -130,7 +126,6 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
         en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
         "'CONTACT' 'FROTTANT' does without).",
         syntax="GEO1 = IMPF GEO2 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; G = IMPF L ; LIST (NBEL G) ;",),
     ),
 )
 def impf(mesh: Mesh) -> Mesh:

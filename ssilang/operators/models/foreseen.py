@@ -53,6 +53,23 @@ def foreseen_zone(call: Call, said: Iterable[str]) -> Zone | None:
         return None
 
 
+def refuse_words(call: Call, said: Iterable[str]) -> None:
+    """Refuse words of MODE that a run refuses whatever the mesh, and laws that an element lacks.
+
+    Raises
+    ------
+    SsiError
+        Of a word at its place.
+    KernelError
+        Of a law that the only element named does not have.
+    """
+    wish = Wish()
+    for word in said:
+        read_word(call, word, wish)
+    if len(wish.elements) == 1 and wish.elements[0] not in GENERIC_ELEMENTS and wish.laws:
+        normalised(wish.laws, ELEMENTS[wish.elements[0]].family)
+
+
 def _element(wish: Wish) -> str | None:
     """The element that is named, or one that has the law."""
     if wish.formulation not in ("", "MECANIQUE") or not wish.laws or _OTHERS & {*wish.laws}:

@@ -1,4 +1,4 @@
-"""RTEN VLOC CALP: stresses and strains in other frames or places of the section."""
+"""Frames of elements: RTEN VLOC CALP, FREN along lines, VSUR for normals and tangents."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
@@ -29,25 +30,23 @@ from ssilang.kernel.elements.results.shell_frames import (
 )
 from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
+from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, select
+from ssilang.kernel.mesh.lines.frenet import frenet_frames
+from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language.registry import Chosen, Help, arg, choice, flag, many, operator, opt, select
 from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import on_zones, state_and_rest
+from ssilang.operators.workspace import workspace
 
 Frames = Callable[[Zone, Support], FloatArray]
 Surface = Callable[[Zone, Support], SurfaceAxes]
-
-_EXAMPLE = (
-    "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
-    "U = (NOMC 'UX' (COOR 1 S)) ET (NOMC 'UY' (COOR 2 S)) ; "
-)
 
 
 _CENTRE = arg("centre", "POINT", en="centre")
@@ -107,31 +106,6 @@ _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, 
         "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
         "CHAM3 = RTEN CHAM1 MODL1 GRAD1 ('RTAR' | 'RART') ;\n"
         "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
-        examples=(
-            _EXAMPLE + "LIST (MAXI (RTEN (SIGM M A U) M 'POLA' (0. 0.))) ;",
-            (
-                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
-                "V = ((DROI 1 (1 0 0) (2 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 1) ;\n"
-                "M = MODE V 'MECANIQUE' 'ELASTIQUE' ; A = MATE M 'YOUN' 2. 'NU' 0.3 ;\n"
-                "X Y Z = COOR V ; U = (NOMC 'UX' X) ET (NOMC 'UY' Y) ET (NOMC 'UZ' Z) ;\n"
-                "S = SIGM M A U ; O = 0 0 0 ; D = 0 0 1 ;\n"
-                "LIST (MAXI (RTEN S M 'CYLI' O D)) ; LIST (MAXI (RTEN S M 'SPHE' O D)) ;\n"
-                "LIST (MAXI (RTEN S M 'TORI' O D)) ;\n"
-                "LIST (MAXI (RTEN S M 'TORI' 'CIRC' O D (3 0 0))) ;\n"
-                "R = GRAD M ((NOMC 'UX' Y) ET (NOMC 'UY' (-1. * X)) ET (NOMC 'UZ' Z)) ;\n"
-                "LIST (MAXI (RTEN S M R)) ; LIST (MAXI (RTEN S M R 'RART')) ;\n"
-                "LIST (MAXI (EXCO 'UY' (RTEN U (0 1 0) (0 0 1)))) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM QUA4 ;\n"
-                "P = (DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0) ;\n"
-                "M = MODE P 'MECANIQUE' 'ELASTIQUE' 'COQ4' ;\n"
-                "A = MATE M 'YOUN' 2. 'NU' 0. 'EPAI' 0.5 ;\n"
-                "S = SIGM M A (NOMC 'UX' (COOR 1 P)) ;\n"
-                "LIST (MAXI (EXCO 'N11' (RTEN S M (1 0 0)))) ;\n"
-                "LIST (MAXI (EXCO 'N22' (RTEN S M (0 1 0)))) ;"
-            ),
-        ),
     ),
 )
 def rten(
@@ -246,12 +220,6 @@ def _round(call: Call, frame: Chosen) -> Frames:
     help=Help(
         en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
         syntax="CHAM1 = VLOC MODL1 MAT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ORTHOTROPE ; A = MATE M 'YG1' 2. 'YG2' 1. 'YG3' 1. "
-            "'NU12' 0.1 'NU23' 0. 'NU13' 0. 'G12' 1. 'DIRECTION' (0. 2.) ; "
-            "LIST (MAXI (EXCO 'V1Y' (VLOC M A))) ;",
-        ),
     ),
 )
 def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
@@ -289,12 +257,6 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
         "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
         "other side ('INFE').",
         syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 2 P Q ; "
-            "M = MODE L MECANIQUE ELASTIQUE POUT ; A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 1. "
-            "'INRZ' 0.1 'DY' 0.5 ; U = RESO ((RIGI M A) ET (BLOQ P 'UX' 'UY' 'RZ')) "
-            "(FORC (0. 1.) Q) ; LIST (MAXI (CALP M (SIGM M A U) A)) ;",
-        ),
     ),
 )
 def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
@@ -310,3 +272,81 @@ def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
         return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
 
     return on_zones(present(call, model), field.title, make)
+
+
+@operator(
+    "FREN",
+    arg("line", "MAILLAGE", en="lines"),
+    family="mesh",
+    full_name="FRENET",
+    help=Help(
+        en="Frenet frame along lines, as a nodal field: tangent TX TY (TZ), normal NX NY (NZ) and, "
+        "in 3D, binormal BX BY BZ. In 2D the normal is the tangent turned by a quarter turn.",
+        syntax="CHPO1 = FREN LIG1 ;",
+    ),
+)
+def fren(session: Session, line: Mesh) -> NodeField:
+    """Frenet frame."""
+    ids, frames = frenet_frames(line)
+    dimension = workspace(session).dimension
+    if dimension < 3:
+        t = frames[:, 0]
+        values = {"TX": t[:, 0], "TY": t[:, 1], "NX": -t[:, 1], "NY": t[:, 0]}
+    else:
+        values = {
+            f"{row}{axis}": frames[:, k, j]
+            for k, row in enumerate("TNB")
+            for j, axis in enumerate("XYZ")
+        }
+    return NodeField.of(line.nodes, ids, values, "DIFFUS")
+
+
+_SHELLS = ("plate", "mindlin", "thick", "meridian")
+_BEAMS = ("beam", "timoshenko", "pipe")
+
+
+@operator(
+    "VSUR",
+    arg("model", "MMODEL", en="model"),
+    flag("unit", "NORM", en="of length 1"),
+    family="models",
+    help=Help(
+        en="At the integration points of a model, the normal of its shells and the tangent of its "
+        "beams, components VX VY (VZ), or VR VZ about an axis; as long as the Jacobian there, or "
+        "of length 1 with 'NORM'. Other elements give nothing.",
+        syntax="CHAM1 = VSUR MODL1 ('NORM') ;",
+    ),
+)
+def vsur(model: Model, unit: bool) -> CellField:
+    """Vectors of shells and beams."""
+    blocks = [b for z in model.zones if (b := _block(z, unit)) is not None]
+    return CellField(tuple(blocks), "NORMALES" if unit else "VECTEURS SURFACE")
+
+
+def _block(zone: Zone, unit: bool) -> CellFieldBlock | None:
+    family = ELEMENTS[zone.element].family if zone.element in ELEMENTS else ""
+    if family not in (*_SHELLS, *_BEAMS):
+        return None
+    vectors = _vectors(zone, family in _SHELLS)
+    if unit:
+        vectors = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+    if zone.mode is Mode.THREE_DIMENSIONAL:
+        names: tuple[str, ...] = ("VX", "VY", "VZ")
+    else:
+        round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+        names = ("VR", "VZ") if round_axis else ("VX", "VY")
+    components = {name: vectors[..., i].copy() for i, name in enumerate(names)}
+    return CellFieldBlock(zone.cells, components, "RIGIDITE", zone.element, zone.constituent)
+
+
+def _vectors(zone: Zone, normal: bool) -> FloatArray:
+    """Vectors (n_cells, n_points, 3) of the length of the Jacobian."""
+    points = support_rule(zone.element, "RIGIDITE").points
+    gradients = shape_gradients(zone.cells.cell_type, points)
+    tangents = np.einsum("pki,ckd->cpid", gradients, zone.cells.coordinates)
+    if not normal:
+        return np.asarray(tangents[:, :, 0])
+    if tangents.shape[2] == 1:  # a meridian: a quarter turn from the line
+        t = tangents[:, :, 0]
+        return np.stack([-t[..., 1], t[..., 0], 0.0 * t[..., 0]], axis=-1)
+    return np.asarray(np.cross(tangents[:, :, 0], tangents[:, :, 1]))

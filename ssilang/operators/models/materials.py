@@ -19,12 +19,13 @@ from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
-from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
-from ssilang.operators.models.reduction import reference_to_curve
-from ssilang.operators.models.tension import tension_to_hardening
+from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.models.reduction import reference_to_curve, tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
@@ -32,7 +33,17 @@ Known = Callable[[Zone], tuple[str, ...]]
 Value = tuple[NDArray[Any], Support]
 Values = dict[str, Value]
 
-_VALUES = ("FLOTTANT", "EVOLUTIO", "MCHAML", "POINT", "CHPOINT", "MMODEL")
+_VALUES = (
+    "FLOTTANT",
+    "EVOLUTIO",
+    "MCHAML",
+    "POINT",
+    "CHPOINT",
+    "MMODEL",
+    "MAILLAGE",
+    "TABLE",
+    "MOT",
+)
 SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
 
@@ -45,7 +56,7 @@ _MODEL = arg("model", "MMODEL", en="model")
 _PAIRS = each(
     "pairs",
     arg("name", "MOT", kind="parameter", en="parameter"),
-    arg("value", *_VALUES, en="its value"),
+    arg("value", *_VALUES, en="its value", range=ANY_NUMBER),
 )
 
 
@@ -69,7 +80,7 @@ def _tables(language: str) -> Sequence[HelpTable]:
         {
             "PARALLELE": [],
             "PERPENDICULAIRE": [],
-            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg")],
+            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER)],
         },
         en="how the axes lie to that direction",
     ),
@@ -92,30 +103,6 @@ def _tables(language: str) -> Sequence[HelpTable]:
         "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
         syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
         tables=_tables,
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
-            "; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; LIST (TYPE A) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE RH_COULOMB ; "
-            "A = MATE M 'YOUN' 5.E7 'NU' 0.3 'COHE' 1.E4 'PHI' 0.52 ; LIST (TYPE A) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "M = MODE ((DROI 1 (1. 0.) (2. 0.)) TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE'\n"
-                "'ORTHOTROPE' ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'PERP' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'DIRE' (1. 0.) 'INCL' 60. 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;\n"
-                "A = MATE M 'RADI' (0. 0.) 'PARA' 'YG1' 2. 'YG2' 1. 'YG3' 1. 'NU12' 0.\n"
-                "'NU23' 0. 'NU13' 0. 'G12' 1. ;\n"
-                "MESS (MAXI (EXCO 'V1X' A)) (MAXI (EXCO 'V1Y' A)) ;"
-            ),
-        ),
     ),
 )
 def mate(call: Call, **said: Any) -> CellField:
@@ -146,10 +133,6 @@ def material_names(zone: Zone) -> tuple[str, ...]:
         en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
         "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
         syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR "
-            "; A = (MATE M 'YOUN' 2.E11 'NU' 0.3) ET (CARA M 'SECT' 0.01) ; LIST (TYPE A) ;",
-        ),
     ),
 )
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
@@ -278,6 +261,10 @@ def unknown_parameter(call: Call, written: str, model: Model, known: Known) -> E
 def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     """Values of a parameter on the cells of a zone; None if a field does not stand there."""
     n = len(zone.cells)
+    if zone.formulation == "LIAISON" and not isinstance(value, float | CellField):
+        return _one_object(value, n)
+    if isinstance(value, Mesh | Table | str):
+        raise call.error("operators.models.parameter-is-a-number", value, name=name)
     if name in ("MODS", "MATS"):
         _check_section(call, name, value)
         return _one_object(value, n)

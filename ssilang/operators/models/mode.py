@@ -28,6 +28,7 @@ from ssilang.kernel.materials.behaviours import (
     normalised,
 )
 from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
@@ -47,6 +48,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
@@ -88,7 +90,12 @@ _SETTINGS = (
         arg("point", "POINT"),
         en="point that carries the motion of the section in generalised plane strain",
     ),
-    key("layers", "INTEGRE", arg("count", "ENTIER"), en="points across the thickness of shells"),
+    key(
+        "layers",
+        "INTEGRE",
+        arg("count", "ENTIER", range=POSITIVE),
+        en="points across the thickness of shells",
+    ),
     choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
 )
@@ -131,6 +138,7 @@ MODE = shared(
         "line to the body meshed by GEO2 and lets it slide along with the friction of BPEL 99 "
         "(MATE: FF, PHIF); both are for PASAPAS.\n"
         "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
+        "The formulation LIAISON makes a link of DYNE on a point, for tables PASAPAS.\n"
         "CONS names the constituent, DPGE gives the point that carries the motion of the "
         "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
         "Joints are integrated at GAUSS points (default) or, by LOBATTO, at the nodes of faces "
@@ -151,44 +159,8 @@ MODE = shared(
         "MODL1 = MODE GEO1 'CONTACT' ('UNILATERAL') GEO2 ('MESC' | 'SYME' | 'FAIB' | 'MORT') ;\n"
         "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'COULOMB' GEO2 ('MESC' ...) ;\n"
         "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'FROCABLE' (MODL2) GEO2 ;\n"
-        "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; "
-            "M = MODE L 'MECANIQUE' 'ELASTIQUE' ; LIST (TYPE M) ;\n"
-            "A = MATE M 'YOUN' 1. 'NU' 0. 'SECT' 2. ;\n"
-            "U = NOMC 'UX' (COOR 1 L) ; LIST (MAXI (EXCO 'EFFX' (SIGM M A U))) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
-                "A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ;\n"
-                "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; LIST (NBEL (EXTR M 'MAIL')) ;\n"
-                "N = MODE A 'CONTACT' 'UNILATERAL' B ; LIST (TYPE N) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ;\n"
-                "M = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS 'UX') ;\n"
-                "A = MATE M 'RAID' 400. 'VISC' 12. ;\n"
-                "T = VIBR 'IRAM' 5. 1 (RIGI M A) (MASS 'UX' 1. P) (AMOR M A) ;\n"
-                "LIST (T . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE') ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'J2' 'BARR' ;\n"
-                "A = MATE M 'YOUN' 100. 'NU' 0.3 'SECT' 1. 'SIG0' 1. 'SIGI' 2. 'KISO' 0. "
-                "'VELO' 1.E3 ;\n"
-                "B = BLOQ 'UX' 'UY' L ; D = DEPI B (MANU 'CHPO' (L POIN 2) 'UX' 0.1) ;\n"
-                "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;\n"
-                "T . 'BLOCAGES_MECANIQUES' = B ; T . 'TEMPS_CALCULES' = PROG 0. 1. ;\n"
-                "T . 'CHARGEMENT' = CHAR 'DIMP' D (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;\n"
-                "PASAPAS T ; LIST (MAXI (T . 'CONTRAINTES' . 1)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = MANU 'SEG2' (0. 0.) (0. 0.1) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ;\n"
-                "A = MATE M 'D11' 4. 'D21' 1. 'D22' 3. 'D33' 2. 'DIRECTION' (0. 1.) ;\n"
-                "U = MANU 'CHPO' (L POIN 2) 'UX' 0. 'UY' 1. 'RZ' 0. ;\n"
-                "F = (RIGI M A) * U ; LIST (MAXI (EXCO 'FY' F)) ; LIST (MAXI (EXCO 'FX' F)) ;"
-            ),
-        ),
+        "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;\n"
+        "MODL1 = MODE GEO1 'LIAISON' 'POINT_PLAN' | 'POINT_POINT' | ... ('FROTTEMENT' | ...) ;",
     ),
 )
 
@@ -240,6 +212,30 @@ def contact(
     if friction is not None and friction["law"] == "FROCABLE":
         return cable_model(call, mesh, cables, slave, ws)
     return contact_model(call, mesh, slave, method, friction is not None, ws)
+
+
+@MODE.form(
+    choice("formulation", ("LIAISON",), optional=False, en="a link of DYNE"),
+    choice("kind", tuple(dict.fromkeys(w[0] for w in LINKS)), length=8, optional=False, en="kind"),
+    choice(
+        "more",
+        tuple(dict.fromkeys(w[1] for w in LINKS if len(w) > 1)),
+        length=8,
+        en="with friction, plastic ...",
+    ),
+    arg("mesh", "MAILLAGE", en="its point, a cell POI1"),
+)
+def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh) -> Model:
+    """A model of links, one for each point."""
+    words = (kind, more) if more else (kind,)
+    if words not in LINKS:
+        raise call.error(
+            "operators.models.no-such-link", words=words, known=[" ".join(w) for w in LINKS]
+        )
+    if any(b.cell_type != "POI1" for b in mesh.blocks):
+        raise call.error("operators.models.link-on-points", mesh)
+    mode = workspace(call.session).mode
+    return Model(tuple(Zone(b, "LIAISON", words, "LIAI", mode) for b in mesh.blocks))
 
 
 @MODE.form(

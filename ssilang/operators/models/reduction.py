@@ -1,4 +1,4 @@
-"""Cyclic soil in MATE: curves of G/Gmax (GGAM), or the reference strain of a hyperbola (GAMR)."""
+"""Curves in MATE: TRAC in place of ECRO, cyclic soil by GGAM or by the strain GAMR."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
+from ssilang.kernel.materials.plastic.tension_curve import hardening_of
 from ssilang.language.run.call import Call
 
 _PERCENT = 1e-2
@@ -55,3 +56,28 @@ def _warn_of_percent(call: Call, value: Any, half: float) -> None:
         warning = call.error("operators.models.strains-in-percent", value, half=half)
         warning.warns = True
         call.session.report(warning)
+
+
+def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> None:
+    """Replace TRAC by the ECRO that it means.
+
+    Raises
+    ------
+    MaterialError
+        If ECRO is given too, or if YOUN is missing or not one number.
+    """
+    if "TRAC" not in values:
+        return
+    table, support = values.pop("TRAC")
+    if "ECRO" in values:
+        raise MaterialError("operators.models.hardening-given-twice")
+    given = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
+    if given.dtype == object or not given.size or (given != given.flat[0]).any():
+        raise MaterialError("operators.models.trac-needs-one-youn")
+    if not all(isinstance(v, Curve) for v in table.flat):
+        raise MaterialError("operators.models.trac-is-a-curve")
+    made = {id(v): hardening_of(v, float(given.flat[0])) for v in table.flat}
+    curves = np.empty(table.shape, dtype=object)
+    for place, curve in np.ndenumerate(table):
+        curves[place] = made[id(curve)]
+    values["ECRO"] = curves, support

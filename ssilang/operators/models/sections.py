@@ -13,7 +13,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import Help, When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _ENTRIES = (
     flag("checked", "VERIF", en="a table of the fields too"),
-    many("lists", "LISTREEL", en="curvatures and normal force, one value a step"),
+    many("lists", "LISTREEL", en="curvatures and normal force, one value a step", range=ANY_NUMBER),
     arg("model", "MMODEL", en="section of fibres"),
     arg("material", "MCHAML", en="its parameters"),
     arg("tolerance", "FLOTTANT", range=POSITIVE, en="error allowed on the normal force, relative"),
@@ -46,21 +46,6 @@ _IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
         "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
         "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
         syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
-        examples=(
-            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 20 (-0.1 -0.05 0.) (0.1 -0.05 0.)) TRAN 1 "
-            "(0. 0.1 0.) ; M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI QUAS ; "
-            "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.E8 'H' 0. 'ALPY' 0.83 'ALPZ' 0.83 ; "
-            "Z = PROG 0. 0. 0. ; C = PROG 0.01 0.02 0.1 ; "
-            "MY MZ E = MOCU Z C Z M A 1.E-6 ; LIST MZ ;",
-            (
-                "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;\n"
-                "S = (DROI 20 (-0.1 -0.05) (0.1 -0.05)) TRAN 1 (0. 0.1) ;\n"
-                "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI QUAS ;\n"
-                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SIGY' 2.E8 'H' 0. 'ALPY' 0.83 'ALPZ' 0.83\n"
-                ";\n"
-                "Z = PROG 0. 0. 0. ; MZ E = MOCU (PROG 0.01 0.02 0.1) Z M A 1.E-6 ; LIST MZ ;"
-            ),
-        ),
     ),
 )
 def mocu(

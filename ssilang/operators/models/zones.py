@@ -1,4 +1,4 @@
-"""ENLE and CHAN 'CONS' of models, what EXTR takes out of them, LIST."""
+"""Zones and models: sets of them, sizes of elements (TAIL), ENLE CHAN 'CONS' EXTR LIST."""
 
 from __future__ import annotations
 
@@ -6,34 +6,42 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
+from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
+from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
+from ssilang.kernel.mesh.combine import cell_keys
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.queries.quality import smallest_lengths
 from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
     Chosen,
     Entry,
+    Help,
     arg,
     by,
+    choice,
     main,
     many,
+    operator,
+    opt,
     said,
     select,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
 from ssilang.messages.message import Teller
-from ssilang.operators.dispatch import CHAN, ENLE, EXTR, listing
-
-_EXAMPLE = (
-    "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; "
-    "MO = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; "
-)
-
+from ssilang.operators.dispatch import CHAN, DIFF, ENLE, EXTR, INTE, listing
 
 _WORD = arg("word", "MOT", en="word to remove")
 
@@ -44,7 +52,6 @@ _WORD = arg("word", "MOT", en="word to remove")
     syntax="MODL2 = ENLE MODL1 'FORM' | 'COMP' MOT1 ;",
     en="Of a model: without the zones of a formulation (FORM) or a behaviour (COMP); the model "
     "itself if there are none.",
-    examples=(_EXAMPLE + "LIST (DIME (EXTR (ENLE MO 'COMP' 'PLASTIQUE') 'CONT')) ;",),
 )
 def without(call: Call, model: Model, what: Chosen | None) -> Model:
     """A model without some zones."""
@@ -66,7 +73,6 @@ def without(call: Call, model: Model, what: Chosen | None) -> Model:
     of=("MMODEL",),
     syntax="MODL2 = CHAN 'CONS' MODL1 MOT1 ;",
     en="CONS changes the constituent of a model.",
-    examples=(_EXAMPLE + "M2 = CHAN 'CONS' MO 'SOIL' ;",),
 )
 def change_constituent(call: Call, model: Model, constituent: str) -> Model:
     """Another constituent."""
@@ -160,10 +166,6 @@ def _names(kind: str, en: str) -> list[Entry]:
     "formulation, constituent or element, or the names of the components of its stresses (CONT), "
     "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
     "(GRAD), principal stresses (CONP), internal variables of a plastic law (VARI).",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "LIST (NBEL (EXTR M 'MAIL')) ; LIST (EXTR M 'CONT') ;",
-    ),
 )
 def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
@@ -195,3 +197,93 @@ def list_model(model: Any, short: bool, say: Teller) -> str:
             )
         )
     return "\n".join(lines)
+
+
+def same_zone(one: Zone, other: Zone) -> bool:
+    """Whether two zones put the same element and law on the same cells."""
+    laws = [(z.formulation, z.behaviour, z.element, z.mode, z.constituent) for z in (one, other)]
+    if laws[0] != laws[1] or one.cells.cell_type != other.cells.cell_type:
+        return False
+    if one.cells is other.cells:
+        return True
+    if len(one.cells) != len(other.cells):
+        return False
+    keys = [np.sort(cell_keys(z.cells)) for z in (one, other)]
+    return bool((keys[0] == keys[1]).all())
+
+
+def _found_in(zone: Zone, model: Model) -> bool:
+    return any(same_zone(zone, other) for other in model.zones)
+
+
+_FIRST = main("first", "MMODEL", en="model")
+_SECOND = arg("second", "MMODEL", en="other model")
+
+
+@DIFF.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 DIFF MOD2 ;", en="Of models: zones of one only.")
+def difference_of_models(first: Model, second: Model) -> Model:
+    """Zones of one of two models only."""
+    left = [z for z in first.zones if not _found_in(z, second)]
+    return Model((*left, *(z for z in second.zones if not _found_in(z, first))))
+
+
+@INTE.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 INTE MOD2 ;", en="Of models: zones that both hold.")
+def intersection_of_models(first: Model, second: Model) -> Model:
+    """Common zones of two models."""
+    common = tuple(z for z in first.zones if _found_in(z, second))
+    if not common:
+        raise MeshError("operators.models.no-common-zone")
+    return Model(common)
+
+
+_SHELLS = ("plate", "mindlin", "thick", "meridian")
+_BEAMS = ("beam", "timoshenko", "pipe")
+
+
+def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
+    """Thickness (n or 1, 1) of shells, that of the rectangle of the same gyration of beams."""
+    if family in _SHELLS:
+        return given.at("EPAI", "GRAVITE")
+    if family == "pipe":
+        given = pipe_parameters(zone, given)
+    names = [n for n in ("INRY", "INRZ") if n in given] or ["INRZ"]
+    inertia = np.max(np.broadcast_arrays(*(given.at(n, "GRAVITE") for n in names)), axis=0)
+    return np.asarray(np.sqrt(12.0 * inertia / given.at("SECT", "GRAVITE")))
+
+
+@operator(
+    "TAIL",
+    choice("what", ("DIAMETRE_MIN", "DIRECTION"), en="which size"),
+    arg("model", "MMODEL", en="model"),
+    opt("given", "MCHAML", en="thickness or section of shells and beams"),
+    family="models",
+    full_name="TAILLE",
+    help=Help(
+        "'DIAMETRE_MIN': the smallest length of each element, at its middle, component L: "
+        "between two nodes, or from a node to a side that does not hold it. It limits the time "
+        "step "
+        "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
+        "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
+        "rectangle that has the larger radius of gyration of the section.",
+        "MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
+    ),
+)
+def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:
+    """Smallest lengths of elements."""
+    if what != "DIAMETRE_MIN":
+        raise call.error("operators.models.only-diametre-min-built", model)
+    blocks = []
+    for zone in model.zones:
+        family = ELEMENTS[zone.element].family
+        if family not in (*SOLID_FAMILIES, *_SHELLS, *_BEAMS, "bar"):
+            raise call.error("operators.models.no-smallest-length", model, element=zone.element)
+        values = {"L": smallest_lengths(zone.cells)[:, None]}
+        if family in (*_SHELLS, *_BEAMS):
+            if given is None:
+                raise call.error(
+                    "operators.models.bending-elements-need-section", model, element=zone.element
+                )
+            depth = _depth(zone, zone_field(zone, given), family)
+            values["L2H"] = values["L"] ** 2 / depth
+        blocks.append(CellFieldBlock(zone.cells, values, "GRAVITE", zone.element))
+    return CellField(tuple(blocks), "CARACTERISTIQUES")

@@ -259,7 +259,7 @@ def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
 
 _FURTHER = {
     "*": "\nCHAM3 = CHAM1 * CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nSIG1 = HOO1 * EPS1 MODL1 ;",
-    "/": "\nCHAM3 = CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;",
+    "/": "\nCHAM3 = (MODL1) CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nCHAM2 = CHAM1 / EVOL1 ;",
 }
 _TEXTS = {
     "+": "Sum of two objects.",
@@ -268,16 +268,11 @@ _TEXTS = {
         "Product of two objects. Of fields with three lists of names: component by component (in "
         "cells with a factor each); of matrices of Hooke by strains, with the model: stresses."
     ),
-    "/": "Quotient; of two integers it is an integer, cut towards zero.",
-    "**": "Power.",
-}
-_EXAMPLES = {
-    "*": (
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE ; H = HOOK M (MATE M 'YOUN' 100. 'NU' 0.) ; "
-        "E = EPSI M (NOMC 'UX' (0.01 * (COOR 1 S))) ; LIST (MAXI (H * E M)) ; "
-        "LIST (MAXI (E * E (MOTS 'EPXX') (MOTS 'EPXX') (MOTS 'SQUA') (PROG 1.E4))) ;",
+    "/": (
+        "Quotient; of two integers it is an integer, cut towards zero. A field by a curve: its "
+        "values through the curve's function, as with *."
     ),
+    "**": "Power.",
 }
 for _sign, _en in _TEXTS.items():
     operator(
@@ -289,7 +284,6 @@ for _sign, _en in _TEXTS.items():
         help=Help(
             _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
             f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
-            (f"x = 6 {_sign} 3 ; LIST x ;", *_EXAMPLES.get(_sign, ())),
         ),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

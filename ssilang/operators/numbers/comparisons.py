@@ -120,7 +120,6 @@ def _register_equality(sign: str, en: str, example: str) -> None:
             "equal when closer than a tolerance (a tenth of their density at first); trailing "
             "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
             f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
-            (example,),
         ),
     )(partial(_told, sign))
 
@@ -152,8 +151,6 @@ for _sign, _en in _TEXTS.items():
         gives="LOGIQUE",
         family="comparisons",
         help=Help(
-            f"Whether the first number is {_en} than the second.",
-            f"LOG1 = VAL1 {_sign} VAL2 ;",
-            (f"SI (1 {_sign} 2) ; MESS 'yes' ; SINON ; MESS 'no' ; FINSI ;",),
+            f"Whether the first number is {_en} than the second.", f"LOG1 = VAL1 {_sign} VAL2 ;"
         ),
     )(partial(_compare_numbers, _sign))

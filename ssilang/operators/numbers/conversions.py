@@ -17,6 +17,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 def nearest(x: Any) -> Any:
@@ -56,6 +57,7 @@ def _whole(call: Call, values: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
+        range=ANY_NUMBER,
     ),
     gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
@@ -65,7 +67,6 @@ def _whole(call: Call, values: Any) -> Any:
         "cut ('TRONCATURE', by default), below ('INFERIEUR'), above ('SUPERIEUR'), nearest "
         "('PROCHE').",
         syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
-        examples=("LIST (ENTI 'PROCHE' -3.5) ;", "LIST (ENTI (PROG 1.2 2.7)) ;"),
     ),
 )
 def enti(call: Call, way: str, value: Any) -> Any:
@@ -92,6 +93,7 @@ def enti(call: Call, way: str, value: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
+        range=ANY_NUMBER,
     ),
     gives="FLOTTANT|LISTREEL",
     family="numbers",
@@ -99,7 +101,6 @@ def enti(call: Call, way: str, value: Any) -> Any:
     help=Help(
         en="Real of an integer, of each item of a list, or written in a word.",
         syntax="OBJ2 = FLOT OBJ1 ;",
-        examples=("LIST (FLOT 3) ;", "LIST (FLOT '-1.5E2') ;"),
     ),
 )
 def flot(call: Call, value: Any) -> Any:
@@ -113,13 +114,12 @@ def flot(call: Call, value: Any) -> Any:
 
 @operator(
     "VERI",
-    arg("value", "FLOTTANT", "CHPOINT", en="what is tested"),
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=ANY_NUMBER),
     family="numbers",
     help=Help(
         en="Whether a real, or all values of a field, are numbers (neither infinite nor "
         "undefined).",
         syntax="LOG1 = VERI X1 | CHPO1 ;",
-        examples=("SI (VERI 3.) ; MESS 'a number' ; FINSI ;",),
     ),
 )
 def veri(value: Any) -> bool:

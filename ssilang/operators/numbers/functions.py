@@ -17,6 +17,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import Help, Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 Function = Callable[[Any], Any]
 OPERANDS = ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")
@@ -142,7 +143,7 @@ _FUNCTIONS: dict[str, tuple[Function, str, str, str]] = {
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-_VALUE = arg("value", *OPERANDS, en="argument")
+_VALUE = arg("value", *OPERANDS, en="argument", range=ANY_NUMBER)
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
@@ -164,20 +165,18 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
         help=Help(
             _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
             f"OBJ2 = {_name} OBJ1 ;",
-            (f"LIST ({_example}) ;",),
         ),
     )(partial(_run, _name, _function))
 
 
 @operator(
     "IFRE",
-    arg("limit", "FLOTTANT", en="upper limit, in radians"),
+    arg("limit", "FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
     family="functions",
     help=Help(
         en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
         "sin(t) / sqrt(2 pi t).",
         syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
-        examples=("C S = IFRE 1.5 ; MESS C S ;",),
     ),
 )
 def ifre(limit: float) -> tuple[float, float]:
@@ -192,15 +191,14 @@ def ifre(limit: float) -> tuple[float, float]:
 
 @operator(
     "ATG",
-    arg("first", *OPERANDS, en="tangent, or numerator"),
-    opt("second", *OPERANDS, en="denominator"),
+    arg("first", *OPERANDS, en="tangent, or numerator", range=ANY_NUMBER),
+    opt("second", *OPERANDS, en="denominator", range=ANY_NUMBER),
     gives=_REALS,
     family="functions",
     help=Help(
         en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
         "between -180 and 180.",
         syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
-        examples=("LIST (ATG 1.) ;", "LIST (ATG -1. -1.) ;"),
     ),
 )
 def atg(call: Call, first: Any, second: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ssilang.language.registry import SCALAR_RULES, Help, arg, operator
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.dispatch import union
 
 
@@ -31,9 +32,7 @@ union(("LOGIQUE", "LOGIQUE"))(_both)
     arg("second", "LOGIQUE", en="another one"),
     family="comparisons",
     help=Help(
-        en="True when one of two logical values is, or both.",
-        syntax="LOG3 = LOG1 OU LOG2 ;",
-        examples=("SI (VRAI OU FAUX) ; MESS 'yes' ; FINSI ;",),
+        en="True when one of two logical values is, or both.", syntax="LOG3 = LOG1 OU LOG2 ;"
     ),
 )
 def ou(first: bool, second: bool) -> bool:
@@ -45,11 +44,7 @@ def ou(first: bool, second: bool) -> bool:
     "NON",
     arg("value", "LOGIQUE", en="logical value"),
     family="comparisons",
-    help=Help(
-        en="Negation of a logical value.",
-        syntax="LOG2 = NON LOG1 ;",
-        examples=("SI (NON FAUX) ; MESS 'yes' ; FINSI ;",),
-    ),
+    help=Help(en="Negation of a logical value.", syntax="LOG2 = NON LOG1 ;"),
 )
 def non(value: bool) -> bool:
     """Negation."""
@@ -58,14 +53,12 @@ def non(value: bool) -> bool:
 
 @operator(
     "MULT",
-    arg("first", "ENTIER", en="integer"),
-    arg("second", "ENTIER", en="divisor"),
+    arg("first", "ENTIER", en="integer", range=ANY_NUMBER),
+    arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
     family="comparisons",
     full_name="MULTIPLE",
     help=Help(
-        en="Whether the first integer is a multiple of the second.",
-        syntax="LOG1 = MULT N1 N2 ;",
-        examples=("SI (MULT 12 4) ; MESS 'yes' ; FINSI ;",),
+        en="Whether the first integer is a multiple of the second.", syntax="LOG1 = MULT N1 N2 ;"
     ),
 )
 def mult(first: int, second: int) -> bool:

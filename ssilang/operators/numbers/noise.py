@@ -20,7 +20,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -48,10 +48,6 @@ BRUI = shared(
         "a list of integers. A run repeated gives the same values; a last integer skips terms.",
         syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
         "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
-        examples=(
-            "LIST (DIME (BRUI 'BLAN' 'GAUS' 0. 1. 10)) ;",
-            "LIST (DIME (BRUI 'BLAN' 'POIS' 4 10)) ;",
-        ),
     ),
     full_name="BRUIT",
 )
@@ -75,9 +71,16 @@ def _poisson(
 @BRUI.form(
     _NOISE,
     choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law"),
-    arg("mean", "FLOTTANT", en="mean"),
+    arg("mean", "FLOTTANT", en="mean", range=ANY_NUMBER),
     arg("width", "FLOTTANT", range=NOT_NEGATIVE, en="deviation or half width"),
-    arg("where", "ENTIER", "LISTREEL", "MAILLAGE", en="number of values, times, or mesh"),
+    arg(
+        "where",
+        "ENTIER",
+        "LISTREEL",
+        "MAILLAGE",
+        en="number of values, times, or mesh",
+        range=ANY_NUMBER,
+    ),
     choice("colour", COLOURS, en="colour of the curve"),
     _SKIP,
     gives="LISTREEL|EVOLUTIO|CHPOINT",
@@ -92,8 +95,6 @@ def _continuous(
     colour: str | None,
     skip: int | None,
 ) -> Any:
-    if width < 0:
-        raise call.error("operators.numbers.negative-width", width, width=width)
     generator = session_generator(call, skip)
     if isinstance(where, int) and where < 0:
         raise call.error("operators.numbers.negative-count", where, where=where)

@@ -1,4 +1,4 @@
-"""RACP: roots of polynomials."""
+"""Roots of polynomials: RACP, DEG3 of the third degree."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ from ssilang.language.registry import (
     arg,
     flag,
     many,
+    operator,
     opt,
     said,
     shared,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 RACP = shared(
     "RACP",
@@ -26,20 +28,13 @@ RACP = shared(
         "an interval (the word VIDE if there is none).",
         syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
         "X1 = RACP 'INTE' X2 X3 LREE1 ;",
-        examples=(
-            "LIST (RACP (PROG 6. -5. 1.)) ;",
-            (
-                "R I = RACP 'IMAG' (PROG 1. 0. 1.) ; LIST R ; LIST I ;\n"
-                "LIST (RACP 'INTE' 0. 2. (PROG -2. 0. 1.)) ;"
-            ),
-        ),
     ),
     full_name="RACPOL",
 )
 _POLYNOMIAL = (
     flag("bairstow", "BAIR", en="changes nothing"),
-    opt("listed", "LISTREEL", en="coefficients by power"),
-    many("numbers", "FLOTTANT", en="coefficients, else"),
+    opt("listed", "LISTREEL", en="coefficients by power", range=ANY_NUMBER),
+    many("numbers", "FLOTTANT", en="coefficients, else", range=ANY_NUMBER),
 )
 
 
@@ -53,8 +48,8 @@ def _all_roots(
 
 @RACP.form(
     said("INTE"),
-    arg("low", "FLOTTANT", en="one end of an interval"),
-    arg("high", "FLOTTANT", en="the other end"),
+    arg("low", "FLOTTANT", en="one end of an interval", range=ANY_NUMBER),
+    arg("high", "FLOTTANT", en="the other end", range=ANY_NUMBER),
     *_POLYNOMIAL,
     gives="FLOTTANT|MOT",
 )
@@ -93,3 +88,30 @@ def _real_roots(roots: ComplexArray) -> FloatArray:
     # sqrt(machine precision)
     real = roots.real[np.abs(roots.imag) <= 1e-7 * np.maximum(np.abs(roots), 1e-12)]
     return np.sort(real)
+
+
+@operator(
+    "DEG3",
+    arg("a0", "FLOTTANT", en="constant term", range=ANY_NUMBER),
+    arg("a1", "FLOTTANT", en="factor of X", range=ANY_NUMBER),
+    arg("a2", "FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
+    arg("a3", "FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
+    family="numbers",
+    help=Help(
+        en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "
+        "real roots first, in growing order.",
+        syntax="XR1 XI1 XR2 XI2 XR3 XI3 = DEG3 A0 A1 A2 A3 ;",
+    ),
+)
+def deg3(
+    call: Call, a0: float, a1: float, a2: float, a3: float
+) -> tuple[float, float, float, float, float, float]:
+    """Roots as eigenvalues of the companion matrix."""
+    if a3 == 0.0 or not np.isfinite([a0, a1, a2, a3]).all():
+        raise call.error("operators.numbers.not-third-degree")
+    roots = np.roots([a3, a2, a1, a0])
+    small = 1e-12 * np.abs(roots).max(initial=0.0)
+    pairs = [(float(r.real), float(r.imag) if abs(r.imag) > small else 0.0) for r in roots]
+    pairs.sort(key=lambda p: (p[1] != 0.0, p[0], p[1]))
+    first, second, third = pairs
+    return (*first, *second, *third)

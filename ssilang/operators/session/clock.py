@@ -11,6 +11,7 @@ from ssilang.language.registry import Help, choice, flag, key, many, operator, o
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 
 _MONTHS = (
     "janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août", "septembre",
@@ -37,15 +38,6 @@ TEMP = shared(
         "Phrases of numbers alone run no operator.",
         syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
         "TAB1 = TEMP 'NOEC' ;",
-        examples=(
-            "TEMP 'ZERO' ; N = TEMP 'HORL' ;",
-            (
-                "TEMP 'ZERO' ; L = PROG 1. 2. ; M = PROG 3. ; T = TEMP 'NOEC' ;\n"
-                "LIST (T . 'APPELS' . 'PROG') ; LIST ((T . 'TEMPS_CPU' . 'INITIAL') >EG 0) ;\n"
-                "TEMP 'IMPR' 'APPE' ; TEMP 'SGAC' 'IMPR' ; TEMP 'SGAC' ;\n"
-                "TEMP 'IMPR' ; TEMP 'PLAC' ;"
-            ),
-        ),
     ),
     full_name="TEMPS",
 )
@@ -132,14 +124,13 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
     "DATE",
     flag("letters", "LETT"),
     choice("part", ("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
-    opt("seconds", "FLOTTANT"),
+    opt("seconds", "FLOTTANT", range=NOT_NEGATIVE),
     family="session",
     help=Help(
         en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "
         "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
         syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
         "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
-        examples=("LIST (DATE 'CONVERSION' 123456.789) ;",),
     ),
 )
 def date(call: Call, letters: bool, part: str | None, seconds: float | None) -> Any:

@@ -40,14 +40,6 @@ class Configuration:
         "with the segment between the nodes: about it by the part along it of that mean, then the "
         "shortest way to where it goes (where both nodes are at one place, by the mean).",
         syntax="(CONF2 (CAR2) =) FORM (CONF1) (CHPO1) (MODL1 CAR1) ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 0. ; C = FORM ; FORM (MANU 'CHPO' P 'UX' 2.) ; "
-            "LIST (COOR 1 P) ; FORM C ; LIST (COOR 1 P) ;",
-            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (0. 0.1) ; "
-            "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' 'LIE' ; "
-            "A = MATE M 'DIRECTION' (0. 1.) 'KN' 4. 'KS' 1. ; "
-            "C B = FORM (MANU 'CHPO' (L POIN 2) 'UX' 0.1) M A ; LIST (EXCO (MOTS 'V1X' 'V1Y') B) ;",
-        ),
     ),
 )
 def form(

@@ -10,6 +10,7 @@ from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, Stop
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ANNULE
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
@@ -21,7 +22,6 @@ from ssilang.language.values import ANNULE
     help=Help(
         en="Leaves the named loop (an outer one too) or the running procedure.",
         syntax="QUIT NOM1 ;",
-        examples=("REPE B1 ; SI (&B1 > 3) ; QUIT B1 ; FINSI ; FIN B1 ; LIST &B1 ;",),
     ),
 )
 def quitter(session: Session, name: str) -> NoReturn:
@@ -37,11 +37,7 @@ def quitter(session: Session, name: str) -> NoReturn:
     gives=(),
     family="control",
     full_name="ITERER",
-    help=Help(
-        en="Goes on with the next turn of the named loop.",
-        syntax="ITER NOM1 ;",
-        examples=("REPE B1 4 ; SI (&B1 / 2 * 2 EGA &B1) ; ITER B1 ; FINSI ; MESS &B1 ; FIN B1 ;",),
-    ),
+    help=Help(en="Goes on with the next turn of the named loop.", syntax="ITER NOM1 ;"),
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
@@ -51,7 +47,7 @@ def iterer(name: str) -> NoReturn:
 @operator(
     "ASSI",
     flag("every", "TOUS", en="not available"),
-    opt("number", "ENTIER", en="assistant, changes nothing"),
+    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
     gives=(),
     family="control",
     full_name="ASSISTANT",
@@ -59,7 +55,6 @@ def iterer(name: str) -> NoReturn:
         en="Has an assistant carry out the phrase that follows: here one process does all, so the "
         "phrase simply runs.",
         syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-        examples=("X = ASSI 2 PROG 1. 2. ; LIST X ;",),
     ),
 )
 def assi(call: Call, every: bool, number: int | None) -> None:
@@ -73,9 +68,7 @@ def assi(call: Call, every: bool, number: int | None) -> None:
     gives=(),
     family="control",
     help=Help(
-        en="Ends the run; with a name, ends the block that REPE opened.",
-        syntax="FIN ; FIN NOM1 ;",
-        examples=("MESS 'last words' ; FIN ;",),
+        en="Ends the run; with a name, ends the block that REPE opened.", syntax="FIN ; FIN NOM1 ;"
     ),
 )
 def fin() -> NoReturn:
@@ -91,7 +84,6 @@ def fin() -> NoReturn:
     help=Help(
         en="A comment up to the end of the statement; a line with * in column 1 is one too.",
         syntax="COMM ... ;",
-        examples=("COMM nothing happens here ;",),
     ),
 )
 def comm(text: tuple[Any, ...]) -> None:
@@ -123,7 +115,6 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
         en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
         "optional; without type any object is taken.",
         syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
-        examples=("DEBP ADDITION ; ARGU I*ENTIER J*ENTIER ; FINP (I + J) ; LIST (ADDITION 2 3) ;",),
     ),
     reads_itself="its items are names and types, with * or / between",
 )
@@ -156,7 +147,6 @@ def argu(call: Call) -> None:
     help=Help(
         en="Inside a procedure: gives results, delivered before those of FINP.",
         syntax="RESP OBJ1 OBJ2 ... ;",
-        examples=("DEBP DEUX ; RESP 1 ; RESP 2 ; FINP ; A B = DEUX ; LIST B ;",),
     ),
 )
 def resp(session: Session, results: tuple[Any, ...]) -> None:

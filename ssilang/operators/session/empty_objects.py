@@ -27,6 +27,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import Workspace, workspace
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
@@ -94,7 +95,14 @@ def _group(call: Call) -> list[Any] | None:
 @operator(
     "VIDE",
     flag("tabulated", "TABU", en="in a table"),
-    opt("places", "LISTENTI", "LISTREEL", "LISTMOTS", en="indices of the table, else 1, 2 ..."),
+    opt(
+        "places",
+        "LISTENTI",
+        "LISTREEL",
+        "LISTMOTS",
+        en="indices of the table, else 1, 2 ...",
+        range=ANY_NUMBER,
+    ),
     many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",
@@ -102,11 +110,6 @@ def _group(call: Call) -> list[Any] | None:
         en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
         "indices of a list); of an object that is not a word: whether it is empty.",
         syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
-        examples=(
-            "L = VIDE 'LISTREEL' ; L = L ET 3. ; LIST L ; SI (VIDE L) ; ERRE 5 ; FINSI ;",
-            "D V N A = VIDE 'DEFORME' 'VECTEUR' 'NUAGE' 'ANNOTATI' ; LIST (VIDE N) ;\n"
-            "N = N ET (NUAG 'COMP' 'X' 1. 2.) ; LIST (VIDE N) ;",
-        ),
     ),
     reads_itself="types, sub-types and numbers are joined by / and *",
 )

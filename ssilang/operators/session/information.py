@@ -12,6 +12,7 @@ from ssilang.language.say.reference import (
     procedure_page,
 )
 from ssilang.language.values import ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
 
@@ -24,7 +25,6 @@ from ssilang.operators.vocabulary.pages import help_text, near_name
         en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
         "element, a parameter, a component or an option; of another word, what help knows of it.",
         syntax="INFO NAME1 ;",
-        examples=("INFO DENS ;", "INFO JOINT_SDM ;", "INFO 'uplift' ;"),
     ),
 )
 def info(call: Call, said: str) -> None:
@@ -42,9 +42,7 @@ def info(call: Call, said: str) -> None:
     family="session",
     full_name="NOTICE",
     help=Help(
-        en="Prints the list of all operators and procedures, a line each.",
-        syntax="NOTI (MOT1) ;",
-        examples=("NOTI GIBI ;",),
+        en="Prints the list of all operators and procedures, a line each.", syntax="NOTI (MOT1) ;"
     ),
 )
 def noti(session: Session, said: str | None) -> None:
@@ -60,7 +58,6 @@ def noti(session: Session, said: str | None) -> None:
         en="List of the operators and procedures whose help contains a text; the list is printed "
         "if it is not empty.",
         syntax="LISMO1 = AIDE MOT1 ;",
-        examples=("L1 = AIDE 'EIGEN' ; LIST (DIME L1) ;",),
     ),
 )
 def aide(session: Session, said: str) -> ListMots:
@@ -85,13 +82,12 @@ SOUC = shared(
         en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
         "that level (it only grows; 0 lowers it).",
         syntax="LOG1 = SOUC ; SOUC N1 ;",
-        examples=("SOUC 2 ; LIST (SOUC) ; SOUC 0 ; LIST (SOUC) ;",),
     ),
     full_name="SOUCI",
 )
 
 
-@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag"))
+@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", range=NOT_NEGATIVE))
 def _raise_flag(session: Session, level: int) -> None:
     if level:
         session.doubt(level)

@@ -34,11 +34,7 @@ from ssilang.operators.lists.search import equal_items
     arg("value", "*", "TEXTE", en="any object"),
     family="objects",
     terminal=True,
-    help=Help(
-        en="The type of an object, as a word of 8 characters.",
-        syntax="MOT1 = TYPE OBJ1 ;",
-        examples=("SI (EGA (TYPE 3.) 'FLOTTANT') ; MESS 'a real' ; FINSI ;",),
-    ),
+    help=Help(en="The type of an object, as a word of 8 characters.", syntax="MOT1 = TYPE OBJ1 ;"),
 )
 def type_word(value: Any) -> Mot:
     """Name the type."""
@@ -61,11 +57,6 @@ def type_word(value: Any) -> Mot:
         "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
         "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
         "LOG1 = EXIS NOM1 * TYP1 ; LOG1 = EXIS MOT1 * 'FICHIER' ;",
-        examples=(
-            "T = TABL ; T . 'A' = 1 ; SI (EXIS T 'A') ; MESS 'it does' ; FINSI ;",
-            "SI (EXIS (MOTS 'UX' 'UY') 'UY') ; MESS 'it does' ; FINSI ;",
-            "A = 2. ; MESS (EXIS A * FLOTTANT) (EXIS 'none.txt' * 'FICHIER') ;",
-        ),
     ),
     gives="LOGIQUE",
     reads_itself="its first operand may be a name without object, its second any index of a table",
@@ -190,14 +181,7 @@ _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
 OUBL = shared(
     "OUBL",
     "objects",
-    Help(
-        en="Forgets a name, or an index of a table.",
-        syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
-        examples=(
-            "T = TABL ; T . 1 = 5 ; OUBL T 1 ; LIST (DIME T) ;",
-            "A = 3 ; OUBL A ; LIST (TYPE A) ;",
-        ),
-    ),
+    Help(en="Forgets a name, or an index of a table.", syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;"),
     full_name="OUBLIER",
 )
 
@@ -223,7 +207,6 @@ def _forget_name(session: Session, name: str) -> None:
     help=Help(
         en="Does nothing: memory is freed when no name holds an object any more.",
         syntax="DETR OBJ1 ;",
-        examples=("L = PROG 1. ; DETR L ;",),
     ),
 )
 def detr(objects: tuple[Any, ...]) -> None:
@@ -236,11 +219,7 @@ def detr(objects: tuple[Any, ...]) -> None:
     many("ignored", "*", "TEXTE", en="changes nothing"),
     family="objects",
     full_name="MENAGE",
-    help=Help(
-        en="Frees memory that no object uses any more.",
-        syntax="MENA ('OBLI') (N1) ;",
-        examples=("MENA ;",),
-    ),
+    help=Help(en="Frees memory that no object uses any more.", syntax="MENA ('OBLI') (N1) ;"),
 )
 def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
@@ -259,7 +238,6 @@ def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     help=Help(
         en="Gives an object a name that is written or computed: the content of a word counts.",
         syntax="NOMM NOM1 OBJ1 ;",
-        examples=("REPE B 2 ; NOMM (CHAI 'L' &B) (PROG &B) ; FIN B ; LIST L2 ;",),
     ),
 )
 def nomm(call: Call, name: Any, value: Any) -> None:
@@ -286,7 +264,6 @@ def nomm(call: Call, name: Any, value: Any) -> None:
         en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
         "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
         syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
-        examples=("DEBM POSE X*ENTIER ; %VAL = X ; FINM ; O = OBJE POSE 5 ; LIST (O%VAL + 1) ;",),
     ),
     reads_itself="the constructor reads its arguments itself",
 )
@@ -305,15 +282,7 @@ def obje(call: Call) -> tuple[Any, ...]:
     arg("method", "PROCEDUR", en="what it does"),
     family="objects",
     full_name="METHODE",
-    help=Help(
-        en="Gives an object a method under a name.",
-        syntax="OBJ1%METHODE NOM1 METH1 ;",
-        examples=(
-            "DEBM NAIT ; %N = 0 ; %METHODE AJOUTE PLUSUN ; FINM ; "
-            "DEBM PLUSUN ; %N = %N + 1 ; FINM %N ; "
-            "O = OBJE NAIT ; LIST (O%AJOUTE) ;",
-        ),
-    ),
+    help=Help(en="Gives an object a method under a name.", syntax="OBJ1%METHODE NOM1 METH1 ;"),
 )
 def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None:
     """Attach a method."""
@@ -328,14 +297,7 @@ def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None
     many("objects", "OBJET", en="heir, unless it is the present object, and whose methods it gets"),
     family="objects",
     full_name="HERITE",
-    help=Help(
-        en="Gives an object all the methods of another one.",
-        syntax="OBJ1%HERITE OBJ2 ;",
-        examples=(
-            "DEBM A ; %METHODE DIT SALUT ; FINM ; DEBM SALUT ; MESS 'hello' ; FINM ; "
-            "DEBM B ; %X = 1 ; FINM ; P = OBJE A ; Q = OBJE B ; Q%HERITE P ; Q%DIT ;",
-        ),
-    ),
+    help=Help(en="Gives an object all the methods of another one.", syntax="OBJ1%HERITE OBJ2 ;"),
 )
 def heri(call: Call, objects: tuple[Objet, ...]) -> None:
     """Inherit methods."""

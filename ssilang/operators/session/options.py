@@ -19,6 +19,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.session.option_files import include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE, Workspace, workspace
@@ -300,7 +301,6 @@ def _donn(call: Call, word: str) -> None:
         syntax="OPTI 'DIME' N1 'MODE' MODE1 (MODE2) 'ELEM' TYPE1 'DENS' FLOT1 'COUL' COUL1 ... ;\n"
         "OPTI 'TRAC' UNITE 'FTRA' FICHIER ; OPTI 'SORT' FICHIER ; OPTI 'SAUV' FICHIER ; "
         "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ; OPTI 'UNIT' SYSTEME ;",
-        examples=("OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; LIST (VALE 'DIME') ;",),
     ),
     gives=(),
     reads_itself="each option reads its value, a word even where a variable bears its name",
@@ -380,10 +380,6 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
         en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic, 'ERMA' the "
         "largest number of the errors that did not stop the run (OPTI ERRE IGNORE), 0 without any.",
         syntax="VAL1 = VALE MOT1 ; N1 = VALE 'ERMA' ;",
-        examples=(
-            "OPTI DIME 3 ; N = VALE 'DIME' ; LIST N ;",
-            "OPTI ERRE IGNORE ; ERRE 21 ; MESS (VALE 'ERMA') ;",
-        ),
     ),
 )
 def vale(call: Call, said: str, harmonic: bool) -> Any:
@@ -416,13 +412,12 @@ def _worst_error(call: Call) -> int:
 
 @operator(
     "DENS",
-    arg("size", "FLOTTANT", en="mesh size", unit="m"),
+    arg("size", "FLOTTANT", en="mesh size", unit="m", range=POSITIVE),
     family="mesh",
     full_name="DENSITE",
     help=Help(
         en="Sets the mesh size that points made from now on carry (as OPTI DENS does).",
         syntax="DENS FLOT1 ;",
-        examples=("OPTI DIME 2 ; DENS 0.5 ; LIST (VALE 'DENS') ;",),
     ),
 )
 def dens(session: Session, call: Call, size: float) -> None:

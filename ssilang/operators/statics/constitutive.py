@@ -22,15 +22,9 @@ from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.language.registry import Help, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import MODEL
-
-_BAR = (
-    "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
-    "M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BARR ; "
-    "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ; "
-)
 
 
 def _strains_of(zone: Zone, field: CellField) -> FloatArray:
@@ -109,11 +103,6 @@ _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
         "(strains, parameters), one field with the stresses, internal variables and inelastic "
         "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
         syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
-        examples=(
-            _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; Z = ZERO M 'DEFORMATIONS' ; "
-            "C = COMP M (A ET Z) (A ET (EPSI M U)) ; LIST (MAXI (EXCO 'EFFX' C)) ; "
-            "LIST (MAXI (EXCO 'EISS' C)) ;",
-        ),
     ),
 )
 def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
@@ -140,9 +129,9 @@ _FLOW = (
     arg("strain", "MCHAML", en="step of strain"),
     _MATERIAL,
     opt("extra", "TABLE", en="gets SUCCES"),
-    opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding"),
+    opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding", range=ANY_NUMBER),
     flag("alone", "NOID", en="accepted, changes nothing"),
-    opt("count", "ENTIER", en="accepted, changes nothing"),
+    opt("count", "ENTIER", en="accepted, changes nothing", range=ANY_NUMBER),
 )
 
 
@@ -190,11 +179,6 @@ for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
             "internal variables at the end and the step of inelastic strain. Joints take the step "
             "of jump; their open points start from the largest opening.",
             syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
-            examples=(
-                _BAR + "U = MANU 'CHPO' L 1 'UX' (PROG 0. 5.E-3) ; "
-                f"S V E = {_name} M (ZERO M 'CONTRAINTES') (ZERO M 'VARINTER') (EPSI M U) A ; "
-                "LIST (MAXI S) ;",
-            ),
         ),
     )(_flow)
 
@@ -227,7 +211,7 @@ _STATE = (
     key(
         "precision",
         "PREC",
-        arg("precision", "FLOTTANT"),
+        arg("precision", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="distance to the surface, a share of the stress; 1.E-3 without it",
     ),
@@ -237,7 +221,7 @@ _STATE = (
         arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         en="accepted: no law here has a viscosity",
     ),
-    opt("number", "FLOTTANT", en="the same as PREC"),
+    opt("number", "FLOTTANT", en="the same as PREC", range=POSITIVE),
 )
 _SYMMETRIC = flag("symmetric", "SYME", en="symmetric part")
 
@@ -297,18 +281,6 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
         "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
         syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
         "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "K = KTAN M S (ZERO M 'VARINTER') A ; LIST (TYPE K) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;\n"
-                "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ;\n"
-                "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'SECT' 1. ;\n"
-                "S = (ZERO M 'CONTRAIN') ET (ZERO M 'VARINTER') ET (ZERO M 'DEFORMAT') ET A ;\n"
-                "E = (MANU 'CHML' M 'EPSS' 1.E-3 'TYPE' 'DEFORMATIONS' 'STRESSES') ET A ;\n"
-                "LIST (TYPE (KTAN 'PERT' M S E)) ;"
-            ),
-        ),
     ),
 )
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
@@ -325,11 +297,16 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     key(
         "share",
         "C1",
-        arg("share", "FLOTTANT"),
+        arg("share", "FLOTTANT", range=POSITIVE),
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
     ),
-    key("least", "C2", arg("least", "FLOTTANT"), en="least perturbation, C1 / 100 without it"),
+    key(
+        "least",
+        "C2",
+        arg("least", "FLOTTANT", range=POSITIVE),
+        en="least perturbation, C1 / 100 without it",
+    ),
     _SYMMETRIC,
 )
 def perturbed(
@@ -344,8 +321,6 @@ def perturbed(
     """Stiffness of a step, by perturbing its strain."""
     model, step = present(call, model), _Step(start, end)
     smallest = share / 100.0 if least is None else least
-    if share <= 0.0 or smallest <= 0.0:
-        raise call.error("operators.statics.perturbation-not-positive")
     tangents = [(_by_differences(z, step, share, smallest), not has_law(z)) for z in model.zones]
     return _tangent_matrix(model, tangents, joined((step.end, step.start)), symmetric)
 
@@ -374,10 +349,6 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
         en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
         "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
         syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "H = HOTA M S (ZERO M 'VARINTER') A ; LIST (EXTR H 'COMP') ;",
-        ),
     ),
 )
 def hota(call: Call, **state: Any) -> CellField:
@@ -397,10 +368,6 @@ def hota(call: Call, **state: Any) -> CellField:
         "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
         "Drucker-Prager laws, joints.",
         syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "LIST (MAXI (CRIT M S (ZERO M 'VARINTER') A)) ;",
-        ),
     ),
 )
 def crit(call: Call, **state: Any) -> CellField:
@@ -427,10 +394,6 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
         "the hardening slope where a point has yielded and stands on the surface (to a precision, "
         "1.E-3), Young's modulus elsewhere.",
         syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
-        examples=(
-            _BAR + "S = MANU 'CHML' M 'EFFX' 1.5 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-            "LIST (MAXI (MOTA M S (ZERO M 'VARINTER') A)) ;",
-        ),
     ),
 )
 def mota(call: Call, **state: Any) -> CellField:

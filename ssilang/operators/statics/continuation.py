@@ -1,4 +1,4 @@
-"""Loads on a structure followed along the arc length (procedure CONTINU)."""
+"""Loads on a structure followed along the arc length; ZCON: both problems of CONTINU."""
 
 from __future__ import annotations
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from ssilang.kernel.plasticity.arc_length import ArcTrace
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.language.registry import Help, arg, operator
+from ssilang.language.run.call import Call
+from ssilang.operators.modal.continuation import continue_harmonics
 
 REFUSED = {
     "PROCEDURE_CHARMECA": "operators.statics.no-followers",
@@ -117,3 +120,19 @@ def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
         asked.table.set(Mot("RESULTATS"), ListReel(y))
         drawn = curve(x, y, ("t", asked.component), asked.title, asked.colour)
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)
+
+
+@operator(
+    "ZCON",
+    arg("table", "TABLE", en="table of CONTINU"),
+    family="modal",
+    help=Help(
+        en="Continuation of the table of CONTINU, which is the procedure to call.",
+        syntax="ZCON TAB1 ;",
+    ),
+)
+def zcon(call: Call, table: Table) -> None:
+    """Harmonic balance where 'HBM' says so, else loads on a structure."""
+
+    entries = Entries(call, table, "CONTINU")
+    (continue_harmonics if entries.flag("HBM") else continue_loads)(entries)

@@ -40,13 +40,6 @@ from ssilang.operators.statics.stresses import (
     on_zones,
 )
 
-_SQUARE = (
-    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
-    "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2. 'NU' 0.3 ; "
-    "X Y = COOR S ; U = (NOMC 'UX' (0.5 * X) 'NATU' 'DIFFUS') ET (NOMC 'UY' (0. * Y) 'NATU' "
-    "'DIFFUS') ; "
-)
-
 
 def _solid(zone: Zone, name: str) -> None:
     if not is_solid(zone):
@@ -77,10 +70,6 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
         "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
         "stretch; both are fields of gradients.",
         syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
-        examples=(
-            _SQUARE + "R V = POLA M (GRAD M U) 'DEPL' ; LIST (MAXI (EXCO 'UX,X' V)) ; "
-            "LIST (MAXI (EXCO 'UX,X' R)) ;",
-        ),
     ),
 )
 def pola(
@@ -136,7 +125,6 @@ def _carried(
         "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
         "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
         syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-        examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (PICA M (SIGM 'QUAD' M A U) U))) ;",),
     ),
 )
 def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
@@ -153,7 +141,6 @@ def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellFie
         "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
         "one that follows the matter; 'UTIL' changes nothing.",
         syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-        examples=(_SQUARE + "LIST (MAXI (EXCO 'SMXX' (CAPI M (SIGM M A U) U))) ;",),
     ),
 )
 def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
@@ -176,7 +163,6 @@ _STRESS_AND_GRADIENT = many(
         "elements; in bars, beams and flat shells that of the forces along the line or surface "
         "(EFFX; N11 N22 N12), per length or surface.",
         syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
-        examples=(_SQUARE + "LIST (INTG M (WORK M (SIGM M A U) (GRAD M U))) ;",),
     ),
 )
 def work_of(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
@@ -220,7 +206,6 @@ def _stress_and_gradient(
         "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
         "N11 N22 N12).",
         syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
-        examples=(_SQUARE + "LIST (MAXI (FOFI M (SIGM M A U) (GRAD M U))) ;",),
     ),
 )
 def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
@@ -246,7 +231,6 @@ def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     help=Help(
         en="Transposed field of gradients: UX,Y and UY,X change places.",
         syntax="GRAD1 = TAGR GRAD2 ;",
-        examples=(_SQUARE + "LIST (MAXI (EXCO 'UX,X' (TAGR (GRAD M U)))) ;",),
     ),
 )
 def tagr(call: Call, gradient: CellField) -> CellField:

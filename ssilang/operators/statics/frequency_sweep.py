@@ -36,19 +36,6 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
     help=Help(
         en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
         syntax="ZFRE TAB1 ;",
-        examples=(
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; G = MANU 'POI1' P ;\n"
-                "M = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'VOIGT' (MOTS 'UX') ;\n"
-                "A = MATE M 'RAID' 400. 'VISC' 12. 'MASS' 4. ; OPTI MODE FREQ ;\n"
-                "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;\n"
-                "T . 'AMORTISSEMENT' = AMOR M A ;\n"
-                "F = MANU 'CHPO' P 1 'FX' 2. 'NATURE' 'DISCRET' ;\n"
-                "T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 100.) (PROG 1. 1.)) ;\n"
-                "T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;\n"
-                "LIST (EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P) ;"
-            ),
-        ),
     ),
 )
 def zfre(call: Call, table: Table) -> None:

@@ -1,6 +1,8 @@
-"""Initial stresses that the initial displacement does not explain, and the loads they make."""
+"""Initial stresses of PASAPAS that displacements do not explain; matrices of linear zones."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
@@ -9,6 +11,8 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.operators.statics.pasapas_results import Stresses
 
 NEGLIGIBLE = 1e-12  # of the largest stress: rounding of a calculation that goes on
@@ -59,3 +63,22 @@ def offset_load(offsets: dict[int, CellFieldBlock], zones: Zones) -> list[NodeFi
         vectors = family.force_vectors(zone, values, zone_field(zone, material))
         forces.append(family.layout(zone).scatter(vectors))
     return forces
+
+
+def linear_blocks(
+    zones: list[tuple[Zone, CellField]],
+    kind: str,
+    make: Callable[[Zone, CellField], ElementMatrices],
+) -> list[ElementMatrices]:
+    """What `make` gives for each zone, and one block for all MODAL and STATIQUE ones.
+
+    Parameters
+    ----------
+    kind : str
+        'RIGIDITE', 'MASSE' or 'AMORTISSEMENT'.
+    """
+    blocks = [make(z, m) for z, m in zones if not is_shape(z)]
+    if any(is_shape(z) for z, _ in zones):
+        shapes = shape_matrix(tuple(z for z, _ in zones), zones[0][1], kind)
+        blocks += [] if shapes is None else [shapes]
+    return blocks

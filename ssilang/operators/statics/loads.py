@@ -42,6 +42,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.statics.stresses import MODEL
@@ -80,15 +81,6 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
         "coordinates are the components, given before the place) or named components FX FY FZ "
         "(FR FZ FT in axisymmetry).",
         syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ; LIST (EXTR F 'FY' P) ;",
-            "OPTI DIME 2 ; P = 0. 0. ; F = FORC 'FX' 3. 'FY' -2. P ; LIST F ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ;\n"
-                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
-                "T . 1 . 'DDL_LIAISON' = 'FX' ; FORC T ; LIST (T . 1 . 'FORCE') ;"
-            ),
-        ),
     ),
 )
 def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -100,7 +92,7 @@ def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     key(
         "values",
         FORCES,
-        arg("value", "FLOTTANT", unit="N"),
+        arg("value", "FLOTTANT", unit="N", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
@@ -136,10 +128,6 @@ def unit_forces(call: Call, table: Table) -> None:
         en="Nodal field of a moment, shared equally by the nodes of a place: a vector in space, "
         "or named components MX MY MZ (MT in axisymmetry).",
         syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 0. 0. ; F = MOME 'MZ' 5. P ; LIST (EXTR F 'MZ' P) ;",
-            "OPTI DIME 3 ; P = 0 0 0 ; F = MOME (0 0 5) P ; LIST F ;",
-        ),
     ),
 )
 def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
@@ -154,7 +142,7 @@ def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     key(
         "values",
         MOMENTS,
-        arg("value", "FLOTTANT", unit="N m"),
+        arg("value", "FLOTTANT", unit="N m", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
@@ -173,6 +161,7 @@ _PRESSURE = arg(
     "FLOTTANT",
     en="pressure, by its number or as a field",
     unit="Pa",
+    range=ANY_NUMBER,
 )
 _OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: accepted, change nothing")
 _FACES = opt("faces", "MAILLAGE", en="sides")
@@ -188,7 +177,7 @@ _FACES = opt("faces", "MAILLAGE", en="sides")
         group(
             "named",
             arg("name", "MOT", en="name of the component, for a model CHARGEMENT"),
-            arg("value", "FLOTTANT", "MCHAML", en="pressure", unit="Pa"),
+            arg("value", "FLOTTANT", "MCHAML", en="pressure", unit="Pa", range=ANY_NUMBER),
             _FACES,
         ),
     ),
@@ -208,30 +197,6 @@ _FACES = opt("faces", "MAILLAGE", en="sides")
         "FOR1 = PRES 'SHB8' MODL1 | VAL1 | CHPO1 'INTERNE' | 'EXTERNE' ;\n"
         "FOR1 = PRES 'TUYA' MODL1 CAR1 ;\n"
         "CHAM2 = PRES MODL1 | MOT1 VAL1 (GEO1) | CHAM1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ; "
-            "S = TRAN 1 L (0. 1.) ; M = MODE S MECANIQUE ELASTIQUE ; "
-            "F = PRES 'MASS' M 3. L ; LIST (MAXI (RESU F)) ;",
-            (
-                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
-                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
-                "'DKT' ;\n"
-                "F = PRES 'COQU' M 6. 'NORM' ; LIST (MAXI (RESU F)) ;\n"
-                "F = PRES 'COQU' M 6. 'POIN' (0. 0. -1.) ; LIST (MINI (RESU F)) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM CUB8 ;\n"
-                "V = ((DROI 1 (0 0 0) (1 0 0)) TRAN 1 (0 1 0)) VOLU 1 'TRAN' (0 0 0.1) ;\n"
-                "F = PRES 'SHB8' (MODE V 'MECANIQUE' 'ELASTIQUE' 'SHB8') 6. 'INTE' ;\n"
-                "LIST (MAXI (RESU F)) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM SEG2 ;\n"
-                "M = MODE (DROI 1 (0 0 0) (1 0 0)) 'MECANIQUE' 'ELASTIQUE' 'TUYA' ;\n"
-                "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.01 'RAYO' 0.11 'PRES' 1.E5 ;\n"
-                "F = PRES 'TUYA' M A ; LIST (MAXI F) ;"
-            ),
-        ),
     ),
 )
 def pres(call: Call, model: Model, kind: str | None, load: Chosen) -> NodeField | CellField:
@@ -371,22 +336,6 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
         syntax="FOR1 = FSUR 'MASS' MODL1 | VEC1 GEO1 | CHPO1 (CAR1) ;\n"
         "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 (CAR1) ;\n"
         "FOR1 = FSUR 'POUT' MODL1 | VEC1 | CHPO1 ('PROJ' VEC2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (2 0) ; M = MODE L MECANIQUE ELASTIQUE POUT "
-            "; F = FSUR 'POUT' M (0. -3.) ; LIST (MAXI (RESU F)) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "L = DROI 2 (0. 0.) (2. 0.) ;\n"
-                "M = MODE (L TRAN 1 (0. 1.)) 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "F = FSUR 'MASS' M (0. -3.) L ; LIST (MINI (RESU F)) ;"
-            ),
-            (
-                "OPTI DIME 3 MODE TRID ELEM TRI3 ;\n"
-                "M = MODE (MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0)) 'MECANIQUE' 'ELASTIQUE'\n"
-                "'DKT' ;\n"
-                "F = FSUR 'COQU' M (0 0 -6) ; LIST (MINI (RESU F)) ;"
-            ),
-        ),
     ),
 )
 def fsur(
@@ -437,15 +386,10 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
     _THICKNESS,
     family="load",
     help=Help(
-        en="Nodal forces of a force per volume in continuous elements: nodal field or field in "
-        "cells with components FX FY FZ (weight, centrifugal force ...). CAR1 gives the "
-        "thickness DIM3 in plane stress.",
+        en="Nodal forces of a force per volume in continuous elements and shells DKT COQ3 COQ4: "
+        "nodal field or field in cells with components FX FY FZ (weight, centrifugal force ...). "
+        "CAR1 gives the thickness EPAI of shells, DIM3 in plane stress.",
         syntax="FOR1 = CNEQ MODL1 | CHPO1 | CHAM1 (CAR1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
-            "M = MODE S MECANIQUE ELASTIQUE ; G = MANU 'CHPO' S 1 'FY' -9.81 ; "
-            "F = CNEQ M G ; LIST (MAXI 'ABS' (RESU F)) ;",
-        ),
     ),
 )
 def cneq(model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]) -> NodeField:

@@ -35,27 +35,12 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, Range
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 
 _SPACE = ("CHPOINT", "MCHAML")
 _HELD = ("CHPOINT", "MCHAML", "MMODEL", "MAILLAGE", "RIGIDITE", "POINT")
-_EXAMPLE = (
-    "OPTI DIME 2 ; P = 0. 0. ; F = MANU 'CHPO' P 'FY' -10. 'NATURE' 'DISCRET' ; "
-    "E = EVOL 'MANU' (PROG 0. 2.) (PROG 0. 1.) ; C = CHAR 'MECA' F E ; "
-)
 
-# A square stepped through time by PASAPAS, pressed on its upper side or strained from within.
-_STEPPED = (
-    "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = (0. 0.) DROI 2 (1. 0.) ; "
-    "S = L TRAN 2 (0. 1.) ;\n"
-    "M = MODE S MECANIQUE ; N = MODE (COTE 3 S) CHARGEMENT PRESSION ;\n"
-    "E = EVOL MANU (PROG 0. 1.) (PROG 0. 1.) ; T = TABL ;\n"
-    "T . MODELE = {models} ; T . CARACTERISTIQUES = MATE M YOUN 1.E6 NU 0. ;\n"
-    "T . BLOCAGES_MECANIQUES = (BLOQ UY L) ET (BLOQ UX (POIN 1 L)) ;\n"
-    "T . TEMPS_CALCULES = PROG 0. 1. ;\n"
-    "T . CHARGEMENT = {load} ;\n"
-    "PASAPAS T ; LIST ({found} (T . DEPLACEMENTS . 1) AVEC (MOTS UY)) ;"
-)
 
 _NAME = opt("name", "MOT", en="name, of 4 characters")
 _LINK = choice("link", ("LIE", "LIBR"), en="follows the matter or not: the same here")
@@ -69,7 +54,7 @@ _PATH = group(  # behind the name, which may be this word
 @operator(
     "CHAR",
     _NAME,
-    arg("held", *_HELD, en="field, or what is loaded"),
+    arg("held", *_HELD, en="field, or what is loaded", range=ANY_NUMBER),
     opt("curve", "EVOLUTIO", en="factor in time, 1 without it"),
     _LINK,
     _MOVES,
@@ -83,23 +68,6 @@ _PATH = group(  # behind the name, which may be this word
         "join by ET.",
         syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
         "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
-        examples=(
-            _EXAMPLE + "LIST (EXTR (TIRE C 1.) 'FY' P) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; T = TABL ; U = TABL ;\n"
-                "T . 0 = 0. ; T . 1 = 2. ; U . 0 = FORC (0. 0.) P ; U . 1 = FORC (0. -3.) P ;\n"
-                "LIST (TIRE (CHAR 'MECA' T U) 1. 'MECA') ;"
-            ),
-            _STEPPED.format(
-                models="M ET N", load="CHAR 'PRES' (PRES N 'PRES' 100.) E", found="MINI"
-            ),
-            _STEPPED.format(
-                models="M",
-                load="CHAR 'DEFI' (MANU CHML M EPXX 0. EPYY 2.E-3 EPZZ 0. GAXY 0. "
-                "TYPE DEFORMATIONS STRESSES) E",
-                found="MAXI",
-            ),
-        ),
     ),
 )
 def char(
@@ -188,17 +156,13 @@ def char_in_steps(
 
 @char.form(
     _NAME,
-    arg("times", "LISTREEL", en="times", unit="s"),
+    arg("times", "LISTREEL", en="times", unit="s", range=Range(increasing=True)),
     arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each"),
     _LINK,
     _MOVES,
     _PATH,
     syntax="CHAR1 = CHAR (MOT1) LREE1 LOBJ1 ;",
     en="The same by a list of times and a list of objects (ENUM, SUIT).",
-    examples=(
-        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
-        "LIST (TIRE (CHAR 'MECA' (PROG 0. 2.) L) 1. 'MECA') ;",
-    ),
 )
 def char_in_lists(
     call: Call,
@@ -260,7 +224,7 @@ def part_at(part: LoadPart, time: float) -> Any:
 
 
 _LOAD = arg("load", "CHARGEME", en="loading")
-_TIME = arg("time", "FLOTTANT", en="time", unit="s")
+_TIME = arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
 
 
 @operator(
@@ -275,14 +239,6 @@ _TIME = arg("time", "FLOTTANT", en="time", unit="s")
         en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
         "names ('TABL').",
         syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
-        examples=(
-            _EXAMPLE + "LIST (TIRE C 0.5 'MECA') ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; F = FORC (0. -3.) P ;\n"
-                "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;\n"
-                "T = TIRE (CHAR 'MECA' F E) 0.5 'TABL' ; LIST (MINI (T . 'MECA')) ;"
-            ),
-        ),
     ),
 )
 def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
@@ -323,7 +279,7 @@ def _named(call: Call, load: Load, names: list[str]) -> tuple[LoadPart, ...]:
 
 
 _MAIN = main("load", "CHARGEME", en="loading")
-_NUMBER = opt("place", "ENTIER", default=1, en="number of the part")
+_NUMBER = opt("place", "ENTIER", default=1, en="number of the part", range=POSITIVE)
 _PART = arg("name", "MOT", en="name of parts")
 
 
@@ -363,11 +319,6 @@ _PART = arg("name", "MOT", en="name of parts")
     "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
     en="Of a loading: a part by number or name, its field, its curve, its times and objects "
     "('LREE', 'LOBJ'), the names of all parts.",
-    examples=(
-        _EXAMPLE + "LIST (EXTR C 'COMP') ;",
-        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -3.) P) ;\n"
-        "C = CHAR 'MECA' (PROG 0. 2.) L ; LIST (EXTR C 'LREE') ; LIST (DIME (EXTR C 'LOBJ' 1)) ;",
-    ),
 )
 def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     """A part of a loading, by a word."""

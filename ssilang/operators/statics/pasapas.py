@@ -34,6 +34,7 @@ from ssilang.operators.dynamics.reports import (
     warn_resolution,
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
+from ssilang.operators.modal.stepped_links import stepped_links
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
 from ssilang.operators.statics.bodies import (
@@ -43,8 +44,7 @@ from ssilang.operators.statics.bodies import (
     plastic_bodies,
     warn_of_strains,
 )
-from ssilang.operators.statics.initial_stress import offset_load, stress_offsets
-from ssilang.operators.statics.linear_zones import linear_blocks
+from ssilang.operators.statics.initial_stress import linear_blocks, offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
@@ -83,6 +83,10 @@ def zpas(call: Call, table: Table) -> None:
     warn_of_loads(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
+    if stepped_links(entries, times, saved):
+        entries.table.set(Mot("CONV"), True)
+        entries.table.set(Mot("ERREUR"), False)
+        return
     work = entries
     if entries.flag("PROCEDURE_PERSO1"):
         work = Entries(call, working_table(entries.table), "PASAPAS")

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
-from ssilang.kernel.contact.friction import Friction
+from ssilang.kernel.contact.friction_rows import Friction
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field

@@ -20,6 +20,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import solver_of, workspace
@@ -32,16 +33,26 @@ _WORDS = (
     flag("bilateral", "NOUNIL", en="unilateral conditions are equalities"),
     flag("stabilise", "STAB", en="add to the diagonal what makes the matrix positive"),
     flag("plain", "NOSTAB", en="accepted: the default"),
-    key("passes", "ELIM", arg("passes", "ENTIER"), en="0 keeps all conditions in a saddle point"),
+    key(
+        "passes",
+        "ELIM",
+        arg("passes", "ENTIER", range=NOT_NEGATIVE),
+        en="0 keeps all conditions in a saddle point",
+    ),
     key(
         "first",
         "INIB",
         arg("conditions", "RIGIDITE", en="conditions"),
-        arg("active", "LISTENTI", en="active ones"),
+        arg("active", "LISTENTI", en="active ones", range=ANY_NUMBER),
         en="first guess of the active conditions: accepted, found without it",
     ),
 )
-_PRECISION = opt("precision", "FLOTTANT", en="accepted: the solution is refined to rounding anyway")
+_PRECISION = opt(
+    "precision",
+    "FLOTTANT",
+    en="accepted: the solution is refined to rounding anyway",
+    range=ANY_NUMBER,
+)
 _LOADS = many("loads", "CHPOINT", at_least=1, en="second members")
 
 
@@ -161,22 +172,6 @@ RESO = operator(
         "('ELIM' N1) ;\n"
         "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
         "LCHPO2 = RESO RIG1 LCHPO1 ;\n(TAB2 =) RESO RIG1 TAB1 ;  (LIAISONS_STATIQUES)",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
-            " B1 = BLOQ 'MAXI' 'UX' P1 ; F1 = DEPI B1 0.02 ; F2 = FORC 'FX' 5. P1 ;"
-            " U1 = RESO (R1 ET B1) (F1 ET F2) ; LIST (EXTR U1 'UX' P1) ;",
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UY' 2. P) ;\n"
-                "F = FORC (2. 3.) P ; L = RESO K (SUIT F F) ; LIST (MAXI (EXTR L 2)) ;\n"
-                "U N M = RESO 'ENSE' K F ; LIST N ;"
-            ),
-            (
-                "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'UX' 'UY' 4. P ;\n"
-                "T = TABL 'LIAISONS_STATIQUES' ; T . 1 = TABL ; T . 1 . 'POINT_LIAISON' = P ;\n"
-                "T . 1 . 'DDL_LIAISON' = 'UX' ; B = BLOQ T ; DEPI T ;\n"
-                "RESO (K ET B) T ; REAC B T ; LIST (EXTR (T . 1 . 'REACTION') 'FX' P) ;"
-            ),
-        ),
     ),
 )(_reso)
 
@@ -281,14 +276,6 @@ operator(
         "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
         "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
         "CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
-        (
-            "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; R1 = APPU 'UX' 100. P1 ;"
-            " B1 = BLOQ 'UX' P1 ; U1 = RESO (R1 ET B1) (FORC 'FX' 5. P1) ;"
-            " LIST (EXTR (REAC B1 U1) 'FX' P1) ;",
-            "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; R1 = APPU 'UX' 100. P2 ; B1 = BLOQ 'UX' P1 ;"
-            " B2 = RELA 'UX' P2 - 'UX' P1 ; U1 = RESO (R1 ET B1 ET B2) (FORC 'FX' 5. P2) ;"
-            " LIST (EXTR (REAC B2 U1) 'FX' P1) ; LIST (EXTR (REAC (B1 ET B2) U1) 'FX' P1) ;",
-        ),
     ),
 )(_reac)
 
@@ -306,6 +293,5 @@ operator(
         "Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
         "zero if it is stable.",
         "N1 = DIAG RIG1 ;",
-        ("OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; LIST (DIAG (APPU 'UX' -3. P1)) ;",),
     ),
 )(_diag)

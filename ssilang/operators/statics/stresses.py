@@ -9,7 +9,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import pressure_vectors, total
 from ssilang.kernel.elements.loads.thermal import thermal_strain
-from ssilang.kernel.elements.results.second_order import green_strain, green_stress
+from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -18,13 +18,6 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.language.registry import Help, arg, choice, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
-
-_BAR = (
-    "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 1 P Q ; "
-    "M = MODE L MECANIQUE ELASTIQUE BARR ; A = MATE M 'YOUN' 2.E11 'NU' 0.3 'SECT' 0.01 ; "
-    "U = MANU 'CHPO' L 1 'UX' (PROG 0. 1.E-3) ; "
-)
-
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""
@@ -98,7 +91,6 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
         "(local axes), SMSN SMN in joints. 'QUAD' adds the strains of second order. Hooke "
         "matrices may stand for the parameters.",
         syntax="SIG1 = SIGM ('NOER') ('LINE' | 'QUAD') MODL1 MAT1 (CAR1) DEP1 ;",
-        examples=(_BAR + "LIST (MAXI (SIGM M A U)) ;",),
     ),
 )
 def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> CellField:
@@ -136,7 +128,6 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
         "gradients F ('GEOM') or F - 1 ('DEPL') instead: the strain ln(F^T F) / 2.",
         syntax="EPS1 = EPSI ('LINE' | 'QUAD') MODL1 DEP1 (CAR1) ('NOER') ;\n"
         "EPS1 = EPSI MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
-        examples=(_BAR + "LIST (MAXI (EPSI M U)) ;",),
     ),
 )
 def epsi(
@@ -179,7 +170,6 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
         "The small springs by which RIGI holds the rotation of shells about their normal (1.E-5 of "
         "the bending stiffness) have no stress: their moments are missing here.",
         syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
-        examples=(_BAR + "F = BSIG M (SIGM M A U) ; LIST (EXTR F 'FX' Q) ;",),
     ),
 )
 def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) -> NodeField:
@@ -200,7 +190,6 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     help=Help(
         en="Elastic stresses of strains, or strains of stresses, whichever the first field holds.",
         syntax="CHAM2 = ELAS MODL1 CHAM1 MAT1 (CAR1) ;",
-        examples=(_BAR + "LIST (MAXI (ELAS M (EPSI M U) A)) ;",),
     ),
 )
 def elas(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
@@ -249,17 +238,6 @@ def _state(model: Model, field: CellField) -> str:
         "normal's side): a parabola across the thickness, of which thin shells take the mean "
         "(TINF + 4 T + TSUP) / 6 and the curvature ALPH (TSUP - TINF) / EPAI.",
         syntax="EPS1 = EPTH MODL1 MAT1 | CHPO1 | CHAM1 ;",
-        examples=(
-            _BAR + "B = A ET (MATE M 'ALPH' 1.E-5) ; T = MANU 'CHPO' L 1 'T' 100. ; "
-            "LIST (MAXI (EPTH M B T)) ;",
-            (
-                "OPTI DIME 3 MODE TRID ELEM TRI3 ; S = MANU 'TRI3' (0 0 0) (1 0 0) (0 1 0) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'DKT' ;\n"
-                "A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' 0.1 'ALPH' 1.E-5 ;\n"
-                "E = EPTH M A (MANU 'CHPO' S 'TINF' 10. 'T' 20. 'TSUP' 30.) ;\n"
-                "LIST (MAXI (EXCO 'EPTT' E)) ; LIST (MAXI (EXCO 'RTSS' E)) ;"
-            ),
-        ),
     ),
 )
 def epth(call: Call, model: Model, fields: Fields) -> CellField:
@@ -293,10 +271,6 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
         en="Stresses D ALPH (T - TALP) of the thermal strains of a temperature T: to be taken off "
         "the stresses of SIGM; BSIG of them gives the thermal load.",
         syntax="SIG1 = THET MODL1 MAT1 | CHPO1 | CHAM1 ;",
-        examples=(
-            _BAR + "B = A ET (MATE M 'ALPH' 1.E-5) ; T = MANU 'CHPO' L 1 'T' 100. ; "
-            "F = BSIG M (THET M B T) ; LIST (EXTR F 'FX' Q) ;",
-        ),
     ),
 )
 def thet(call: Call, model: Model, fields: Fields) -> CellField:

@@ -1,11 +1,14 @@
-"""TABL INDE OTER and tables in DIME, ENLE, COPI; tables of type VECTEUR in sums."""
+"""TABL INDE OTER ETG and tables in DIME, ENLE, COPI; tables of type VECTEUR in sums."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from ssilang.kernel.base.errors import NoResultError
+from ssilang.kernel.mesh.combine import gathered
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
+    ANY,
     Help,
     arg,
     flag,
@@ -21,7 +24,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
-from ssilang.operators.dispatch import COPI, DIME, ENLE
+from ssilang.operators.dispatch import COPI, DIME, ENLE, united
 from ssilang.operators.numbers.arithmetic import rule
 
 TABL = shared(
@@ -31,10 +34,6 @@ TABL = shared(
         en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
         "table, under a further name.",
         syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
-        examples=(
-            "T = TABL ; T . 'A' = 3 ; T . 2 = 'x' ; LIST T ;",
-            "T = TABL ; T . 1 = 5 ; S = TABL T ; S . 1 = 7 ; LIST (T . 1) ;",
-        ),
     ),
     full_name="TABLE",
 )
@@ -57,10 +56,6 @@ INDE = shared(
         en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
         "of the named objects of that type, by name.",
         syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
-        examples=(
-            "T = TABL ; T . 'A' = 3 ; I = INDE T ; LIST (I . 1) ;",
-            "A = 3 ; B = 'YES' ; T = INDE *'ENTIER' ; LIST (TYPE T) ;",
-        ),
     ),
     full_name="INDEX",
 )
@@ -92,11 +87,7 @@ def _named(call: Call, star: bool, said: str) -> Table:
     return made
 
 
-@DIME.form(
-    main("table", "TABLE", en="table"),
-    en="Of a table: its number of indices.",
-    examples=("T = TABL ; T . 1 = 2. ; LIST (DIME T) ;",),
-)
+@DIME.form(main("table", "TABLE", en="table"), en="Of a table: its number of indices.")
 def _size(table: Table) -> int:
     return len(table)
 
@@ -106,7 +97,6 @@ def _size(table: Table) -> int:
     arg("index", "*", "TEXTE", en="index to leave out"),
     syntax="TAB2 = ENLE TAB1 OBJ1 ;",
     en="Of a table: a new table without an index.",
-    examples=("T = TABL ; T . 1 = 5 ; T . 2 = 6 ; LIST (DIME (ENLE T 1)) ;",),
 )
 def _without(call: Call, table: Table, index: Any) -> Table:
     if not table.has(index):
@@ -128,7 +118,6 @@ def copied(table: Table) -> Table:
     main("table", "TABLE", en="table"),
     syntax="TAB2 = COPI TAB1 ;",
     en="Of a table: a new table with the same values; what it gets is its own.",
-    examples=("T = TABL ; U = COPI T ; U . 1 = 2 ; LIST (DIME T) ;",),
 )
 def _copy(table: Table) -> Table:
     return copied(table)
@@ -171,14 +160,36 @@ for _kind in ("ENTIER", "FLOTTANT"):
     arg("table", "TABLE", en="table"),
     arg("index", en="index to remove"),
     family="tables",
-    help=Help(
-        en="Removes an index from a table, in place.",
-        syntax="OTER TAB1 OBJ1 ;",
-        examples=("T = TABL ; T . 1 = 2. ; OTER T 1 ; LIST (DIME T) ;",),
-    ),
+    help=Help(en="Removes an index from a table, in place.", syntax="OTER TAB1 OBJ1 ;"),
 )
 def oter(call: Call, table: Table, index: Any) -> None:
     """Forget an index."""
     if not table.has(index):
         raise call.error("no-index", index, index=index, known=[k for k, _ in table.items()])
     table.remove(index)
+
+
+@operator(
+    "ETG",
+    arg("table", "TABLE", en="objects at 1, 2 ..."),
+    gives=ANY,
+    family="objects",
+    help=Help(
+        en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
+        "...: PART makes such tables. A mesh gets the cells in the order of the table.",
+        syntax="OBJ2 = ETG TAB1 ;",
+    ),
+)
+def etg(call: Call, table: Table) -> Any:
+    """Union of a table's objects."""
+    if table.subtype != "ESCLAVE":
+        raise call.error("operators.tables.wrong-subtype", table, subtype=table.subtype)
+    values = [v for index, v in table.items() if type(index) is int]
+    if not values:
+        raise call.error("operators.tables.empty-table", table)
+    if all(isinstance(v, Mesh) for v in values):
+        return gathered([v for v in values if isinstance(v, Mesh)])
+    total = values[0]
+    for value in values[1:]:
+        total = united(call, total, value, call.span)
+    return total

@@ -28,6 +28,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
@@ -315,14 +316,6 @@ LIST = shared(
         "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
         "behind a procedure: the line, or the first and the last line.",
         syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
-        examples=(
-            "LIST (PROG 1. 2. 3.) ;",
-            "X = 3 ; LIST *ENTIER ;",
-            "T = TABL ; T . 1 = TABL ; T . 1 . 'A' = 3. ; LIST T 1 ;",
-            "LIST *'ENTIER' ; A = 3 ; LIST ;",
-            "LIST 'RESU' ;",
-            "I = 2 ; T = TEXT I 'TIMES' 3 ; LIST T ;",
-        ),
     ),
     full_name="LISTE",
     terminal=True,
@@ -351,7 +344,12 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
 @LIST.form(
     flag("brief", "RESU", en="less of it"),
     arg("value", "*", "TEXTE", en="what is printed"),
-    many("numbers", "ENTIER", en="values in a line, depth of tables, or first and last line"),
+    many(
+        "numbers",
+        "ENTIER",
+        en="values in a line, depth of tables, or first and last line",
+        range=ANY_NUMBER,
+    ),
 )
 def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
     session.print(described(value, session.told, brief, numbers))

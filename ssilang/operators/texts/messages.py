@@ -9,6 +9,7 @@ from ssilang.language.registry import Help, arg, choice, key, many, operator, op
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, between
 from ssilang.messages.message import Sentence, find
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
@@ -22,7 +23,6 @@ from ssilang.operators.workspace import workspace
     help=Help(
         en="Prints words and numbers on one line, written as CHAI writes them.",
         syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-        examples=("X = 2. ; MESS 'x = ' X ;", "MESS 'count' 12*20 ;"),
     ),
     reads_itself=TEXT_IS_FREE,
 )
@@ -83,22 +83,27 @@ ERRE = shared(
         "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
         "goes on.",
         syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-        examples=(
-            "SI (1 > 2) ; ERRE 'one is not larger than two' ; FINSI ;",
-            "ERRE -21 ; MESS 'goes on' ;",
-            "ERRE 'stdlib.impedsol-no-radiation' 'VERTICAL' 'DISQUE' ; MESS 'goes on' ;",
-        ),
     ),
     full_name="ERREUR",
 )
 
 
 @ERRE.form(
-    arg("number", "ENTIER", en="number of the message"),
+    arg("number", "ENTIER", en="number of the message", range=ANY_NUMBER),
     key(
         "values",
         "AVEC",
-        many("values", "MOT", "ENTIER", "FLOTTANT", "LOGIQUE", "LISTMOTS", "LISTENTI", "LISTREEL"),
+        many(
+            "values",
+            "MOT",
+            "ENTIER",
+            "FLOTTANT",
+            "LOGIQUE",
+            "LISTMOTS",
+            "LISTENTI",
+            "LISTREEL",
+            range=ANY_NUMBER,
+        ),
         default=(),
         en="what completes the message",
     ),
@@ -123,6 +128,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         "FLOTTANT",
         "LOGIQUE",
         en="what completes a sentence of the library",
+        range=ANY_NUMBER,
     ),
 )
 def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
@@ -134,19 +140,13 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
 
 @operator(
     "SAUT",
-    opt("count", "ENTIER", default=1, en="number of lines"),
+    opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
     choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
-    help=Help(
-        en="Prints blank lines ('PAGE': one).",
-        syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
-        examples=("SAUT 2 'LIGN' ; MESS 'below' ;",),
-    ),
+    help=Help(en="Prints blank lines ('PAGE': one).", syntax="SAUT (N1) 'LIGN' | 'PAGE' ;"),
 )
 def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
-    if not 0 <= count <= _BLANK_LINES:
-        raise call.error("operators.texts.blank-lines", count, most=_BLANK_LINES, found=count)
     for _ in range(1 if what == "PAGE" else count):
         call.session.print("")
 
@@ -159,7 +159,6 @@ def saut(call: Call, count: int, what: str | None) -> None:
     help=Help(
         en="Sets the title of the pictures and curves made from now on.",
         syntax="TITR OBJ1 (OBJ2 ...) ;",
-        examples=("TITR 'Settlement of the footing' ;",),
     ),
     reads_itself=TEXT_IS_FREE,
 )

@@ -16,6 +16,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.progressions import check_length
@@ -37,6 +38,7 @@ TEXT = (
         "FLOTTANT",
         "LOGIQUE",
         en="what is written, each with a column if one is given",
+        range=ANY_NUMBER,
     ),
 )
 """What `read_text` reads."""
@@ -148,10 +150,6 @@ def filling(values: Sequence[Any]) -> dict[str, object]:
         "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
         "end of what is written already.",
         syntax="MOT1 = CHAI ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-        examples=(
-            "N = 3 ; M = CHAI 'case ' N ; MESS M ;",
-            "MESS (CHAI 'FORMAT' '(F8.3)' 'x' 2.5*20) ;",
-        ),
     ),
     reads_itself=TEXT_IS_FREE,
 )
@@ -169,7 +167,6 @@ def chai(call: Call) -> Mot:
     help=Help(
         en="A word, also when it is the name of an operator or a procedure.",
         syntax="MOT1 = MOT MOT2 ;",
-        examples=("M = MOT 'LIST' ; LIST M ;",),
     ),
 )
 def mot(text: Mot | Procedure) -> Any:
@@ -183,7 +180,6 @@ def mot(text: Mot | Procedure) -> Any:
     gives=Like("text"),
     syntax="MOT2 = CHAN 'MAJU' | 'MINU' MOT1 ;",
     en="MAJU and MINU change the case of a word.",
-    examples=("MESS (CHAN 'MAJU' 'abc') ;",),
 )
 def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
     change = str.upper if word == "MAJU" else str.lower
@@ -194,7 +190,7 @@ def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
 
 @EXTR.form(
     main("text", "MOT", en="word"),
-    arg("places", "LISTENTI", en="places of its characters"),
+    arg("places", "LISTENTI", en="places of its characters", range=POSITIVE),
 )
 def _letters(call: Call, text: str, places: ListEnti) -> Mot:
     return Mot("".join(_letter(call, text, int(i)) for i in places.values))
@@ -202,12 +198,11 @@ def _letters(call: Call, text: str, places: ListEnti) -> Mot:
 
 @EXTR.form(
     main("text", "MOT", en="word"),
-    arg("first", "ENTIER", en="first character"),
-    opt("last", "ENTIER", en="last character, the end by default"),
+    arg("first", "ENTIER", en="first character", range=POSITIVE),
+    opt("last", "ENTIER", en="last character, the end by default", range=POSITIVE),
     syntax="MOT2 = EXTR MOT1 N1 (N2) ; MOT2 = EXTR MOT1 LISTENTI1 ; TAB1 = EXTR 'TYPE1' ;",
     en="Of a word: characters N1 to N2 (to the end without N2). With a type word alone: table of "
     "all named objects of that type.",
-    examples=("MESS (EXTR 'abcdef' 2 4) ;",),
 )
 def _extract_word(call: Call, text: str, first: int, last: int | None) -> Mot:
     end = len(text) if last is None else last
@@ -244,11 +239,7 @@ def _named(call: Call, kind: str) -> Table:
     return found
 
 
-@DIME.form(
-    main("text", "MOT", en="word"),
-    en="Of a word: its number of characters.",
-    examples=("LIST (DIME 'abc') ;",),
-)
+@DIME.form(main("text", "MOT", en="word"), en="Of a word: its number of characters.")
 def _length(text: str) -> int:
     return len(text)
 

@@ -69,8 +69,9 @@ _USUAL = {
     "impedance": ("ELASTIQUE", "IMPEDANCE", "ELASTIQUE"),
     "contact": ("UNILATERAL",),
     "pressure": ("PRESSION",),
+    "link": ("POINT_PLAN",),
 }
-_FORMULATION = {"contact": "CONTACT", "pressure": "CHARGEMENT"}
+_FORMULATION = {"contact": "CONTACT", "pressure": "CHARGEMENT", "link": "LIAISON"}
 
 
 def samples_of_element(element: str) -> Iterator[Zone]:

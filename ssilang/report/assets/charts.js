@@ -19,12 +19,13 @@ const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9
 /* A curve whose abscissas go back and forth. */
 const loop = (u, i) => {
   const [xs, ys] = u.data[i], sx = u.series[i].facets[0].scale, sy = u.series[i].facets[1].scale;
-  const path = new Path2D();
+  const path = new Path2D(), points = u.series[i].alone, r = 3 * devicePixelRatio;
   let pen = false;
   for (let k = 0; k < xs.length; k++) {
     if (xs[k] == null || ys[k] == null) { pen = false; continue; }
     const x = u.valToPos(xs[k], sx, true), y = u.valToPos(ys[k], sy, true);
-    if (pen) path.lineTo(x, y); else path.moveTo(x, y);
+    if (points) { path.moveTo(x + r, y); path.arc(x, y, r, 0, 2 * Math.PI); }
+    else if (pen) path.lineTo(x, y); else path.moveTo(x, y);
     pen = true;
   }
   u.ctx.save();
@@ -75,7 +76,7 @@ function draw(figure) {
   if (chart.loop) {
     plot = new uPlot({ ...common, mode: 2, legend: { show: chart.lines.length > 1, live: false },
       cursor: { ...common.cursor, points: { show: false }, dataIdx: () => null },
-      series: [null, ...chart.lines.map((line, i) => ({ label: line.name, stroke: stroke(i),
+      series: [null, ...chart.lines.map((line, i) => ({ label: line.name, stroke: stroke(i), alone: line.points,
         facets: [{ scale: "x", auto: true }, { scale: "y", auto: true }], paths: loop }))] },
       [null, ...chart.lines.map(line => [line.x, line.y])], place);
     plot.setScale("x", { min: whole.x[0], max: whole.x[1] });
@@ -85,7 +86,8 @@ function draw(figure) {
       ? uPlot.join(chart.lines.map(line => [line.x, line.y])) : [chart.lines[0].x, chart.lines[0].y];
     plot = new uPlot({ ...common, series: [{ label: chart.x, value: (u, v) => shown(v) },
       ...chart.lines.map((line, i) => ({ label: line.name, stroke: stroke(i), width: 1.4,
-        spanGaps: true, value: (u, v) => shown(v), points: { show: line.x.length < 40 } }))] },
+        spanGaps: true, value: (u, v) => shown(v), ...(line.points ? { paths: () => null } : {}),
+        points: { show: line.points || line.x.length < 40 } }))] },
       data, place);
   }
   figure.plot = plot;

@@ -6,9 +6,9 @@ import pytest
 from lsprotocol import types as lsp
 from pygls.workspace import TextDocument, Workspace
 
-from ssilang.cli.editor.completion import completions
 from ssilang.cli.editor.server import make_server
 from ssilang.cli.run import run_text
+from ssilang.cli.terminal.repl import completions
 
 
 @pytest.fixture(scope="module")

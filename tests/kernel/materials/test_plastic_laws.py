@@ -299,3 +299,65 @@ def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
     wanted = np.sqrt(2 / 3 * np.einsum("mij,mij->m", tensor, tensor))
     assert (wanted > 1e-4).mean() > 0.5
     np.testing.assert_allclose(after.variables[:, 0], wanted, rtol=1e-6, atol=1e-12)
+
+
+ALL = {**GIVEN, **FIBRES}
+OTHER_CURVE = Curve((CurvePart(np.array([0.0, 0.004, 0.05]), np.array([1.5, 1.9, 4.0])),))
+OTHER_SOIL = Curve((CurvePart(np.array([5e-4, 3e-3, 1e-2]), np.array([1.0, 0.8, 0.5])),))
+
+
+def unlike(name: str, m: int) -> PointParameters:
+    """Points of which each has its own parameters, and one of two curves, in no order."""
+    random = np.random.default_rng(11)
+    values = {"YOUN": 1000.0, "NU": 0.3, **ALL[name]}
+    arrays = {n: float(v) * random.uniform(0.95, 1.05, m) for n, v in values.items()}
+    which = np.array([1, 0, 0, 1, 0] * m)[:m]
+    # all points of nested surfaces have as many
+    soils = [SOIL, OTHER_SOIL]
+    return PointParameters(arrays, {"ECRO": ([CURVE, OTHER_CURVE], which), "GGAM": (soils, which)})
+
+
+@pytest.mark.parametrize("name", list(ALL))
+def test_points_have_each_their_own_answer(name: str) -> None:
+    m = 7
+    p = unlike(name, m)
+    law = law_at(PLASTIC_LAWS[name], p)
+    stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
+    alone = [(np.zeros((1, 6)), variables[:1])] * m
+    for step in (*steps(7), *steps(8)):
+        found = law.respond(p, stress, step[:m], variables)
+        for i in range(m):
+            one = p.at(np.array([i]))
+            alike = law_at(PLASTIC_LAWS[name], one)
+            own = alike.respond(one, alone[i][0], step[i : i + 1], alone[i][1])
+            alone[i] = (own.stress, own.variables)
+            np.testing.assert_allclose(found.stress[i], own.stress[0], rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose(found.variables[i], own.variables[0], rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose(found.tangent[i], own.tangent[0], rtol=1e-6, atol=1e-6)
+        stress, variables = found.stress, found.variables
+    assert (variables[:, 0] != 0).any()
+
+
+@pytest.mark.parametrize("name", list(GIVEN))
+def test_work_is_stored_or_lost_and_never_won(name: str) -> None:
+    """Elastic and locked energy grow by no more than the work, at each fine step of any path."""
+    p, fine = unlike(name, M), 100
+    law = law_at(PLASTIC_LAWS[name], p)
+    stress, variables = np.zeros((M, 6)), np.zeros((M, len(law.variables)))
+
+    def stored() -> np.ndarray:
+        own = p.elastic_energy(stress)
+        return own if law.locked is None else own + law.locked(p, stress, variables)
+
+    before, lost, moved = stored(), np.zeros(M), np.zeros(M)
+    for step in (*steps(1), *(-1.4 * s for s in steps(2)), *steps(4)):
+        for _ in range(fine):
+            found = law.respond(p, stress, step / fine, variables)
+            work = 0.5 * np.vecdot(found.stress + stress, step / fine)
+            stress, variables = found.stress, found.variables
+            after = stored()
+            gone = work - (after - before)
+            moved += np.abs(work)
+            assert (gone >= -2e-4 * moved - 1e-12).all()
+            before, lost = after, lost + gone
+    assert (lost > 0.05 * moved).mean() > 0.3

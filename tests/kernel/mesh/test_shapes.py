@@ -24,7 +24,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
-from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.constrained import delaunay_mesh, refined_triangles
 from ssilang.kernel.mesh.volumes.block import fill_block
 
 X, Y, Z = np.eye(3)

@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.families import family_of, stress
-from ssilang.kernel.plasticity.finite_meridian import finite_plane_shell
+from ssilang.kernel.plasticity.finite import finite_plane_shell
 
 SHELLS = """
 OPTI DIME 2 MODE PLAN {mode} ELEM SEG2 ;

@@ -55,6 +55,62 @@ def test_a_word_that_is_no_condition_is_told_apart_from_a_value(fails, condition
     assert fails(f"SI {condition} ; FINSI ;") == code
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "SA = STRU 1. 2. ; x = 3 ;",
+        "SA = 2 * (STRU 1.) ; x = 3 ;",
+        "SA SB = STRU 1. ; x = 3 ;",
+        "SA = STRU 1. ; SA = 4 ; x = SA - 1 ;",
+        "SA = 1 ; REPE b 3 ; SA = STRU 1. ; FIN b ; x = 3 ;",
+        "DEBP P A*ENTIER ; SA = FLUX A ; B = A + 1 ; FINP B ; x = P 2 ;",
+        "SA = STRU 1. ; DEBP P ; SA = 3 ; FINP SA ; x = P ;",
+    ],
+)
+def test_what_is_not_built_stops_nothing_that_does_not_read_it(run, text):
+    script = run(text)
+    (warning,) = script.result.session.warnings
+    assert (warning.code, warning.span.text in ("STRU", "FLUX")) == ("not-built-yet", True)
+    assert script["x"] == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("SA = STRU 1. ;\n x = 3 ;\n MESS SA ;", 3),
+        ("SA = STRU 1. ;\n x = SA + 1 ;", 2),
+        ("SA = 5 ;\n SA = STRU 1. ;\n x = 2 * (SA + 1) ;", 3),
+        ("SA = STRU 1. ;\n T = TABL ;\n x = T . SA ;", 3),
+        ("SA = STRU 1. ;\n SI SA ; x = 1 ; FINSI ;", 2),
+        ("SA = STRU 1. ;\n REPE b SA ; FIN b ;", 2),
+        ("SA = STRU 1. ;\n DEBP P A*ENTIER ; FINP A ;\n x = P SA ;", 3),
+        ("DEBP P ; SA = STRU 1. ;\n FINP SA ;\n x = P ;", 2),
+    ],
+)
+def test_what_is_not_built_is_refused_at_its_own_place_where_it_is_read(text, line):
+    done = run_text(text)
+    (error,) = done.errors
+    assert (done.exit_code, error.code, error.span.text) == (1, "unknown-operator", "STRU")
+    assert f"SA, which it should give, is read at line {line}" in done.message
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["STRU 1. ;", "SA = STRV 1. ;", "T = TABL ; T . 1 = STRU 1. ;", "STRUC = 1 ; X = STRUD 1 ;"],
+)
+def test_what_does_something_or_is_misspelt_is_refused_at_once(fails, text):
+    assert fails(text) == "unknown-operator"
+
+
+def test_names_that_hold_nothing_are_neither_saved_nor_listed(run):
+    script = run(
+        "SB = 2 ; SA = STRU 1. ; OPTI SAUV 'a.sauv' ; SAUV ; OUBL SB ; LIST ;"
+        "OPTI REST 'a.sauv' ; REST ; x = SB ;"
+    )
+    assert not any("SA " in line for line in script.lines)
+    assert script["x"] == 2
+
+
 def test_blocks_nest(run):
     text = (
         "x = 0 ; SI VRAI ; SI FAUX ; x = 1 ; SINON ; REPE b 2 ; x = x + 10 ; FIN b ; FINSI ;"
@@ -64,7 +120,9 @@ def test_blocks_nest(run):
 
 
 def test_nothing_in_a_skipped_branch_is_evaluated(run):
-    run("SI FAUX ; y = UNKNOWNOP 1 2 ; z = 1 / 0 ; FINSI ;")
+    text = "x = 1 ; SI FAUX ; x = UNKNOWNOP 1 2 ; x = 1 / 0 ; MESS 'met' ; SINON ; y = 2 ; FINSI ;"
+    script = run(text)
+    assert (script["x"], script["y"], script.lines) == (1, 2, [])
 
 
 @pytest.mark.parametrize("words", ["'SI' VRAI ; x = 1 ; 'FINSI'", "si VRAI ; x = 1 ; finsi",

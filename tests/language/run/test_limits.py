@@ -53,16 +53,16 @@ def test_extreme_scripts_end_in_a_message(fails, text, code):
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("text", "x"),
     [
-        "SI VRAI ; " * 1000 + "FINSI ; " * 1000,
-        "x = " + "1 + " * 5000 + "1 ;",
-        "t = TABL ; t . 1 = t ; u = t . 1 . 1 . 1 ;",
+        ("SI VRAI ; " * 1000 + "x = 3 ; " + "FINSI ; " * 1000, 3),
+        ("x = " + "1 + " * 5000 + "1 ;", 5001),
+        ("t = TABL ; t . 1 = t ; t . 2 = 7 ; u = t . 1 . 1 . 1 ; x = u . 2 ;", 7),
     ],
     ids=["nested SI", "long sum", "table in itself"],
 )
-def test_large_scripts_run(run, text):
-    run(text)
+def test_large_scripts_run(run, text, x):
+    assert run(text)["x"] == x
 
 
 def test_a_very_long_line_is_shown_around_its_error(tmp_path):

@@ -34,12 +34,14 @@ def test_a_label_of_a_check_may_begin_as_an_operator_does(run):
 
 
 @pytest.mark.parametrize(
-    "script",
-    ["X Y = 2 5 ;", "OPTI DIME 2 ; P = (0,5) ;", "L = LECT 1,2,3 ;", "L = LECT 2, 5 ;",
-     "MESS 'sizes 2,5' ;", "* 2,5\nX = 1 ;", "COMM 2,5 ;", "X = 1 ; FIN ; 2,5"],
+    ("script", "said"),
+    [("X Y = 2 5 ; MESS X Y ;", "25"), ("OPTI DIME 2 ; P = (0,5) ; MESS (ENTI (COOR 2 P)) ;", "5"),
+     ("L = LECT 1,2,3 ; MESS (EXTR L 3) ;", "3"), ("L = LECT 2, 5 ; MESS (DIME L) ;", "2"),
+     ("MESS 'sizes 2,5' ;", "sizes 2,5"), ("* 2,5\nX = 1 ; MESS X ;", "1"),
+     ("COMM 2,5 ; MESS 4 ;", "4"), ("X = 1 ; MESS X ; FIN ; 2,5", "1")],
 )  # fmt: skip
-def test_commas_that_separate_are_none_of_a_decimal(script, run):
-    run(script)
+def test_commas_that_separate_are_none_of_a_decimal(script, said, run):
+    assert [line.strip() for line in run(script).lines if line.strip()] == [said]
 
 
 @pytest.mark.parametrize("script", ["X = 2,5 ;", "L = PROG 1. -2,5 ;", "X = (2,5E3 * 2) ;"])

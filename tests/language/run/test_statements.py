@@ -11,7 +11,8 @@ def test_results_go_to_the_names_from_left_to_right(run):
 
 
 def test_a_result_without_a_name_is_dropped(run):
-    run("1 + 2 ;")
+    script = run("x = 5 ; 1 + 2 ; y = 4 ;")
+    assert (script["x"], script["y"]) == (5, 4)
 
 
 def test_a_result_in_excess_is_an_error(fails):

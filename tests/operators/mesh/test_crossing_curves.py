@@ -90,7 +90,7 @@ def test_sizes_grade_the_curve_and_lines_are_continued():
         ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 0.) B ;", "touch"),
         ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 3.) (0. 5. 0.) ;", "away from"),
         ("L = A INTE 5 'SPHE' (0. 0. 0.) B ;", "two surfaces"),
-        ("L = A INTE 5 'LONG' -1. 'SPHE' (0. 0. 0.) 'PLAN' (-1. 0. 0.) B ;", "positive"),
+        ("L = A INTE 5 'LONG' -1. 'SPHE' (0. 0. 0.) 'PLAN' (-1. 0. 0.) B ;", "length > 0"),
     ],
 )
 def test_curves_that_are_none_are_refused(text, said):

@@ -96,8 +96,8 @@ def test_refined_intervals_of_different_sizes_grade_into_each_other():
 
 
 def test_refining_wants_a_part_and_a_size():
-    assert "one part at least" in refused("L = RAFF (PROG 0. 1.) 0 ;")
-    assert "positive" in refused("L = RAFF (PROG 0. 1.) -0.5 ;")
+    assert "number != 0" in refused("L = RAFF (PROG 0. 1.) 0 ;")
+    assert "size > 0" in refused("L = RAFF (PROG 0. 1.) -0.5 ;")
 
 
 def test_raff_cuts_cells_and_ties_what_hangs():

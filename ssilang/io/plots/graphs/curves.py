@@ -14,8 +14,7 @@ from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.graphs.bars import draw_bars
 from ssilang.io.plots.graphs.differences import differences
-from ssilang.io.plots.graphs.line import Line
-from ssilang.io.plots.graphs.line_style import DASHES, LineStyle
+from ssilang.io.plots.graphs.line_style import DASHES, Line, LineStyle
 from ssilang.io.plots.graphs.periods import add_periods
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade

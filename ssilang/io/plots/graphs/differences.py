@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.io.plots.graphs.line import Line
+from ssilang.io.plots.graphs.line_style import Line
 
 # of the range of the curve they are measured from: the pen hides less than the first share, and
 # curves further away than the second are told apart without help

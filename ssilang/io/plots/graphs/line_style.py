@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from ssilang.io.errors import OutputError
 
@@ -95,3 +98,18 @@ def _marker(words: list[str]) -> dict[str, object]:
         else:
             raise OutputError("io.no-marker", word=word, markers=MARKERS)
     raise OutputError("io.marq-no-marker", markers=MARKERS)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One curve ready to draw."""
+
+    number: int
+    x: np.ndarray[Any, np.dtype[np.float64]]
+    y: np.ndarray[Any, np.dtype[np.float64]]
+    colour: str
+    name: str
+    style: LineStyle
+    width: float
+    codes: Any = None
+    kind: str = ""

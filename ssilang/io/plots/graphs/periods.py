@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.io.plots.graphs.line import Line
+from ssilang.io.plots.graphs.line_style import Line
 from ssilang.kernel.curves.curve import CurvePart
 
 if TYPE_CHECKING:

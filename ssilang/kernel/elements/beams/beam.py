@@ -16,6 +16,7 @@ from ssilang.kernel.elements.beams.beam_frame import (
     kept_rows,
     section_rigidities,
 )
+from ssilang.kernel.elements.beams.fibre_section import section_of_beam
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     ElementFamily,
@@ -296,3 +297,34 @@ def _end_forces(section: Section, frame: BeamFrame, zone: Zone) -> FloatArray:
     K = keep(local_stiffness(section, frame.lengths), zone) @ frame.rotation(zone)
     m = len(kept_rows(zone))
     return np.stack([-K[:, :m], K[:, m:]], axis=2)
+
+
+class FibreBeam(Timoshenko):
+    """Timoshenko beam whose rigidities are those of its fibres, about its line."""
+
+    def section(self, zone: Zone, parameters: ZoneField) -> Section:
+        """Rigidities of the section without what couples forces and moments."""
+        return Section(np.diag(section_of_beam(parameters).rigidity)[None])
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Full matrix (1, 1, s, s)."""
+        rows = np.array(kept_rows(zone))
+        found: FloatArray = section_of_beam(parameters).rigidity[rows[:, None], rows][None, None]
+        return found
+
+    def linear_mass(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, FloatArray]:
+        """Mass per length (n_cells,) and mass moments per length (n_cells, 3) about the line."""
+        mass, n = section_of_beam(parameters).mass, len(zone.cells)
+        return np.full(n, mass[0, 0]), np.tile(np.diag(mass)[3:], (n, 1))
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """Linear interpolation; fibres off the line tie translations to rotations."""
+        frame = beam_frame(zone, parameters)
+        pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6
+        local = np.kron(pair, section_of_beam(parameters).mass) * frame.lengths[:, None, None]
+        return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
+
+    def _squared_radii(self, zone: Zone, parameters: ZoneField) -> FloatArray:
+        if "MODS" not in parameters:
+            return np.zeros((len(zone.cells), 2))
+        return np.tile(section_of_beam(parameters).squared_radii, (len(zone.cells), 1))

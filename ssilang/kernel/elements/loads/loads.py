@@ -17,11 +17,12 @@ from ssilang.kernel.elements.boundary import (
     require_parents,
     zones_of_faces,
 )
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.supports import nodal_of_cells
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, chunks
+from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.solids.solid import integration_weights, zone_geometry
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
@@ -333,7 +334,7 @@ def body_force(
     Raises
     ------
     MeshError
-        If the model holds elements that are not continuous.
+        If the model holds elements that are neither continuous nor plates (DKT, COQ3, COQ4).
     """
     wanted = {n for zone in model.zones for n in force_names(zone)}
     blocks = [density] if isinstance(density, NodeField) else density.blocks
@@ -351,11 +352,17 @@ def body_force(
 def _body_force(
     zone: Zone, density: NodeField | CellField, material: CellField | None
 ) -> NodeField:
-    if not is_solid(zone):
-        raise MeshError("kernel.elements.volume-forces-continuous-elements", element=zone.element)
     names = force_names(zone)
     forces = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, len(names)))
     parameters = zone_field(zone, material)
+    if ELEMENTS[zone.element].family in ("plate", "mindlin"):
+        shapes = shape_functions(zone.cells.cell_type, support_rule(zone.element, "MASSE").points)
+        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (len(zone.cells),))
+        w = family_of(zone).weights(zone, parameters, "MASSE") * h[:, None]
+        values = _density_values(zone, density, names, shapes, slice(0, len(zone.cells)))
+        return _scatter(zone, zone.cells, np.einsum("cp,cpd,pk->ckd", w, values, shapes))
+    if not is_solid(zone):
+        raise MeshError("kernel.elements.volume-forces-continuous-elements", element=zone.element)
     for cells in chunks(len(zone.cells)):
         geometry = zone_geometry(zone, "MASSE", cells)
         w = integration_weights(zone, geometry, parameters, "MASSE", cells)

@@ -1,15 +1,28 @@
-"""Integrals of fields in cells, cell by cell."""
+"""Integrals of fields, cell by cell; strains and stresses with terms of second order."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.beams.bar import bar_stretch
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
+from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.solids.gradients import second_order_strain
 from ssilang.kernel.elements.zone_fields import carry, zone_field
-from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
+
+# what the line or middle surface of a family is multiplied by
+_ACROSS = dict.fromkeys(("bar", "beam", "timoshenko", "pipe"), "SECT") | dict.fromkeys(
+    ("plate", "mindlin", "meridian"), "EPAI"
+)
 
 
 def integrals(
@@ -20,8 +33,8 @@ def integrals(
     Parameters
     ----------
     material : CellField, optional
-        With it beams and bars are integrated over their volume (SECT), plane stress over its
-        thickness (DIM3); without it over their line or surface.
+        With it beams, bars and shells are integrated over their volume (SECT, EPAI), plane stress
+        over its thickness (DIM3); without it over their line or surface.
     """
     seen = zone_field(zone, field)
     if name not in seen:
@@ -32,6 +45,31 @@ def integrals(
     parameters = zone_field(zone, material)
     weights = family_of(zone).weights(zone, parameters, target)
     total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
-    if material is not None and ELEMENTS[zone.element].family in ("bar", "beam", "timoshenko"):
-        total = total * np.broadcast_to(parameters.at("SECT", "GRAVITE")[:, 0], total.shape)
+    family = ELEMENTS[zone.element].family
+    across = _ACROSS.get(family)
+    if material is not None and across is not None:
+        if family == "pipe":
+            parameters = pipe_parameters(zone, parameters)
+        total = total * np.broadcast_to(parameters.at(across, "GRAVITE")[:, 0], total.shape)
     return total
+
+
+def green_strain(
+    zone: Zone, displacement: NodeField, material: CellField | None = None
+) -> CellFieldBlock:
+    """Green-Lagrange strains of continuous elements and bars at the points of 'STRESSES'."""
+    family = families.family_of(zone)
+    values = family.strain_values(zone, displacement, zone_field(zone, material))
+    if is_solid(zone):
+        values = values + second_order_strain(zone, displacement)
+    elif ELEMENTS[zone.element].family == "bar":
+        values = values + 0.5 * bar_stretch(zone, displacement)[:, None] ** 2
+    else:
+        raise FieldError("kernel.elements.element-no-strains-second", element=zone.element)
+    return cell_block(zone, family.strain_names(zone), values)
+
+
+def green_stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFieldBlock:
+    """Elastic stresses of the Green-Lagrange strains."""
+    strains = CellField((green_strain(zone, displacement, material),), "DEFORMATIONS")
+    return families.elastic_stress(zone, material, strains)

@@ -118,6 +118,10 @@ NODE_ROTATIONS: dict[Mode, tuple[str, ...]] = {
 }
 
 
+SECTION_UNKNOWNS = ("UZ", "RX", "RY")
+"""What the point of a section in generalised plane strain has besides."""
+
+
 def harmonic(zone: Zone) -> int:
     """Fourier harmonic of a zone (0 where the model did not say)."""
     value = zone.options.get("harmonic", 0)

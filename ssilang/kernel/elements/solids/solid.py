@@ -23,6 +23,7 @@ from ssilang.kernel.elements.shapes.geometry import (
 from ssilang.kernel.elements.shapes.polygons import SIDES
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.solids.kinematics import (
+    SECTION_UNKNOWNS,
     SOLID_KINEMATICS,
     SolidKinematics,
     harmonic,
@@ -109,7 +110,7 @@ class Solid(ElementFamily):
         section = np.full((n, 1), section_point(zone).number, dtype=np.int64)
         nodes: IntArray = np.hstack([own.raw_nodes, section])
         local = np.concatenate([own.local, [k, k, k]])
-        return Layout(own.table, nodes, local, (*own.unknowns, "UZ", "RX", "RY"))
+        return Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... or EPRR ..."""
@@ -294,3 +295,29 @@ class Incompressible(Solid):
         matrix = usual.matrix.copy()
         matrix[:, :3] += ((mean[:, None] - trace) / 3)[:, None]
         return StrainOperator(matrix, usual.weights)
+
+
+HOURGLASS = 0.05
+"""Share of the usual stiffness that hourglass motions keep."""
+_PATTERN = np.array([1.0, -1.0, 1.0, -1.0])
+
+
+class OnePoint(Solid):
+    """Quadrangle with one integration point."""
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """The usual stiffness and a small one against hourglass motions."""
+        values = super().stiffness_values(zone, moduli, parameters)
+        nu = len(kinematics(zone).unknowns)
+        for cells in chunks(len(zone.cells)):
+            gradients = zone_geometry(zone, "RIGIDITE", cells).gradients[:, 0]
+            weights = self.strain_operator(zone, parameters, "RIGIDITE", cells).weights[:, 0]
+            linear = np.einsum("b,cbi->ci", _PATTERN, coordinates(zone, cells))
+            left = _PATTERN - np.einsum("ci,cia->ca", linear, gradients)
+            modulus = per_cell(moduli, cells)[:, 0, 0, 0]
+            size = np.einsum("cia,cia->c", gradients, gradients)
+            held = (HOURGLASS * modulus * weights * size)[:, None, None]
+            stiffness = held * left[:, :, None] * left[:, None, :] / 4
+            for i in range(nu):
+                values[cells, i : 4 * nu : nu, i : 4 * nu : nu] += stiffness
+        return values

@@ -1,4 +1,4 @@
-"""Triangles inside plane lines of which some end inside the domain or cut it in parts."""
+"""Triangles refined, or inside plane lines of which some end inside or cut the domain in parts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.surfaces.charts import plane_chart
+from ssilang.kernel.mesh.surfaces.fill import SizeField, fill_contour
+from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import delaunay_triangles, recover_segments
 
 
@@ -89,3 +93,52 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     steps = shortest_path(graph, directed=False, indices=n_parts)
     inside: NDArray[np.bool_] = np.round(steps[part]) % 2 == 1
     return inside
+
+
+def refined_triangles(mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int = 0) -> Mesh:
+    """A plane mesh of TRI3 with points added inside until its triangles have the wanted sizes.
+
+    Parameters
+    ----------
+    ids, sizes : array (n,)
+        Nodes of the mesh and the sizes wanted there; all nodes are kept.
+    """
+    border = contour(mesh)
+    chart = plane_chart(*contour_chart_data(border))
+    nodes = mesh.nodes
+    edge = contour_cells(border)
+    first = np.unique(edge)
+    every = np.concatenate([first, np.setdiff1d(ids, first)])
+    number = np.zeros(int(every.max()) + 1, dtype=np.int64)
+    number[every] = np.arange(len(every))
+    flat = chart.flatten(nodes.coordinates[every].copy())
+    field = SizeField(chart.flatten(nodes.coordinates[ids].copy()), sizes)
+    points, triangles = fill_contour(flat, number[edge], field, squares=False)
+    fresh = points[len(every) :]
+    made = nodes.add(chart.lift(fresh), field(fresh)) if len(fresh) else fresh[:, 0].astype(int)
+    table = np.concatenate([every, made])
+    return Mesh.of(nodes, "TRI3", table[triangles], colour)
+
+
+def delaunay_mesh(mesh: Mesh, dimension: int, colour: int = 0) -> Mesh:
+    """The Delaunay triangulation of a mesh's nodes: TRI3 in 2D, TET4 in 3D.
+
+    Raises
+    ------
+    MeshError
+        If the points are too few or lie in one line or plane.
+    """
+    from scipy.spatial import Delaunay, QhullError
+
+    ids = mesh.node_ids
+    if not len(ids):
+        raise MeshError("kernel.mesh.mesh-empty-nothing-triangulate")
+    at = mesh.nodes.coordinates[ids, :dimension]
+    try:
+        cells = Delaunay(at).simplices.astype(np.int64)
+    except QhullError as error:
+        raise MeshError("kernel.mesh.points-too-few-line") from error
+    arms = at[cells[:, 1:]] - at[cells[:, :1]]
+    negative = np.linalg.det(arms) < 0
+    cells[negative, :2] = cells[negative, 1::-1]
+    return Mesh.of(mesh.nodes, "TRI3" if dimension == 2 else "TET4", ids[cells], colour)

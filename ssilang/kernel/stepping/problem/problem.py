@@ -9,8 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.friction import Friction
-from ssilang.kernel.contact.friction_rows import friction_rows
+from ssilang.kernel.contact.friction_rows import Friction, friction_rows
 from ssilang.kernel.contact.modified_mass import without_contact_mass
 from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.contact.rows import ContactRows, split_rows, with_friction

@@ -36,13 +36,6 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
         "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
         "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
         syntax="TAB2 = ZCOL TAB1 ;",
-        examples=(
-            "T = TABL ; T . 'EPAISSEUR' = PROG 10. ; T . 'MASSE_VOLUMIQUE' = PROG 2000. ;"
-            " T . 'MODULE' = PROG 8.E7 ; T . 'AMORTISSEMENT' = PROG 0.05 ; T . 'F1' = 2. ;"
-            " T . 'F2' = 10. ; T . 'FC' = 20. ; T . 'PROFONDEURS' = PROG 0. 10. ;"
-            " LT = PROG 0. PAS 0.02 2. ; LA = (LT - 0.5) MASQ 'COMPRIS' 0. 0.1 ;"
-            " T . 'GAMMAO' = EVOL 'MANU' LT LA ; R = ZCOL T ; LIST (R . 'DEFO') ;",
-        ),
     ),
 )
 def zcol(call: Call, table: Table) -> Table:

@@ -21,18 +21,6 @@ if TYPE_CHECKING:
 
 _MOTION = ("DEPL", "VITE", "ACCE")
 
-# a column of four elements, shaken at its foot, and the layer or the edges of itself
-_COLUMN = (
-    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 3 (0. 0.) (3. 0.) ; S = TRAN 4 L (0. -4.) ;"
-    " M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 2.E8 'NU' 0.3 'RHO' 2000. ;"
-    " I = TABL ; I . 'TEMP' = 0. ; I . 'DEPL' = MANU 'CHPO' S 2 'UX' 0. 'UY' 0. ;"
-    " I . 'VITE' = I . 'DEPL' ; I . 'ACCE' = I . 'DEPL' ; J = TABL ; J . 'TEMP' = 1. ;"
-    " J . 'DEPL' = MANU 'CHPO' S 2 'UX' 1.E-3 'UY' 0. ; J . 'VITE' = J . 'DEPL' ;"
-    " J . 'ACCE' = I . 'DEPL' ; W = TABL ; W . 1 = I ; W . 2 = J ; T = TABL ;"
-    " T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'RIGI' = RIGI M A ;"
-    " T . 'MASS' = MASS M A ; T . 'FREQUENCE' = 10. ; T . 'MOUVEMENT' = W ; "
-)
-
 
 @operator(
     "ZDRM",
@@ -42,11 +30,6 @@ _COLUMN = (
         en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
         "it takes.",
         syntax="CHAR1 = ZDRM TAB1 ;",
-        examples=(
-            _COLUMN + "T . 'INTERIEUR' = S ELEM 'CONTENANT' (POIN S 'PROC' (0.5 0.)) ;"
-            " T . 'COUCHE' = S DIFF (T . 'INTERIEUR') ; C = ZDRM T ;"
-            " LIST (MAXI (RESU (TIRE C 1.)) 'ABS' < 1.E-6) ;",
-        ),
     ),
 )
 def zdrm(call: Call, table: Table) -> Load:
@@ -72,10 +55,6 @@ def zdrm(call: Call, table: Table) -> Load:
         en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
         "whose table it takes.",
         syntax="CHAR1 = ZBOR TAB1 ;",
-        examples=(
-            _COLUMN + "T . 'FRONTIERE' = COTE 2 S ; T . 'AMORTISSEURS' = AMOR M (COTE 2 S) A ;"
-            " C = ZBOR T ; LIST (MAXI (RESU (TIRE C 1.))) ;",
-        ),
     ),
 )
 def zbor(call: Call, table: Table) -> Load:

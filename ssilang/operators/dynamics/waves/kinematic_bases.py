@@ -39,12 +39,6 @@ _IMPOSSIBLE = 0.1
         en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it "
         "takes.",
         syntax="TAB2 = ZBAS TAB1 ;",
-        examples=(
-            "T = TABL ; T . 'FORME' = 'BANDE' ; T . 'DEMI_LARGEUR' = 10. ; T . 'YOUNG' = 2.E8 ;"
-            " T . 'POISSON' = 0.3 ; T . 'MASSE_VOLUMIQUE' = 2000. ; T . 'INCOHERENCE' = 0.2 ;"
-            " T . 'FREQUENCES' = PROG 1. 5. ; R = ZBAS T ;"
-            " LIST (EXTR (R . 'TRANSLATION') 'ORDO') ;",
-        ),
     ),
 )
 def zbas(call: Call, table: Table) -> Table:

@@ -18,13 +18,6 @@ FEWEST = 4
     help=Help(
         en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
         syntax="TAB2 = ZPML TAB1 ;",
-        examples=(
-            "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = TRAN 2 (DROI 6 (0. 0.) (6. 0.)) (0. -2.) ;"
-            " I = S ELEM 'APPUYE' 'STRICTEMENT' ((COOR 1 S) POIN 'INFERIEUR' 2.01) ;"
-            " T = TABL ; T . 'INTERIEUR' = I ; T . 'MODELE' = MODE (S DIFF I) MECANIQUE ELASTIQUE ;"
-            " T . 'CARACTERISTIQUES' = MATE (T . 'MODELE') 'YOUN' 2.E8 'NU' 0.3 'RHO' 2000. ;"
-            " P = ZPML T ; LIST (EXTR (P . 'AMOR') 'COMP') ;",
-        ),
     ),
 )
 def zpml(call: Call, table: Table) -> Table:
@@ -32,12 +25,9 @@ def zpml(call: Call, table: Table) -> Table:
     from ssilang.kernel.waves.matched_layer import matched_layer
 
     entries = Entries(call, table, "@PML")
-    wanted = entries.get("REFLEXION")
-    if wanted is not None and not 0 < wanted < 1:
-        raise entries.error("operators.dynamics.reflection-of-layer", reflection=wanted)
     made = matched_layer(
         entries.needed("MODELE"), entries.needed("CARACTERISTIQUES"),
-        entries.needed("INTERIEUR"), wanted,
+        entries.needed("INTERIEUR"), entries.get("REFLEXION"),
     )  # fmt: skip
     if made.cells < FEWEST - 1e-6:
         entries.warn("operators.dynamics.thin-layer", cells=made.cells, fewest=FEWEST)

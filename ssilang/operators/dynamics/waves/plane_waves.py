@@ -31,15 +31,6 @@ DRIFT = 0.02
     help=Help(
         en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
         syntax="TAB2 = ZOPL TAB1 ;",
-        examples=(
-            "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (20. -10.) ; T = TABL ;"
-            " T . 'POINTS' = L ; T . 'POINT' = 0. 0. ; T . 'ONDE' = 'P' ; T . 'ANGLE' = 0. ;"
-            " C = TABL ; C . 'YOUNG' = 2.E8 ; C . 'POISSON' = 0.3 ;"
-            " C . 'MASSE_VOLUMIQUE' = 2000. ; T . 'COUCHES' = TABL ; T . 'COUCHES' . 1 = C ;"
-            " LT = PROG 0. PAS 0.01 1. ; LX = (LT - 0.5) * (PI * 4.) ; LX = LX * LX ;"
-            " T . 'ACCELERATION' = EVOL 'MANU' LT ((1. - (2. * LX)) * (EXP (-1. * LX))) ;"
-            " W = ZOPL T ; LIST (EXTR (W . 51 . 'ACCE') 'UY' (POIN L 1)) ;",
-        ),
     ),
 )
 def zopl(call: Call, table: Table) -> Table:

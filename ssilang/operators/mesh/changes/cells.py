@@ -19,6 +19,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import arg, choice, main, many, opt, said
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import CHAN, MANU
 from ssilang.operators.workspace import workspace
 
@@ -85,7 +86,12 @@ def _by_hand(mesh: Mesh, target: str, order: IntArray) -> Mesh:
     return Mesh.of(mesh.nodes, target, ids[order - 1].reshape(-1, size))
 
 
-_NUMBERS = opt("numbers", "LISTENTI", en="numbers of the points of each cell, in a mesh of points")
+_NUMBERS = opt(
+    "numbers",
+    "LISTENTI",
+    en="numbers of the points of each cell, in a mesh of points",
+    range=POSITIVE,
+)
 
 
 @CHAN.form(
@@ -95,10 +101,6 @@ _NUMBERS = opt("numbers", "LISTENTI", en="numbers of the points of each cell, in
     syntax="GEO2 = CHAN (TYPE) GEO1 (LENTI1) ;",
     en="A cell type: the mesh made of such cells (the type of OPTI ELEM when none is said). From "
     "points, a list of numbers gives the connectivity.",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
-        " LIST (NBEL (CHAN 'POI1' S)) ; LIST (NBEL (CHAN 'TRI3' S)) ;",
-    ),
 )
 def change_type(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     """Mesh of another cell type."""
@@ -131,10 +133,6 @@ _WHOLE = {
     "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
     "faces and cells, that linear types then take apart (TRI7 into 6 TRI3 or 3 QUA4, CU27 into 8 "
     "CUB8).",
-    examples=(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
-        " LIST (NBNO (CHAN 'QUAD' S)) ; LIST (NBEL (CHAN 'LIGN' S)) ;",
-    ),
 )
 def change_whole(word: str, mesh: Mesh) -> Mesh:
     """Edges, faces, linear or quadratic cells."""
@@ -147,7 +145,6 @@ def change_whole(word: str, mesh: Mesh) -> Mesh:
     choice("colour", COLOURS, en="colour, that of OPTI COUL by default"),
     syntax="GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1) ;",
     en="A cell type: cells of that type on points, or on the points of a mesh.",
-    examples=("OPTI DIME 2 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ROUG ; LIST (MESU T) ;",),
 )
 def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:
     """Cells given node by node."""

@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.combine import recolour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.dispatch import COUL
 from ssilang.operators.workspace import workspace
 
@@ -32,10 +33,6 @@ _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cel
         "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
         "QUA9, white the others.",
         syntax="GEO1 = AFCO GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; "
-            "LIST (NBEL ((AFCO S) ELEM ROUG)) ;",
-        ),
     ),
 )
 def afco(mesh: Mesh) -> Mesh:
@@ -52,7 +49,7 @@ def afco(mesh: Mesh) -> Mesh:
     main("mesh", "MAILLAGE", en="mesh"),
     either(
         "colour",
-        group("number", arg("number", "ENTIER", en="its number")),
+        group("number", arg("number", "ENTIER", en="its number", usual=between(0, len(COLOURS)))),
         group("name", arg("name", "MOT", en="its name", kind="colour")),
         optional=True,
         en="colour, that of OPTI COUL by default",
@@ -60,7 +57,6 @@ def afco(mesh: Mesh) -> Mesh:
     syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
     en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
     "none is said).",
-    examples=("OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) COUL ROUG ;",),
 )
 def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:
     """Mesh in another colour."""

@@ -30,10 +30,6 @@ def _ids(item: Mesh | Point) -> IntArray:
         "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
         "the other.",
         syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 2 (1. 0.) (2. 0.)) ;"
-            " ELIM L 1E-3 ; LIST (NBNO L) ;",
-        ),
     ),
 )
 def elim(
@@ -60,10 +56,6 @@ def elim(
         en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
         "by PRI6 ... 'VERI' warns when some are left.",
         syntax="GEO1 = REGE GEO2 ('VERI') ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) ROTA 4 90. (1E-4 0.) ;"
-            " ELIM S 0.01 ; T = REGE S ; LIST (NBEL (T ELEM TRI3)) ;",
-        ),
     ),
 )
 def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
@@ -85,10 +77,6 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
         en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
         "tip inside the surface. Gives the new surface and the line on the new nodes.",
         syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (1. 0.) ;"
-            " S = (L TRAN 1 (0. 1.)) ET (L TRAN 1 (0. -1.)) ; T M = DEDO S L ; LIST (NBNO T) ;",
-        ),
     ),
 )
 def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:

@@ -43,10 +43,6 @@ _EN = (
         en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
         "first line sees the joint on the right.",
         syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = DROI 2 (0. 0.) (1. 0.) ;"
-            " J = RACC 1E-3 A B ; LIST (NBEL J) ;",
-        ),
     ),
 )
 def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
@@ -69,10 +65,6 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
         + _EN
         + "The normal of the first surface goes from the second to the first (opening).",
         syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
-        examples=(
-            "OPTI DIME 3 ELEM QUA4 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; A = L TRAN 2 (0. 1. 0.) ;"
-            " B = A PLUS (0. 0. 0.) ; J = LIAI 1E-3 A B ; LIST (NBEL J) ;",
-        ),
     ),
 )
 def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
@@ -91,10 +83,6 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
         en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
         "of coincident edges of surfaces, or faces of volumes, within a distance.",
         syntax="GEO2 = GENJ GEO1 FLOT1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
-            " T = (DROI 2 (0. 1.) (1. 1.)) TRAN 2 (0. 1.) ; LIST (NBEL (GENJ (S ET T) 1E-3)) ;",
-        ),
     ),
 )
 def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
@@ -114,10 +102,6 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
         en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
         "nodes in the order of these numbers, as POI1.",
         syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; TASS L ;\n"
-            "M = TASS L 'NOOP' ; LIST (NBEL M) ;",
-        ),
     ),
 )
 def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:

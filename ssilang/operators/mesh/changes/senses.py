@@ -25,10 +25,6 @@ from ssilang.operators.workspace import workspace
     main("mesh", "MAILLAGE", en="mesh"),
     syntax="GEO2 = INVE GEO1 ;",
     en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = INVE (DROI 2 (0. 0.) (1. 0.)) ;"
-        " LIST (COOR 1 (L POIN 'INIT')) ;",
-    ),
 )
 def inverted(mesh: Mesh) -> Mesh:
     """Mesh turned inside out."""
@@ -52,10 +48,6 @@ def inverted(mesh: Mesh) -> Mesh:
         "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
         "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
         syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = ORIE ((DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. -1.)) ;"
-            " LIST (MESU S) ;",
-        ),
     ),
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
@@ -75,7 +67,6 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     help=Help(
         en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
         syntax="GEO2 = VERS GEO1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = VERS (DROI 4 (0. 0.) (1. 0.)) ;",),
     ),
 )
 def vers(mesh: Mesh) -> Mesh:

@@ -16,6 +16,7 @@ from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import ANY, Help, Like, arg, flag, many, operator, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
 from ssilang.operators.mesh.copies.moves import displacements
@@ -45,22 +46,6 @@ _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="object
         syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
         "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
-            " P = L POIN 'FINAL' ; Q = P DEDU 'TRAN' L M ; LIST (COOR 1 Q) ;",
-            (
-                "OPTI DIME 2 ELEM QUA4 ;\n"
-                "L = DROI 2 (0. 0.) (1. 0.) ; S = L TRAN 2 (0. 1.) ;\n"
-                "C = CONT S ; C2 = C PLUS (0.5 0.) ;\n"
-                "T = DEDU S C C2 ; LIST (MINI (COOR 1 T)) ;\n"
-                "U = DEDU S (C2 MOIN C) ; LIST (MAXI U) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "L = DROI 4 (0. 0.) (1. 0.) ; M = L TOUR 90. (0. 0.) ;\n"
-                "Q = (L POIN 'FINA') DEDU 'ROTA' 90. (0. 0.) L M ; LIST (COOR 2 Q) ;"
-            ),
-        ),
     ),
 )
 def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
@@ -105,12 +90,7 @@ def through_map(objects: Sequence[Any], before: Mesh, after: Mesh) -> tuple[Any,
 
 @dedu.form(
     said("ROTA"),
-    arg(
-        "angle",
-        "FLOTTANT",
-        en="angle by which vectors turn",
-        unit="degree",
-    ),
+    arg("angle", "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER),
     _OBJECTS,
     _BEFORE,
     _AFTER,

@@ -31,6 +31,7 @@ from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, o
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
@@ -188,7 +189,9 @@ def _shifted(
 
 
 def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
-    return many("objects", *types, leaving=leaving, left=left, en="objects to copy")
+    return many(
+        "objects", *types, leaving=leaving, left=left, en="objects to copy", range=ANY_NUMBER
+    )
 
 
 _SHIFTED = (
@@ -214,11 +217,6 @@ _SHIFTED = (
         "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
         "as points do that are made.",
         syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 0. ; Q = P PLUS (0. 2.) ; LIST (COOR 2 Q) ;",
-            "OPTI DIME 2 ; P = 1. 0. ; R = APPU 'UX' 4. P ; Q S = P R PLUS (0. 2.) ;\n"
-            "LIST (EXTR (S * (MANU 'CHPO' Q 'UX' 3.)) 'FX' Q) ;",
-        ),
     ),
 )
 def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
@@ -237,14 +235,6 @@ def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
         "meshes of the same structure, the field of displacements that takes the second to the "
         "first.",
         syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 0. ; Q = P MOIN (0. 2.) ; LIST (COOR 2 Q) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "L = DROI 4 (0. 0.) (1. 0.) ; M = L PLUS (0. 0.5) ;\n"
-                "LIST (MAXI (EXCO 'UY' (M MOIN L))) ;"
-            ),
-        ),
     ),
 )
 def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
@@ -281,10 +271,6 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
         en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
         "Vectors in nodal fields and stresses and strains in cell fields turn too.",
         syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 0. ; Q = P TOUR 90. (0. 0.) ; LIST (COOR 2 Q) ;",
-            ("OPTI DIME 3 ;\nQ = (1 0 0) TOUR 90. (0 0 0) (0 0 1) ; LIST (COOR 2 Q) ;"),
-        ),
     ),
 )
 def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
@@ -325,16 +311,6 @@ def _turned(
     help=Help(
         en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
         syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 2. ; Q = P SYME 'DROIT' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;",
-            (
-                "OPTI DIME 3 ;\n"
-                "P = 1 2 3 ; O = 0 0 0 ;\n"
-                "Q = P SYME 'POINT' O ; LIST (COOR 3 Q) ;\n"
-                "Q = P SYME 'PLAN' O (1 0 0) (0 1 0) ;\n"
-                "MESS (COOR 1 Q) (COOR 2 Q) (COOR 3 Q) ;"
-            ),
-        ),
     ),
 )
 def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
@@ -369,7 +345,6 @@ def mirrored_about_plane(
     help=Help(
         en="Copies of objects scaled by a ratio about a point.",
         syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
-        examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P HOMO 3. (0. 0.) ; LIST (COOR 2 Q) ;",),
     ),
 )
 def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
@@ -390,7 +365,6 @@ def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tupl
         en="Copies of objects stretched by a ratio along the direction of two points, the first of "
         "which stays in place.",
         syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
-        examples=("OPTI DIME 2 ; P = 1. 2. ; Q = P AFFI 3. (0. 0.) (0. 1.) ; LIST (COOR 2 Q) ;",),
     ),
 )
 def affi(
@@ -413,39 +387,6 @@ def affi(
         syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
         "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
         "'DROI' P1 P2 | 'CERC' C1 P1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 2. ; Q = P PROJ (0. 1.) 'DROI' (0. 0.) (1. 1.) ;"
-            " LIST (COOR 2 Q) ;",
-            (
-                "OPTI DIME 3 ;\n"
-                "P = 1 1 3 ; D = 0 0 1 ; O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ;\n"
-                "Q = P PROJ D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
-                "Q = P PROJ 'CYLI' D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
-                "Q = P PROJ D 'SPHE' O A ; MESS (COOR 3 Q) ;\n"
-                "Q = P PROJ D 'CYLI' O A B ; MESS (COOR 3 Q) ;\n"
-                "Q = P PROJ D 'CONE' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = P PROJ D 'CONI' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = (2 0 3) PROJ D 'TORE' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = (2 0 3) PROJ D 'TORI' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;"
-            ),
-            ("OPTI DIME 2 ;\nQ = (0.6 3.) PROJ (0. 1.) 'CERC' (0. 0.) (1. 0.) ; LIST (COOR 2 Q) ;"),
-            (
-                "OPTI DIME 3 ;\n"
-                "O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ; D = 0 0 1 ;\n"
-                "Q = (1 1 3) PROJ 'CYLI' D 'PLAN' O A B ; MESS (COOR 3 Q) ;\n"
-                "Q = (1 1 3) PROJ 'CYLI' D 'SPHE' O A ; MESS (COOR 3 Q) ;\n"
-                "Q = (1 1 3) PROJ 'CYLI' D 'CYLI' O A B ; MESS (COOR 3 Q) ;\n"
-                "Q = (1 1 3) PROJ 'CYLI' D 'CONE' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = (1 1 3) PROJ 'CYLI' D 'CONI' O A (1 1 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = (2 0 3) PROJ 'CYLI' D 'TORE' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;\n"
-                "Q = (2 0 3) PROJ 'CYLI' D 'TORI' O D A (2.5 0 0) ; MESS (COOR 3 Q) ;"
-            ),
-            (
-                "OPTI DIME 2 ; O = 0. 0. ; D = 0. 1. ;\n"
-                "Q = (0.6 3.) PROJ 'CYLI' D 'DROI' O (1. 1.) ; MESS (COOR 2 Q) ;\n"
-                "Q = (0.6 3.) PROJ 'CYLI' D 'CERC' O (1. 0.) ; MESS (COOR 2 Q) ;"
-            ),
-        ),
     ),
 )
 def proj(
@@ -470,10 +411,6 @@ def projected_along(
     gives=Like("objects"),
     syntax="GEO1 ... = GEO2 ... PROJ 'CYLI' VEC1 | 'CONI' SOMM1  GEO3 ;",
     en="On a mesh: the nearest point of its skin, surfaces or lines, taken as flat facets.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 1.) ;\n"
-        "Q = (1. 5.) PROJ 'CYLI' (0. 1.) L ; LIST (COOR 2 Q) ;",
-    ),
 )
 def projected_on_mesh(
     call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh

@@ -20,11 +20,12 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     torus_shape,
 )
 from ssilang.language.registry import Argument, Chosen, arg, group, key, select
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 
-RATIO = arg("ratio", "FLOTTANT", en="ratio")
+RATIO = arg("ratio", "FLOTTANT", en="ratio", usual=NOT_ZERO)
 FIXED = arg("fixed", "POINT", en="point that stays")
 DIRECTION = arg("towards", "POINT", en="other point of the direction")
-ANGLE = arg("angle", "FLOTTANT", en="angle", unit="degree")
+ANGLE = arg("angle", "FLOTTANT", en="angle", unit="degree", range=ANY_NUMBER)
 
 _POINT = arg("point", "POINT", en="point there")
 _SECOND = arg("second", "POINT", en="second point")

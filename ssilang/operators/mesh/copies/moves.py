@@ -28,6 +28,7 @@ from ssilang.kernel.mesh.generators.sweep import rotate
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Chosen, Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.maps import (
     DIRECTION,
     FIXED,
@@ -93,58 +94,6 @@ def displacements(field: NodeField, ids: IntArray) -> FloatArray:
         "DEPL GEO1 'PROJ' ('CYLI') VEC1 | 'CONI' SOMM1 'PLAN' P1 P2 P3 ... ;\n"
         "DEPL GEO1 'COOR' 'CYLI' P1 P2 (P3) | 'CART' ; DEPL GEO1 'MILI' ;\n"
         "DEPL GEO1 'DEDU' GEO2 GEO3 | CHP1 ;",
-        examples=(
-            "OPTI DIME 2 ; P = 1. 0. ; DEPL P 'PLUS' (0. 2.) ; LIST (COOR 2 P) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "P = 1. 0. ; O = 0. 0. ;\n"
-                "DEPL P 'TOUR' 90. O ; MESS (COOR 1 P) (COOR 2 P) ;\n"
-                "DEPL P 'HOMO' 3. O ; MESS (COOR 2 P) ;\n"
-                "DEPL P 'AFFI' 2. O (0. 1.) ; MESS (COOR 2 P) ;\n"
-                "DEPL P 'SYME' 'DROIT' O (1. 0.) ; MESS (COOR 2 P) ;\n"
-                "DEPL P 'DEDU' P (2. 5.) ; MESS (COOR 2 P) ;\n"
-                "DEPL P 'COOR' 'CYLI' O (1. 0.) ; MESS (COOR 1 P) (COOR 2 P) ;"
-            ),
-            (
-                "OPTI DIME 3 ;\n"
-                "O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ; D = 0 0 1 ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' D 'PLAN' O A B ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' D 'SPHE' O A ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' D 'CYLI' O A B ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' D 'CONE' O A (1 1 0) ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' D 'CONI' O A (1 1 0) ; MESS (COOR 3 P) ;\n"
-                "P = 2 0 3 ; DEPL P 'PROJ' D 'TORE' O D A (2.5 0 0) ; MESS (COOR 3 P) ;\n"
-                "P = 2 0 3 ; DEPL P 'PROJ' D 'TORI' O D A (2.5 0 0) ; MESS (COOR 3 P) ;"
-            ),
-            (
-                "OPTI DIME 2 ; O = 0. 0. ; D = 0. 1. ;\n"
-                "P = 0.6 3. ; DEPL P 'PROJ' D 'DROI' O (1. 1.) ; MESS (COOR 2 P) ;\n"
-                "P = 0.6 3. ; DEPL P 'PROJ' D 'CERC' O (1. 0.) ; MESS (COOR 2 P) ;"
-            ),
-            (
-                "OPTI DIME 3 ;\n"
-                "O = 0 0 0 ; A = 2 0 0 ; B = 0 2 0 ; D = 0 0 1 ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' 'CYLI' D 'PLAN' O A B ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' 'CYLI' D 'SPHE' O A ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' 'CYLI' D 'CYLI' O A B ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' 'CYLI' D 'CONE' O A (1 1 0) ; MESS (COOR 3 P) ;\n"
-                "P = 1 1 3 ; DEPL P 'PROJ' 'CYLI' D 'CONI' O A (1 1 0) ; MESS (COOR 3 P) ;\n"
-                "P = 2 0 3 ; DEPL P 'PROJ' 'CYLI' D 'TORE' O D A (2.5 0 0) ;\n"
-                "MESS (COOR 3 P) ;\n"
-                "P = 2 0 3 ; DEPL P 'PROJ' 'CYLI' D 'TORI' O D A (2.5 0 0) ;\n"
-                "MESS (COOR 3 P) ;"
-            ),
-            (
-                "OPTI DIME 2 ; O = 0. 0. ; D = 0. 1. ;\n"
-                "P = 0.6 3. ; DEPL P 'PROJ' 'CYLI' D 'DROI' O (1. 1.) ; MESS (COOR 2 P) ;\n"
-                "P = 0.6 3. ; DEPL P 'PROJ' 'CYLI' D 'CERC' O (1. 0.) ; MESS (COOR 2 P) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG3 ;\n"
-                "L = DROI 1 (0. 0.) (2. 0.) ; M = L POIN 2 ;\n"
-                "DEPL M 'PLUS' (0.3 0.) ; DEPL L 'MILI' ; LIST (COOR 1 M) ;"
-            ),
-        ),
     ),
 )
 def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
@@ -166,6 +115,7 @@ def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
         "FLOTTANT",
         en="angle, or one for each node",
         unit="degree",
+        range=ANY_NUMBER,
     ),
     AXIS,
 )

@@ -1,4 +1,4 @@
-"""Arcs of circle: CERC CER3 PARC."""
+"""Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
 from __future__ import annotations
 
@@ -16,11 +16,13 @@ from ssilang.kernel.mesh.lines.curves import (
     arc_about_centre,
     arc_through,
 )
+from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, choice, flag, operator, said
+from ssilang.language.registry import Help, arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -64,11 +66,6 @@ from ssilang.operators.workspace import workspace
         syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
         "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 (1. 0.) (0. 0.) (0. 1.) ;",
-            "OPTI DIME 2 ELEM SEG2 ; L = CERC 8 'ROTA' 180. (1. 0.) (0. 0.) ;",
-            "OPTI DIME 2 ELEM SEG3 ; L = CERC 8 'PASS' (1. 0.) (0. 1.) (-1. 0.) ;",
-        ),
     ),
 )
 def cerc(
@@ -129,7 +126,6 @@ def turned_point(
     help=Help(
         en="Circular arc through three points. " + SIZES_EN,
         syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CER3 8 (1. 0.) (0. 1.) (-1. 0.) ;",),
     ),
 )
 def cer3(
@@ -156,7 +152,6 @@ def cer3(
         en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
         "the circle and are tangent to it. " + SIZES_EN,
         syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ; L = PARC 2 (1. 0.) (0. 0.) (0. 1.) ; LIST (COOR 1 L) ;",),
     ),
 )
 def parc(
@@ -186,3 +181,36 @@ def parc(
     line = chain_mesh(ws.nodes, chain, True, ws.colour)
     parts = [m for m in (ends.before, line, ends.after) if m is not None]
     return union(*parts, as_given=True)
+
+
+@operator(
+    "CONG",
+    arg("first", "MAILLAGE", en="first line"),
+    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it", range=POSITIVE),
+    opt("radius", "FLOTTANT", range=POSITIVE, en="radius", unit="m"),
+    arg("second", "MAILLAGE", en="line that follows"),
+    flag("double", "DOUBLE", en="two arcs: not available"),
+    family="mesh",
+    full_name="CONGE",
+    help=Help(
+        en="Rounds the corner between two lines, the second following the first, by an arc of a "
+        "given radius. Gives the first line cut short, the arc and the second line cut short.",
+        syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
+    ),
+)
+def cong(
+    call: Call,
+    first: Mesh,
+    count: int | None,
+    radius: float | None,
+    second: Mesh,
+    double: bool,
+) -> tuple[Mesh, Mesh, Mesh]:
+    """Round a corner; an integer alone is the radius."""
+    if double:
+        raise call.error("operators.mesh.no-double-fillet")
+    if radius is None:
+        radius, count = float(count or 0), 0
+    if radius <= 0.0:
+        raise call.error("operators.mesh.radius-not-positive", radius=radius)
+    return fillet(first, second, radius, abs(count or 0), workspace(call.session).colour)

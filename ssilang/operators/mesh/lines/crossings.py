@@ -17,6 +17,7 @@ from ssilang.kernel.mesh.surfaces.analytic import (
 )
 from ssilang.language.registry import Chosen, arg, key, main, select
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
@@ -70,7 +71,7 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     key(
         "length",
         "LONG",
-        arg("length", "FLOTTANT", unit="m"),
+        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
         en="length of the curve, then the end only shows the way",
     ),
     END,
@@ -81,10 +82,6 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
     "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
     "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
     "end, towards POIN2.",
-    examples=(
-        "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ;"
-        " L = A INTE 16 'CYLI' (0. 0. -1.) (0. 0. 1.) 'PLAN' (-1. 0. 0.) B ; MESS (MESU L) ;",
-    ),
 )
 def crossing(
     call: Call,
@@ -97,8 +94,6 @@ def crossing(
 ) -> Mesh:
     """The line along which two surfaces cross, from a point or a line to another."""
     cuts = cuts_of(call, count, sizes)
-    if length is not None and length <= 0.0:
-        raise call.error("operators.mesh.curve-length-not-positive", length, length=length)
     if len(surfaces) != 2:
         raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
     ends = ends_of(call, start, end)

@@ -23,6 +23,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import arg, key, many, opt
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.workspace import Workspace, workspace
 
 SIZES_EN = (
@@ -36,12 +37,13 @@ COUNT = opt(
     "count",
     "ENTIER",
     en="number of elements, graded by the mesh sizes if negative; without it these decide",
+    range=NOT_ZERO,
 )
-ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree")
+ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree", range=ANY_NUMBER)
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    arg("size", "FLOTTANT", unit="m"),
+    arg("size", "FLOTTANT", unit="m", range=POSITIVE),
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there",
 )

@@ -11,6 +11,7 @@ from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, flag, key, many, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
@@ -41,7 +42,6 @@ from ssilang.operators.workspace import workspace
         en="Arc of parabola between two points, the middle point being where the end tangents "
         "meet. " + SIZES_EN,
         syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = PARA 8 (0. 0.) (1. 2.) (2. 0.) ;",),
     ),
 )
 def para(
@@ -71,7 +71,6 @@ def para(
         en="Cubic through four points; 'UNIF' spaces nodes by length, else by the parameter that "
         "is 1/3 and 2/3 at the inner points. " + SIZES_EN,
         syntax="LIG1 = CUBP (N1) POIN1 POIN2 POIN3 POIN4 ('UNIF') ('DINI' D1) ('DFIN' D2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBP 9 (0. 0.) (1. 1.) (2. -1.) (3. 0.) ;",),
     ),
 )
 def cubp(
@@ -104,7 +103,6 @@ def cubp(
     help=Help(
         en="Cubic between two points, tangent to a vector at each. " + SIZES_EN,
         syntax="LIG1 = CUBT (N1) POIN1 VECT1 VECT2 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = CUBT 9 (0. 0.) (1. 1.) (1. -1.) (3. 0.) ;",),
     ),
 )
 def cubt(
@@ -143,8 +141,8 @@ def cubt(
     key(
         "limits",
         "PARAMETRE",
-        arg("u1", "FLOTTANT"),
-        arg("u2", "FLOTTANT"),
+        arg("u1", "FLOTTANT", range=ANY_NUMBER),
+        arg("u2", "FLOTTANT", range=ANY_NUMBER),
         default=(0.0, 1.0),
         en="U at the start and at the end",
     ),
@@ -158,7 +156,6 @@ def cubt(
         "(or a line to continue) where the curve starts or ends.",
         syntax="LIG1 = COUR (N1) ('DINI' D1) ('DFIN' D2) ('PINI' OBJ1) ('PFIN' OBJ2) POIN0 POIN1 "
         "(POIN2 ...) ('PARA' U1 U2) ('REGU') ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; L = COUR 8 (0. 0.) (1. 0.) (0. 1.) ;",),
     ),
 )
 def cour(

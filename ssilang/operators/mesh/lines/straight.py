@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
@@ -45,10 +46,6 @@ from ssilang.operators.workspace import workspace
     help=Help(
         en="Straight line between two points. " + SIZES_EN,
         syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (NBEL L) ;",
-            "OPTI DIME 2 ELEM SEG3 DENS 0.25 ; P = 0. 0. ; L = P DROI (1. 0.) 'DFIN' 0.1 ;",
-        ),
     ),
 )
 def droi(
@@ -82,10 +79,6 @@ def droi(
         + SIZES_EN,
         syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
         "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = LIGN 'ROTA' 8 (0. 0.) (1. 0.) 90. ;"
-            " M = LIGN 'TRAN' 4 (0. 0.) (1. 1.) ;",
-        ),
     ),
 )
 def lign(
@@ -145,12 +138,7 @@ def segment(
 @operator(
     "QUEL",
     choice("cell_type", ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"),
-    many(
-        "lists",
-        "LISTREEL",
-        en="first coordinates, second ones ...",
-        unit="m",
-    ),
+    many("lists", "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER),
     many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
     family="mesh",
     full_name="QUELCONQUE",
@@ -158,10 +146,6 @@ def segment(
         en="Broken line through points, in order: given one by one, as a mesh of points, or by "
         "lists of coordinates. With SEG3 every other point is the middle of an element.",
         syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
-        examples=(
-            "OPTI DIME 2 ; L = QUEL 'SEG2' (0. 0.) (1. 1.) (2. 0.) ;",
-            "OPTI DIME 2 ; L = QUEL 'SEG2' (PROG 0. 1. 2.) (PROG 0. 1. 0.) ;",
-        ),
     ),
 )
 def quel(

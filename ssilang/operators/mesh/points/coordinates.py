@@ -15,11 +15,15 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import ANY, arg, main, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import COOR
 from ssilang.operators.workspace import workspace
 
 _AXIS = arg(
-    "axis", "ENTIER", en="number of the coordinate; the dimension + 1 stands for the density"
+    "axis",
+    "ENTIER",
+    en="number of the coordinate; the dimension + 1 stands for the density",
+    range=POSITIVE,
 )
 _POINT = main("support", "POINT", en="point")
 _MESH = main("support", "MAILLAGE", en="mesh")
@@ -43,9 +47,6 @@ Support = Point | Mesh | NodeField | Model
     syntax="CHPO1 ... = COOR (N1) GEO1 ('CURV') ;",
     en="Of a mesh or a nodal field: nodal fields of component SCAL; 'CURV': the length along a "
     "line from its start.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; X = COOR 1 L ; LIST (MAXI X) ;",
-    ),
     gives="CHPOINT",
 )
 @COOR.form(
@@ -53,7 +54,6 @@ Support = Point | Mesh | NodeField | Model
     _AXIS,
     syntax="X1 (Y1 (Z1)) = COOR (N1) POIN1 ;",
     en="Of a point: one coordinate (number DIME + 1 is the density), or all of them.",
-    examples=("OPTI DIME 2 ; X Y = COOR (1. 2.) ; LIST Y ;",),
     gives="FLOTTANT",
 )
 def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField | CellField:
@@ -79,7 +79,7 @@ def all_coordinates(
 @COOR.form(
     said("CURV"),
     arg("line", "MAILLAGE", en="line"),
-    opt("axis", "ENTIER", en="accepted, without effect"),
+    opt("axis", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
 )
 def curvilinear_coordinate(line: Mesh, axis: int | None) -> NodeField:
     """Length along a line."""

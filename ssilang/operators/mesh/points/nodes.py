@@ -10,6 +10,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import Help, arg, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -21,7 +22,6 @@ from ssilang.operators.workspace import workspace
     help=Help(
         en="The point with a node number, or the node number of a point.",
         syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = NOEU (NOEU P) ; LIST (COOR 1 Q) ;",),
     ),
 )
 def noeu(point: Point) -> int:
@@ -29,7 +29,7 @@ def noeu(point: Point) -> int:
     return point.node + 1
 
 
-@noeu.form(arg("number", "ENTIER", en="number of a node"))
+@noeu.form(arg("number", "ENTIER", en="number of a node", range=POSITIVE))
 def numbered(session: Session, call: Call, number: int) -> Point:
     """The point of a node."""
     nodes = workspace(session).nodes
@@ -47,7 +47,6 @@ def numbered(session: Session, call: Call, number: int) -> Point:
     help=Help(
         en="Makes the first point the same node as the second, wherever it is.",
         syntax="CONF POIN1 POIN2 ;",
-        examples=("OPTI DIME 2 ; P = 1. 0. ; Q = 2. 0. ; CONF P Q ; LIST (COOR 1 P) ;",),
     ),
 )
 def conf(first: Point, second: Point) -> None:
@@ -64,14 +63,6 @@ def conf(first: Point, second: Point) -> None:
     help=Help(
         en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
         syntax="POIN1 = BARY GEO1 ('ELEM') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; LIST (COOR 1 (BARY L)) ;",
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "C = BARY 'ELEM' (DROI 4 (0. 0.) (1. 0.)) ;\n"
-                "LIST (COOR 1 (C POIN 1)) ;"
-            ),
-        ),
     ),
 )
 def bary(session: Session, mesh: Mesh | Point) -> Point:

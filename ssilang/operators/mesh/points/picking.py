@@ -32,6 +32,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListMots, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
@@ -44,7 +45,7 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
-_LIMIT = arg("limit", "FLOTTANT", en="value")
+_LIMIT = arg("limit", "FLOTTANT", en="value", range=ANY_NUMBER)
 EXTREMES = select(
     "what",
     {
@@ -52,8 +53,8 @@ EXTREMES = select(
         "MINI": (),
         **dict.fromkeys(_COMPARISONS, (_LIMIT,)),
         "COMPRIS": (
-            arg("low", "FLOTTANT", en="one limit"),
-            arg("high", "FLOTTANT", en="other limit"),
+            arg("low", "FLOTTANT", en="one limit", range=ANY_NUMBER),
+            arg("high", "FLOTTANT", en="other limit", range=ANY_NUMBER),
         ),
     },
     optional=False,
@@ -85,8 +86,8 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
 @operator(
     "POIN",
     _MESH,
-    arg("number", "ENTIER", en="number of a point, or in the cell"),
-    opt("cell", "ENTIER", en="number of the cell"),
+    arg("number", "ENTIER", en="number of a point, or in the cell", range=POSITIVE),
+    opt("cell", "ENTIER", en="number of the cell", range=POSITIVE),
     family="mesh",
     full_name="POINT",
     help=Help(
@@ -100,49 +101,6 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
         "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
         "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
         "POIN1 = POIN X1 (Y1 (Z1)) ('DENS' D1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; P = L POIN 'PROC' (0.3 1.) ;"
-            " LIST (COOR 1 P) ;",
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
-            " Q = S POIN 'DROI' (0. 0.) (0. 1.) 1E-3 ; LIST (NBNO Q) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\n"
-                "L = DROI 4 (0. 0.) (2. 0.) ; X = COOR 1 L ;\n"
-                "MESS (COOR 1 (L POIN 2)) (COOR 1 (L POIN 'INIT')) (COOR 1 (L POIN 'FINA')) ;\n"
-                "Q = 1. 0. ;\n"
-                "J = (DROI 1 Q (1. 1.)) ET (DROI 1 Q (0. 0.)) ET (DROI 1 Q (2. 0.)) ;\n"
-                "MESS (NBNO (J POIN 'JONC')) ;\n"
-                "P = POIN 1. 2. 'DENS' 0.1 ; MESS (COOR 2 P) ;\n"
-                "N = POIN (PROG 1. 2. 3.) (PROG 0. 0. 1.) ; MESS (NBNO N) ;\n"
-                "MESS (NBNO (X POIN 'MAXI')) (NBNO (X POIN 'MINI')) (NBNO (X POIN 'SUPE'\n"
-                "0.4)) ;\n"
-                "MESS (NBNO (X POIN 'EGSU' 0.5)) (NBNO (X POIN 'EGAL' 1.)) (NBNO (X POIN\n"
-                "'EGIN' 0.5)) ;\n"
-                "MESS (NBNO (X POIN 'INFE' 0.5)) (NBNO (X POIN 'DIFF' 1.)) (NBNO (X POIN\n"
-                "'COMP' 0.4 1.2)) ;"
-            ),
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ;\n"
-                "X = COOR 1 (MANU 'CHML' (MODE S 'MECANIQUE' 'ELASTIQUE') 'SCAL' 1.) ;\n"
-                "MESS (NBNO (X POIN 'MAXI')) (NBNO (X POIN 'MINI')) (NBNO (X POIN 'SUPE'\n"
-                "0.4)) ;\n"
-                "MESS (NBNO (X POIN 'EGSU' 0.5)) (NBNO (X POIN 'EGAL' 1.)) (NBNO (X POIN\n"
-                "'EGIN' 0.5)) ;\n"
-                "MESS (NBNO (X POIN 'INFE' 0.5)) (NBNO (X POIN 'DIFF' 1.)) (NBNO (X POIN\n"
-                "'COMP' 0.4 1.2)) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM CUB8 ;\n"
-                "V = ((DROI 2 (0 0 0) (2 0 0)) TRAN 2 (0 2 0)) VOLU 2 'TRAN' (0 0 2) ;\n"
-                "O = 0 0 0 ; Z = 0 0 1 ; A = 1 0 0 ;\n"
-                "MESS (NBNO (V POIN 'PLAN' O A (0 1 0) 0.01)) (NBNO (V POIN 'SPHE' O A\n"
-                "0.01)) ;\n"
-                "MESS (NBNO (V POIN 'CYLI' O Z A 0.01)) (NBNO (V POIN 'CONE' O Z (1 0 1)\n"
-                "0.01)) ;\n"
-                "MESS (NBNO (V POIN 'TORE' O Z (1.5 0 0) A 0.01)) ;"
-            ),
-        ),
     ),
 )
 def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:
@@ -272,11 +230,11 @@ def of_cell_field(
 
 
 @poin.form(
-    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m"),
+    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m", range=ANY_NUMBER),
     key(
         "density",
         "DENS",
-        arg("density", "FLOTTANT", unit="m"),
+        arg("density", "FLOTTANT", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
 )
@@ -294,11 +252,12 @@ def made(session: Session, coordinates: Sequence[float], density: float | None) 
         at_least=1,
         en="first coordinates, second ones ...",
         unit="m",
+        range=ANY_NUMBER,
     ),
     key(
         "density",
         "DENS",
-        arg("density", "FLOTTANT", "LISTREEL", unit="m"),
+        arg("density", "FLOTTANT", "LISTREEL", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
 )

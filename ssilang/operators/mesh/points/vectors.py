@@ -42,7 +42,6 @@ for _number in ("ENTIER", "FLOTTANT"):
     arg("second", "POINT", en="vector"),
     syntax="FLOT1 = VEC1 PSCA VEC2 ;",
     en="Of two points: their scalar product as vectors.",
-    examples=("OPTI DIME 2 ; X = (1. 2.) PSCA (3. 4.) ; LIST X ;",),
 )
 def scalar_product(first: Point, second: Point) -> float:
     """Scalar product of two points."""
@@ -54,7 +53,6 @@ def scalar_product(first: Point, second: Point) -> float:
     arg("second", "POINT", en="vector"),
     syntax="VEC3 = VEC1 PVEC (VEC2) ;",
     en="Of points: the vector product in 3D; in 2D the vector turned by a quarter turn.",
-    examples=("OPTI DIME 2 ; V = PVEC (1. 2.) ; LIST (COOR 1 V) ;",),
     when=IN_SPACE,
 )
 def vector_product(first: Point, second: Point) -> Point:
@@ -78,7 +76,6 @@ def quarter_turn(first: Point) -> Point:
     help=Help(
         en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
         syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
-        examples=("OPTI DIME 2 ; X = PMIX (1. 2.) (3. 4.) ; LIST X ;",),
     ),
 )
 def pmix(session: Session, call: Call, first: Point, second: Point, third: Point | None) -> float:
@@ -95,11 +92,7 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
     "NORM",
     arg("vector", "POINT", en="vector"),
     family="mesh",
-    help=Help(
-        en="Length of a point as a vector.",
-        syntax="FLOT1 = NORM VEC1 ;",
-        examples=("OPTI DIME 2 ; X = NORM (3. 4.) ; LIST X ;",),
-    ),
+    help=Help(en="Length of a point as a vector.", syntax="FLOT1 = NORM VEC1 ;"),
 )
 def norm(vector: Point) -> float:
     """Length of a vector."""

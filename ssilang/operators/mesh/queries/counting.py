@@ -1,7 +1,10 @@
-"""How much a mesh holds: NBEL NBNO MESU."""
+"""What a mesh holds: NBEL NBNO MESU, REFE for its names; how points and meshes are listed."""
 
 from __future__ import annotations
 
+import numpy as np
+
+from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -12,7 +15,10 @@ from ssilang.kernel.mesh.queries.measure import (
     total_measure,
 )
 from ssilang.language.registry import Help, arg, choice, operator, opt, said
+from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, ListMots
+from ssilang.messages.message import Teller
+from ssilang.operators.dispatch import listing
 
 
 @operator(
@@ -23,7 +29,6 @@ from ssilang.language.values import ListEnti, ListMots
     help=Help(
         en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
         syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBEL (DROI 4 (0. 0.) (1. 0.))) ;",),
     ),
 )
 def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
@@ -38,11 +43,7 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     "NBNO",
     arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
-    help=Help(
-        en="Number of nodes of a mesh.",
-        syntax="N1 = NBNO GEO1 ;",
-        examples=("OPTI DIME 2 ELEM SEG2 ; LIST (NBNO (DROI 4 (0. 0.) (1. 0.))) ;",),
-    ),
+    help=Help(en="Number of nodes of a mesh.", syntax="N1 = NBNO GEO1 ;"),
 )
 def nbno(mesh: Mesh | Point) -> int:
     """Count nodes."""
@@ -61,10 +62,6 @@ def nbno(mesh: Mesh | Point) -> int:
         en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
         "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
         syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; LIST (MESU (DROI 4 (0. 0.) (1. 0.))) ;",
-            ("OPTI DIME 2 ELEM SEG2 ;\nLIST (MAXI (MESU 'DENS' (DROI 4 (0. 0.) (1. 0.)))) ;"),
-        ),
     ),
 )
 def mesu(mesh: Mesh, what: str | None) -> float:
@@ -84,3 +81,69 @@ def sizes(mesh: Mesh) -> NodeField:
     """Field of mesh sizes."""
     ids, values = node_sizes(mesh)
     return NodeField.of(mesh.nodes, ids, {"SCAL": values}, "DIFFUS")
+
+
+@listing("POINT")
+def list_point(point: Point, short: bool, say: Teller) -> str:
+    """What LIST prints of a point."""
+    x, y, z = point.coordinates
+    return f"POINT {point.node + 1} : X={x:.5E} Y={y:.5E} Z={z:.5E} DENS={point.density:.5E}"
+
+
+@listing("MAILLAGE")
+def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
+    """What LIST prints of a mesh: a line a cell, or with 'RESU' a line a cell type."""
+    lines = [
+        say(
+            "operators.mesh.listed",
+            n_cells=mesh.n_cells,
+            n_nodes=len(mesh.node_ids),
+            n_types=len(mesh.blocks),
+            n_sides=len(mesh.sides),
+        )
+    ]
+    for block in mesh.blocks:
+        lines.append(
+            say(
+                "operators.mesh.listed-block",
+                count=len(block),
+                cell_type=block.cell_type,
+                n_nodes=block.kind.n_nodes,
+            )
+        )
+        if short:
+            continue
+        rows = zip(block.colours.tolist(), (block.connectivity + 1).tolist(), strict=True)
+        for k, (colour, row) in enumerate(rows, 1):
+            lines.append(f"  {k:6d}  {COLOURS[colour]}  " + " ".join(f"{n:6d}" for n in row))
+    return "\n".join(lines)
+
+
+@operator(
+    "REFE",
+    arg("small", "MAILLAGE", en="mesh"),
+    arg("large", "MAILLAGE", en="mesh that may hold it"),
+    family="mesh",
+    help=Help(
+        en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
+        "nodes of the first belong to the second.",
+        syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
+    ),
+)
+def refe(small: Mesh, large: Mesh) -> bool:
+    """Whether a mesh is within another one."""
+    return _inside(small, large)
+
+
+@refe.form(arg("mesh", "MAILLAGE", en="mesh"))
+def names_within(session: Session, mesh: Mesh) -> ListMots:
+    """Names of the meshes within a mesh."""
+    frame = session.frame
+    values = ((name, frame.find(name)) for name in sorted(frame.names()))
+    return ListMots(
+        [n for n, v in values if isinstance(v, Mesh) and v is not mesh and _inside(v, mesh)]
+    )
+
+
+def _inside(small: Mesh, large: Mesh) -> bool:
+    return bool(np.isin(small.sorted_node_ids, large.sorted_node_ids).all())

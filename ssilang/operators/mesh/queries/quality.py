@@ -1,4 +1,4 @@
-"""INDI: shape of cells."""
+"""Shape of cells (INDI) and what is wrong with a mesh (VERM)."""
 
 from __future__ import annotations
 
@@ -9,11 +9,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
+from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
 from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
+from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
@@ -47,14 +51,6 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
         "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
         syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
         "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; "
-            "LIST (MAXI (INDI T 'ASPE')) ;",
-            (
-                "OPTI DIME 2 ELEM TRI3 ;\n"
-                "T = MANU 'TRI3' (0. 0.) (1. 0.) (0. 1.) ; LIST (MAXI (INDI 'TOPO' T 1.)) ;"
-            ),
-        ),
     ),
 )
 def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
@@ -71,6 +67,7 @@ def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
         "FLOTTANT",
         "CHPOINT",
         en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
+        range=POSITIVE,
     ),
     flag("listed", "LISTREEL", en="a list is given"),
 )
@@ -86,8 +83,6 @@ def topological(
     if isinstance(metric, NodeField):
         wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
     elif metric is not None:
-        if metric <= 0:
-            raise call.error("operators.mesh.wanted-length-not-positive", metric)
         wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
     values = quality_in_metric(cells.coordinates, wanted)
     if listed:
@@ -125,3 +120,49 @@ def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
             )
         made[word] = measure(cells.coordinates)[:, None]
     return CellFieldBlock(cells, made, "GRAVITE")
+
+
+_CHECKS = (
+    ("MESH", repeated_cells, "operators.mesh.repeated-cells"),
+    ("NODE", unmatched_middles, "operators.mesh.unmatched-middles"),
+    ("MESH", unfit_faces, "operators.mesh.unfit-faces"),
+)
+
+
+@operator(
+    "VERM",
+    arg("mesh", "MAILLAGE", en="mesh"),
+    family="mesh",
+    help=Help(
+        en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
+        "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
+        "names MESH1 MESH2 ..., NODE1 ...",
+        syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
+    ),
+)
+def verm(session: Session, mesh: Mesh) -> None:
+    """Check a mesh."""
+    _tell(session, mesh)
+
+
+@verm.form(
+    said("CORR"),
+    arg("mesh", "MAILLAGE", en="mesh"),
+    en="'CORR' also gives the mesh with one cell left where several stand on the same nodes; "
+    "what else is found is for the script to mend.",
+)
+def corrected(session: Session, mesh: Mesh) -> Mesh:
+    """Check a mesh, and take doubled cells out of it."""
+    _tell(session, mesh)
+    return without_duplicates(mesh)
+
+
+def _tell(session: Session, mesh: Mesh) -> None:
+    count = {"MESH": 0, "NODE": 0}
+    for kind, check, code in _CHECKS:
+        found = check(mesh)
+        if found.n_cells:
+            count[kind] += 1
+            name = f"{kind}{count[kind]}"
+            session.frame.assign(name, found)
+            session.print(" " + session.told(code, count=found.n_cells, name=name))

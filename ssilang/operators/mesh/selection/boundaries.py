@@ -45,10 +45,6 @@ def _whole_lines(mesh: Mesh) -> Mesh:
         en="Contour of a surface: edges of one cell only ('EXTE', the default), of three or more "
         "('INTE'), or both ('TOUT'). The lines are put end to end. 'NOID' allows an empty result.",
         syntax="GEO1 = CONT ('NOID') ('EXTE'|'INTE'|'TOUT') GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;"
-            " LIST (NBEL (CONT S)) ;",
-        ),
     ),
 )
 def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
@@ -75,12 +71,6 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
         "cells are in the direct sense ('ORIE': in any case). Of a surface, whose cells are their "
         "own faces: the cells that stand there once. 'NOID' allows an empty result.",
         syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
-        examples=(
-            "OPTI DIME 3 ELEM QUA4 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
-            " LIST (NBEL (ENVE (S ET (S ELEM 1)))) ;",
-            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
-            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ENVE V)) ;",
-        ),
     ),
 )
 def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
@@ -112,10 +102,6 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
         en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or the angle that "
         "is given, or ends.",
         syntax="GEO1 = ARET GEO2 (FLOT1) ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;"
-            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (ARET V)) ;",
-        ),
     ),
 )
 def aret(mesh: Mesh, angle: float) -> Mesh:

@@ -40,6 +40,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.points.picking import (
     ABSOLUTE,
     EXTREMES,
@@ -54,7 +55,7 @@ _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 _FILTERS = key(
     "filters", (TIE, *CELL_TYPES, "POLY", *COLOURS), repeated=True, en="type or colour of the cells"
 )
-_NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those")
+_NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those", range=POSITIVE)
 
 
 @operator(
@@ -77,32 +78,6 @@ _NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among thos
         "LMOTS1 = GEO2 ELEM 'TYPE'|'COUL' ;\n"
         "GEO1 = CHAM1 ELEM 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('LARG'|'STRI') "
         "('AVEC'|'SANS' LMOTS1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0.25 0. ; L = (DROI 2 (0. 0.) P) ET (DROI 3 P (1. 0.)) ;"
-            " M = L ELEM 'APPU' 'LARG' P ; LIST (NBEL M) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (4. 0.) COUL 'ROUG') TRAN 1 (0. 1.) ;\n"
-                "T = S ET (MANU 'TRI3' (4. 0.) (5. 0.) (4. 1.)) ;\n"
-                "LIST (NBEL (T ELEM 'QUA4')) ; LIST (T ELEM 'TYPE') ;\n"
-                "LIST (NBEL (T ELEM 'COUL' 0)) ; LIST (T ELEM 'COUL') ;\n"
-                "C = S ELEM 'CONT' (2.5 0.5) ; LIST (COOR 1 (BARY C)) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; X = COOR 1 (MANU 'CHML' M 'SCAL' 1.) ;\n"
-                "L = X ELEM 'MAXI' ; LIST (NBEL L) ; L = X ELEM 'MINI' ; LIST (NBEL L) ;\n"
-                "L = X ELEM 'SUPE' 3.5 ; LIST (NBEL L) ; L = X ELEM 'EGSU' 3. 'STRI' ;\n"
-                "LIST (NBEL L) ;\n"
-                "L = X ELEM 'EGAL' 2. ; LIST (NBEL L) ; L = X ELEM 'DIFF' 2. ;\n"
-                "LIST (NBEL L) ;\n"
-                "L = X ELEM 'EGIN' 1. 'STRI' ; LIST (NBEL L) ; L = X ELEM 'INFE' 1. ;\n"
-                "LIST (NBEL L) ;\n"
-                "L = X ELEM 'COMP' 0.5 1.5 ; LIST (NBEL L) ;"
-            ),
-            (
-                "OPTI DIME 2 ELEM SEG2 ;\n"
-                "L = DROI 5 (0. 0.) (5. 0.) ; A = L POIN 2 ; B = L POIN 4 ;\n"
-                "LIST (NBEL (L ELEM 'COMP' A B)) ;"
-            ),
-        ),
     ),
 )
 def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti | None) -> Mesh:
@@ -115,7 +90,7 @@ def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti |
         "colour",
         {
             "COUL": [
-                opt("number", "ENTIER", en="number of a colour"),
+                opt("number", "ENTIER", en="number of a colour", range=NOT_NEGATIVE),
             ]
         },
         optional=False,

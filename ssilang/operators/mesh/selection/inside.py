@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.language.registry import Help, arg, choice, flag, operator, opt
 from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -24,16 +24,12 @@ from ssilang.operators.workspace import workspace
     "DEDA",
     arg("point", "POINT", en="point"),
     arg("mesh", "MAILLAGE", en="closed line or closed surface"),
-    opt("tolerance", "FLOTTANT", en="accepted, without effect"),
+    opt("tolerance", "FLOTTANT", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     help=Help(
         en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
         "(3D); of a surface in 2D the contour is taken.",
         syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ;"
-            " SI (DEDA (2. 0.5) (CONT S)) ; ERRE 5 ; FINSI ;",
-        ),
     ),
 )
 def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) -> bool:
@@ -73,11 +69,6 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
         "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
         "allows an empty result.",
         syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ;"
-            " C = CONT ((DROI 2 (0.5 0.5) (2.5 0.5)) TRAN 2 (0. 2.)) ;"
-            " LIST (NBEL (INCL S C)) ;",
-        ),
     ),
 )
 def incl(

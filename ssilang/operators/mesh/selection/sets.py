@@ -1,20 +1,28 @@
-"""Meshes as sets: ET DIFF INTE UNIQ."""
+"""Meshes as sets: ET DIFF INTE UNIQ, and VISA for nodes at the same place."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
+import numpy as np
+
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import (
     intersection,
+    poi1,
     points_mesh,
     symmetric_difference,
     union,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
-from ssilang.language.registry import arg, flag, main, said
+from ssilang.language.registry import Help, arg, flag, main, operator, opt, said
+from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
+from ssilang.operators.mesh.tolerance import DISTANCE
+from ssilang.operators.workspace import workspace
 
 _SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point")
 _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
@@ -46,10 +54,6 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     _SECOND,
     syntax="GEO3 = GEO1 DIFF GEO2 ;",
     en="Of meshes: cells (same type, same nodes) of one only.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
-        " LIST (NBEL (A DIFF B)) ;",
-    ),
 )
 def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
     """Symmetric difference of two meshes."""
@@ -62,10 +66,6 @@ def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
     _ALLOWED,
     syntax="GEO3 = GEO1 INTE GEO2 ('NOVERIF') ;",
     en="Of meshes: cells (same type, same nodes) that both hold. 'NOVERIF' allows an empty result.",
-    examples=(
-        "OPTI DIME 2 ELEM SEG2 ; A = DROI 2 (0. 0.) (1. 0.) ; B = A ET (DROI 3 (0. 1.) (1. 1.)) ;"
-        " LIST (NBEL (A INTE B)) ;",
-    ),
 )
 def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> Mesh:
     """Common cells of two meshes."""
@@ -84,11 +84,6 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
     en="With 'GEOM', of two surfaces of TRI3 in space: both surfaces with their triangles cut "
     "where the surfaces cross, then the lines where they cross, by nodes of the first surface and "
     "by nodes of the second. Parts where the surfaces lie in one plane give no line.",
-    examples=(
-        "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ;"
-        " B = (DROI 2 (-1. 1.1 -1.) (3. 1.1 -1.)) TRAN 2 (0. 0. 2.) ;"
-        " C D L M = INTE 'GEOM' A B ; MESS (NBEL C) (NBEL D) (MESU L) ;",
-    ),
 )
 def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Surfaces cut along their common lines, and these lines."""
@@ -96,3 +91,57 @@ def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh,
     if not cut[2].blocks and not allowed:
         raise MeshError("operators.mesh.no-crossing")
     return cut
+
+
+_NONE = np.empty(0, dtype=np.int64)
+
+
+@operator(
+    "VISA",
+    DISTANCE,
+    arg("first", "MAILLAGE", en="mesh"),
+    opt("second", "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"),
+    family="mesh",
+    full_name="VISAVIS",
+    help=Help(
+        en="Nodes of a mesh that have a node of a second one at their place, and these nodes, as "
+        "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
+        "same within the distance given, else within a tenth of the density in force.",
+        syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
+    ),
+)
+def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -> tuple[Mesh, Mesh]:
+    """Pairs of nodes."""
+    ws = workspace(call.session)
+    reach = ws.density / 10 if distance is None else distance
+    if not first.n_cells or (second is not None and not second.n_cells):
+        return poi1(ws.nodes, _NONE), poi1(ws.nodes, _NONE)
+    if reach <= 0:
+        raise call.error("operators.mesh.no-distance")
+    here = first.sorted_node_ids
+    there = here if second is None else second.sorted_node_ids
+    a, b = facing(ws.nodes, here, there, reach)
+    return poi1(ws.nodes, a), poi1(ws.nodes, b)
+
+
+def facing(
+    nodes: NodeTable, here: IntArray, there: IntArray, distance: float
+) -> tuple[IntArray, IntArray]:
+    """Each node of `here` with the nearest other node of `there` not farther than `distance`.
+
+    Within one set each pair is given once.
+    """
+    from scipy.spatial import cKDTree
+
+    xyz = nodes.coordinates
+    gaps, places = cKDTree(xyz[there]).query(xyz[here], k=min(2, len(there)))
+    gaps, places = (np.reshape(a, (len(here), -1)) for a in (gaps, places))
+    # a node of both meshes is its own counterpart only if there is no other
+    own = there[places[:, 0]] == here
+    column = np.where(own & (gaps.shape[1] > 1), 1, 0)
+    rows = np.arange(len(here))
+    partner, gap = there[places[rows, column]], gaps[rows, column]
+    found = (gap < distance) & (partner != here)
+    if np.array_equal(here, there):
+        found &= here < partner
+    return here[found], partner[found]

@@ -26,9 +26,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import POSITIVE, between
 
-_CUT = "OPTI DIME 2 ELEM SEG2 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 3 (2. 0.) (3. 0.)) ; "
-
-
 _FREE = flag("free", "NESC", en="the table has no sub-type")
 _MESH = main("mesh", "MAILLAGE", en="mesh")
 _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts")
@@ -54,19 +51,6 @@ _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts")
         "('ANGL' (FLOT1) ('TELQ')) ;\n"
         "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 N1 ;\n"
         "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
-        examples=(
-            _CUT + "T = PART 'NESC' 'CONN' L ; MESS (DIME T) ;",
-            (
-                "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (4. 0.)) TRAN 2 (0. 1.) ;\n"
-                "M = MODE S 'MECANIQUE' 'ELASTIQUE' ;\n"
-                "T = PART 'OPTI' S 2 ; LIST (NBEL (T . 1)) ;\n"
-                "T = PART 'ARLE' S 4 ; LIST (NBEL (T . 1)) ;\n"
-                "T = PART 'ARLE' M 4 ; LIST (NBEL (EXTR (T . 1) 'MAIL')) ;\n"
-                "T = PART M 2 ; LIST (NBEL (EXTR (T . 1) 'MAIL')) ;\n"
-                "T = PART 'NESC' 'SEPA' (CONT S) 'ANGL' 45. ; LIST (DIME T) ;"
-            ),
-        ),
     ),
 )
 def part(mesh: Mesh, free: bool) -> Table:
@@ -179,7 +163,6 @@ def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
         "lines separate, with 'STR2' cells hang together by edges of not more than two cells. "
         "PART does more.",
         syntax="TAB1 = CCON ('STR1'|'STR2') MAIL1 ;",
-        examples=(_CUT + "T = CCON L ; MESS (NBEL (T . 2)) ;",),
     ),
 )
 def ccon(mesh: Mesh, strict: str | None) -> Table:

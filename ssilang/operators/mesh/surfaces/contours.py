@@ -39,7 +39,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
@@ -104,37 +104,6 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
         "triangles. A nodal field of one component gives the mesh sizes to respect.",
         syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
         "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 1. 0. ; C = 0. 1. ;"
-            " L = A DROI 5 B DROI 5 C DROI 5 A ; S = SURF L 'PLANE' ;"
-            " OPTI ELEM SEG2 ; LIST (MESU (SURF L)) ;",
-            (
-                "OPTI DIME 3 ELEM TRI3 ;\n"
-                "O = 0 0 0 ; A = 1 0 0 ; B = 0 1 0 ; C = 0 1 2 ; D = 1 0 2 ;\n"
-                "L = (CERC 4 A O B) ET (DROI 3 B C) ET (CERC 4 C (0 0 2) D) ET (DROI 3 D A) ;\n"
-                "S = SURF L 'CYLI' O (0 0 1) ; MESS (MESU S) ;\n"
-                "E2 = 2 0 2 ; F2 = 0 2 2 ; E1 = 1 0 1 ; F1 = 0 1 1 ;\n"
-                "L = (CERC 4 E1 (0 0 1) F1) ET (DROI 3 F1 F2) ET (CERC 4 F2 (0 0 2) E2) ET\n"
-                "(DROI 3 E2 E1) ;\n"
-                "S = SURF L 'CONI' O (0 0 1) ; MESS (MESU S) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM TRI3 ;\n"
-                "O = 0 0 0 ; A = 1 0 0 ; B = 0 1 0 ; H = 0.5 ** 0.5 ; C = 0 H H ; D = H 0 H ;\n"
-                "L = (CERC 4 A O B) ET (CERC 3 B O C) ET (CERC 4 C (0 0 H) D) ET (CERC 3 D O\n"
-                "A) ;\n"
-                "S = SURF L 'SPHE' O ; MESS (MESU S) ;\n"
-                "Z = 0 0 1 ; P = 3 0 0 ; Q = 0 3 0 ; A = 4 0 0 ; B = 0 4 0 ; C = 0 3 1 ;\n"
-                "D = 3 0 1 ;\n"
-                "L = (CERC 6 A O B) ET (CERC 4 B Q C) ET (CERC 6 C Z D) ET (CERC 4 D P A) ;\n"
-                "S = SURF L 'TORI' O Z P ; MESS (MESU S) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM TRI3 DENS 0.25 ;\n"
-                "S = SURF 'POLY' 2 2 (0 0 0) (1 0 0) (0 1 0) (0 0 1) ;\n"
-                "LIST (MAXI (COOR 3 S)) ;"
-            ),
-        ),
     ),
 )
 def surf(
@@ -178,47 +147,6 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
         "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
         syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
         "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; A = 0. 0. ; B = 1. 0. ; C = 1. 1. ; D0 = 0. 1. ;"
-            " S = DALL (DROI 3 A B) (DROI 2 B C) (DROI 3 C D0) (DROI 2 D0 A) 'PLAN' ;"
-            " LIST (NBEL S) ;",
-            (
-                "OPTI DIME 3 ELEM QUA4 ;\n"
-                "O = 0 0 0 ; A = 1 0 0 ; B = 0 1 0 ; C = 0 1 2 ; D = 1 0 2 ;\n"
-                "S = DALL (CERC 4 A O B) (DROI 3 B C) (CERC 4 C (0 0 2) D) (DROI 3 D A)\n"
-                "'CYLI' O (0 0 1) ;\n"
-                "MESS (MESU S) ;\n"
-                "E2 = 2 0 2 ; F2 = 0 2 2 ; E1 = 1 0 1 ; F1 = 0 1 1 ;\n"
-                "S = DALL (CERC 4 E1 (0 0 1) F1) (DROI 3 F1 F2) (CERC 4 F2 (0 0 2) E2) (DROI\n"
-                "3 E2 E1)\n"
-                "    'CONI' O (0 0 1) ;\n"
-                "MESS (MESU S) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM QUA4 ;\n"
-                "O = 0 0 0 ; A = 1 0 0 ; B = 0 1 0 ; H = 0.5 ** 0.5 ;\n"
-                "C = 0 H H ; D = H 0 H ; G = 0 0 H ;\n"
-                "S = DALL (CERC 4 A O B) (CERC 3 B O C) (CERC 4 C G D) (CERC 3 D O A) 'SPHE'\n"
-                "O ;\n"
-                "MESS (MESU S) ;\n"
-                "S = DALL (CERC 4 A O B) (CERC 3 B O C) (CERC 4 C G D) (CERC 3 D O A) 'QUEL'\n"
-                ";\n"
-                "MESS (MESU S) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM QUA4 ;\n"
-                "O = 0 0 0 ; Z = 0 0 1 ; P = 3 0 0 ; Q = 0 3 0 ;\n"
-                "A = 4 0 0 ; B = 0 4 0 ; C = 0 3 1 ; D = 3 0 1 ;\n"
-                "S = DALL (CERC 6 A O B) (CERC 4 B Q C) (CERC 6 C Z D) (CERC 4 D P A) 'TORI'\n"
-                "O Z P ;\n"
-                "MESS (MESU S) ;"
-            ),
-            (
-                "OPTI DIME 3 ELEM QUA4 DENS 0.25 ;\n"
-                "S = DALL 'POLY' 2 2 (0 0 0) (1 0 0) (0 1 0) (0 0 1) ;\n"
-                "LIST (MAXI (COOR 3 S)) ;"
-            ),
-        ),
     ),
 )
 def dall(
@@ -250,10 +178,10 @@ _POLYNOMIAL = (
     key(
         "limits",
         "PARAMETRE",
-        arg("u1", "FLOTTANT"),
-        arg("u2", "FLOTTANT"),
-        arg("v1", "FLOTTANT"),
-        arg("v2", "FLOTTANT"),
+        arg("u1", "FLOTTANT", range=ANY_NUMBER),
+        arg("u2", "FLOTTANT", range=ANY_NUMBER),
+        arg("v1", "FLOTTANT", range=ANY_NUMBER),
+        arg("v2", "FLOTTANT", range=ANY_NUMBER),
         default=(0.0, 1.0, 0.0, 1.0),
         en="where U and V begin and end",
     ),

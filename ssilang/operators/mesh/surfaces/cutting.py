@@ -1,4 +1,4 @@
-"""COUP FUIT: meshes cut by a plane, contours cut by a segment."""
+"""Cuts: COUP by a plane, FUIT of a contour by a segment, ISOV where a field takes a value."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.contour_split import split_contour
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import Help, arg, choice, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
 @operator(
@@ -25,11 +26,6 @@ from ssilang.language.run.call import Call
         en="What a plane through three points cuts out of a mesh in space: triangles in volumes, "
         "lines in surfaces, points in lines. Quadratic cells are cut as linear ones.",
         syntax="GEO2 = COUP GEO1 P1 P2 P3 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ; "
-            "V = S VOLU 2 'TRAN' (0. 0. 1.) ; "
-            "C = COUP V (0. 0. 0.3) (1. 0. 0.3) (0. 1. 0.3) ; MESS (MESU C) ;",
-        ),
     ),
 )
 def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
@@ -59,11 +55,6 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
         "holds its inverse, both in the sense of the first. Only nodes on the contour count. A "
         "line that the axis of revolution closes may be cut too.",
         syntax="MAIL4 MAIL5 MAIL6 = FUIT MAIL1 MAIL2 MAIL3 ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; A = DROI 6 (0. 0.) (3. 0.) ; B = DROI 2 (3. 0.) (3. 1.) ; "
-            "C = DROI 6 (3. 1.) (0. 1.) ; D = DROI 2 (0. 1.) (0. 0.) ; L = A ET B ET C ET D ; "
-            "ELIM 1.E-6 L ; E F G = FUIT L (A POIN 4) C ; MESS (NBEL F) (NBEL G) (MESU E) ;",
-        ),
     ),
 )
 def fuit(contour: Mesh, first: Mesh | Point, second: Mesh | Point) -> tuple[Mesh, Mesh, Mesh]:
@@ -75,3 +66,32 @@ def _nodes(given: Mesh | Point) -> Mesh:
     if isinstance(given, Mesh):
         return given
     return Mesh.of(given.nodes, "POI1", np.array([[given.node]]))
+
+
+_SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
+
+
+@operator(
+    "ISOV",
+    arg("field", "MCHAML", en="field at nodes, one component"),
+    choice(
+        "side",
+        tuple(_SIDES),
+        default="EGAL",
+        en="places of the value, the default, or of smaller or larger ones",
+    ),
+    arg("value", "FLOTTANT", en="value", range=ANY_NUMBER),
+    family="mesh",
+    full_name="ISOVALEUR",
+    help=Help(
+        en="Mesh of the places where a field in cells, given at nodes and of one component, takes "
+        "a value: points in lines, lines in surfaces, triangles in volumes. With 'EGINFE', "
+        "'EGSUPE' the part where it is smaller or equal, larger or equal, cells being cut along "
+        "the value. The cells are POI1 SEG2 TRI3 TET4; QUA4 and linear volumes are first cut into "
+        "triangles and tetrahedra.",
+        syntax="MAIL1 = ISOV CHAM1 ('EGAL'|'EGINFE'|'EGSUPE') FLOT1 ;",
+    ),
+)
+def isov(field: CellField, side: str, value: float) -> Mesh:
+    """Isovalue, or part on one side of it."""
+    return isovalue(field, value, _SIDES[side])

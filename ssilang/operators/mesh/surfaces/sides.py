@@ -5,26 +5,18 @@ from __future__ import annotations
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import ANY, Help, arg, operator
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import POSITIVE
 
 
 @operator(
     "COTE",
-    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left"),
+    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="surface"),
     family="mesh",
     help=Help(
         en="Side of a surface kept from its making: 1 initial, 2 right, 3 final, 4 left; all of "
         "them without a number. They run round the surface in the sense of side 1.",
         syntax="GEO1 = COTE (I1) GEO2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
-            " LIST (NBEL (COTE 2 S)) ;",
-            (
-                "OPTI DIME 2 ELEM QUA4 ;\n"
-                "S = (DROI 4 (0. 0.) (1. 0.)) TRAN 3 (0. 1.) ;\n"
-                "A B C D = COTE S ; MESS (NBEL A) (NBEL B) (NBEL C) (NBEL D) ;"
-            ),
-        ),
     ),
 )
 def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
@@ -49,22 +41,13 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
 
 @operator(
     "FACE",
-    arg("number", "ENTIER", en="1 start, 2 end, 3 around"),
+    arg("number", "ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="volume"),
     family="mesh",
     help=Help(
         en="Face of a volume kept from its making: 1 start, 2 end, 3 around; all of them without a "
         "number.",
         syntax="GEO1 = FACE (N1) GEO2 ;",
-        examples=(
-            "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 2 (0. 1. 0.) ;"
-            " V = S VOLU 2 'TRAN' (0. 0. 1.) ; LIST (NBEL (FACE 3 V)) ;",
-            (
-                "OPTI DIME 3 ELEM CUB8 ;\n"
-                "V = ((DROI 2 (0 0 0) (1 0 0)) TRAN 2 (0 1 0)) VOLU 3 'TRAN' (0 0 1) ;\n"
-                "F1 F2 F3 = FACE V ; MESS (NBEL F1) (NBEL F2) (NBEL F3) ;"
-            ),
-        ),
     ),
 )
 def face(call: Call, number: int, mesh: Mesh) -> Mesh:

@@ -25,6 +25,7 @@ from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import Help, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -49,6 +50,7 @@ LAYERS = opt(
     "count",
     "ENTIER",
     en="number of layers, graded by the mesh sizes if negative; without it these decide",
+    range=NOT_ZERO,
 )
 _SWEPT = arg("swept", "MAILLAGE", en="line, or surface whose side 3 is swept")
 
@@ -96,10 +98,6 @@ def _swept(
     help=Help(
         en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
         syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; S = L TRAN 3 (0. 1.) ;"
-            " LIST (NBEL S) ;",
-        ),
     ),
 )
 def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
@@ -122,9 +120,6 @@ def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point
         en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
         "(3D). " + _LAYERS_EN,
         syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (1. 0.) (2. 0.) ; S = L ROTA 8 90. (0. 0.) ;",
-        ),
     ),
 )
 def rota(
@@ -163,10 +158,6 @@ def turning(
         + _LAYERS_EN
         + " If the second is a surface its side 1 is reached.",
         syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ; M = DROI 4 (0. 1.) (2. 1.) ;"
-            " S = L REGL 3 M ;",
-        ),
     ),
 )
 def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
@@ -217,10 +208,6 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
         en="Surface swept by a line moved parallel to itself along another line, one layer for "
         "each of its cells.",
         syntax="SURF1 = LIG1 GENE LIG2 ;",
-        examples=(
-            "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (1. 0.) ;"
-            " M = QUEL SEG2 (0. 0.) (0. 1.) (1. 2.) ; S = L GENE M ;",
-        ),
     ),
 )
 def gene(session: Session, line: Mesh, way: Mesh) -> Mesh:

@@ -1,19 +1,30 @@
-"""Triangles inside lines and between points: TRIA RAFT."""
+"""Triangles inside lines and between points (TRIA RAFT COUT), Voronoi's partition (VORO)."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.generators.stitch import cone, stitch
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.constrained import is_closed, triangulated_with_lines
-from ssilang.kernel.mesh.surfaces.refine import delaunay_mesh, refined_triangles
+from ssilang.kernel.mesh.surfaces.constrained import (
+    delaunay_mesh,
+    is_closed,
+    refined_triangles,
+    triangulated_with_lines,
+)
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
+from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
 from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
+from ssilang.language.values import ListEnti, Mot, Table
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.workspace import workspace
 
 
@@ -21,7 +32,7 @@ from ssilang.operators.workspace import workspace
     "TRIA",
     arg("mesh", "MAILLAGE", en="closed lines, or points"),
     flag("convex", "CONV", en="of points: their convex hull, as always"),
-    opt("limit", "ENTIER", en="accepted, without effect"),
+    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     full_name="TRIANGULATION",
     help=Help(
@@ -30,10 +41,6 @@ from ssilang.operators.workspace import workspace
         "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
         "points: TRI3 in 2D, TET4 in 3D.",
         syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
-        examples=(
-            "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; L = P D 3 (1. 0.) D 3 (0. 1.) D 3 P ;"
-            " LIST (MESU (TRIA L)) ;",
-        ),
     ),
 )
 def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
@@ -61,16 +68,12 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect"),
+    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     help=Help(
         en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
         "nodes) by new points inside; the contour is kept.",
         syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
-        examples=(
-            "OPTI DIME 2 ELEM TRI3 ; P = 0. 0. ; L = P D 8 (1. 0.) D 8 (0. 1.) D 8 P ;"
-            " S = TRIA L ; T = RAFT S (MANU 'CHPO' S 1 'SCAL' 0.15) ; LIST (MESU T) ;",
-        ),
     ),
 )
 def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
@@ -83,3 +86,111 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
     return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+
+
+@operator(
+    "COUT",
+    arg("first", "MAILLAGE", en="line, or cells"),
+    arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
+    family="mesh",
+    full_name="COUTURE",
+    help=Help(
+        en="Triangles between two lines described in the same sense, whatever their numbers of "
+        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
+        "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
+        syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
+    ),
+)
+def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
+    """Stitch lines together, or join cells to a point."""
+    if isinstance(second, Point):
+        return cone(first, second.node)
+    return stitch(first, second, workspace(session).colour)
+
+
+@operator(
+    "VORO",
+    arg("germs", "MAILLAGE", en="points of the cells"),
+    arg("contour", "MAILLAGE", en="closed line of SEG2"),
+    opt("weights", "CHPOINT", en="weights of the points", unit="m"),
+    family="mesh",
+    full_name="VORONOI",
+    help=Help(
+        en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
+        "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
+        "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
+        "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
+        "numbers, 'VOIS', the points of the cells beside it.",
+        syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
+    ),
+)
+def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
+    """Cells, edges and neighbours."""
+    ws = workspace(call.session)
+    if ws.dimension != 2:
+        raise call.error("operators.mesh.plane-only")
+    if any(b.cell_type != "POI1" for b in germs.blocks) or not germs.n_cells:
+        raise call.error("operators.mesh.germs-are-points", germs)
+    if any(b.cell_type != "SEG2" for b in contour.blocks):
+        raise call.error("operators.mesh.contour-of-segments", contour)
+    nodes = germs.nodes
+    places = np.concatenate([b.connectivity[:, 0] for b in germs.blocks])
+    sides = contour_cells(contour)
+    corners, local = np.unique(sides, return_inverse=True)
+    sizes = np.zeros(len(places))
+    if weights is not None:
+        sizes = weights.values_at(next(iter(weights.components)), places, 0.0)
+    x = nodes.coordinates
+    found = voronoi_partition(
+        x[places, :2].copy(), sizes, x[corners, :2].copy(), local.reshape(sides.shape)
+    )
+    fresh = nodes.add(found.points[len(corners) :], ws.density)
+    edges = np.concatenate([corners, fresh])[found.edges]
+    return _Told(germs, places, sizes, found, edges, ws.colour).table()
+
+
+class _Told:
+    """The partition in the language's objects."""
+
+    def __init__(
+        self,
+        germs: Mesh,
+        places: IntArray,
+        weights: FloatArray,
+        found: VoronoiPartition,
+        edges: IntArray,
+        colour: int,
+    ) -> None:
+        self.nodes, self.colour = germs.nodes, colour
+        self.places, self.weights = places, weights
+        self.owners, self.edges = found.owners, edges
+
+    def table(self) -> Table:
+        arcs, cells, told = Table(), Table(), Table()
+        for number, edge in enumerate(self.edges, 1):
+            arcs.set(number, self._lines(edge[None]))
+        for germ, place in enumerate(self.places):
+            cells.set(Point(self.nodes, int(place)), self._cell(germ))
+        order = np.argsort(self.places)
+        values = NodeValues(self.places[order], self.weights[order])
+        told.set(Mot("VISU"), self._lines(self.edges))
+        told.set(Mot("POND"), NodeField(self.nodes, {"SCAL": values}, "DIFFUS"))
+        told.set(Mot("CELL"), cells)
+        told.set(Mot("ARTS"), arcs)
+        return told
+
+    def _cell(self, germ: int) -> Table:
+        """Edges with the germ's cell on their left, their numbers, and the cells beside it."""
+        left, right = self.owners[:, 0] == germ, self.owners[:, 1] == germ
+        rows = np.flatnonzero(left | right)
+        lines = np.where(left[rows, None], self.edges[rows], self.edges[rows][:, ::-1])
+        beside = np.where(left[rows], self.owners[rows, 1], self.owners[rows, 0])
+        beside = np.unique(beside[beside != OUTSIDE])
+        cell = Table()
+        cell.set(Mot("VISU"), self._lines(lines))
+        cell.set(Mot("ARTS"), ListEnti(rows + 1))
+        cell.set(Mot("VOIS"), poi1(self.nodes, self.places[beside], self.colour))
+        return cell
+
+    def _lines(self, table: IntArray) -> Mesh:
+        return Mesh.of(self.nodes, "SEG2", table, self.colour)

@@ -8,9 +8,8 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.thermal import thermal_strain
-from ssilang.kernel.elements.results.integrals import integrals
+from ssilang.kernel.elements.results.integrals import green_strain, integrals
 from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
-from ssilang.kernel.elements.results.second_order import green_strain
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved, nodal_of_cells
 from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,

@@ -11,8 +11,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
-from ssilang.kernel.mesh.surfaces.triangle_crossing import crossing_segments
+from ssilang.kernel.mesh.surfaces.surface_crossing import crossed, crossing_segments
 
 
 def areas(mesh: Mesh) -> FloatArray:

@@ -1,0 +1,82 @@
+"""ZFRA: a fragility from counts, or from a cloud of demands, for @FRAGILITE."""
+
+from __future__ import annotations
+
+from dataclasses import astuple
+
+import numpy as np
+
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances
+from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
+
+_POINTS = 121
+_INTENSITIES = arg("intensities", "LISTREEL", en="intensities", range=POSITIVE)
+_RECORDS = key(
+    "records", "SIGN", arg("records", "LISTENTI", range=ANY_NUMBER), en="record of each, by number"
+)
+
+
+@operator(
+    "ZFRA",
+    _INTENSITIES,
+    arg("exceeded", "LISTREEL", en="runs that exceed at each", range=NOT_NEGATIVE),
+    opt("runs", "LISTREEL", en="runs at each, 1 without it", range=POSITIVE),
+    _RECORDS,
+    family="signals",
+    gives=("EVOLUTIO", "LISTREEL"),
+    help=Help(
+        en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
+        "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
+        syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
+    ),
+)
+def zfra(
+    intensities: ListReel, exceeded: ListReel, runs: ListReel | None, records: ListEnti | None
+) -> tuple[Curve, ListReel]:
+    """From counts."""
+    of = np.ones(len(exceeded.values)) if runs is None else runs.values
+    which = None if records is None else records.values
+    return _told(of_exceedances(intensities.values, exceeded.values, of, which))
+
+
+@zfra.form(
+    said("NUAG"),
+    _INTENSITIES,
+    arg("demands", "LISTREEL", en="demand of each run", range=ANY_NUMBER),
+    arg("limit", "FLOTTANT", en="demand that counts", range=ANY_NUMBER),
+    flag("below", "DESS", en="lower demands exceed"),
+    key(
+        "capacity",
+        "CAPA",
+        arg("x", "FLOTTANT", range=NOT_NEGATIVE),
+        default=0.0,
+        en="dispersion of the capacity",
+    ),
+    _RECORDS,
+    gives=("EVOLUTIO", "LISTREEL"),
+    en="NUAG: from a cloud of demands.",
+    syntax="EVOL1 LREEL1 = ZFRA 'NUAG' LREEL2 LREEL3 X1 ('DESS') ('CAPA' X2) ('SIGN' LENTI1) ;",
+)
+def _cloud(
+    word: str,
+    intensities: ListReel,
+    demands: ListReel,
+    limit: float,
+    below: bool,
+    capacity: float,
+    records: ListEnti | None,
+) -> tuple[Curve, ListReel]:
+    found = of_cloud(
+        intensities.values, demands.values, limit, below=below, capacity=capacity,
+        records=None if records is None else records.values,
+    )  # fmt: skip
+    return _told(found)
+
+
+def _told(found: Fragility) -> tuple[Curve, ListReel]:
+    x = found.median * np.exp(found.dispersion * np.linspace(-3.0, 3.0, _POINTS))
+    part = CurvePart(x, found.probability(x), "intensity", "probability")
+    return Curve((part,)), ListReel(astuple(found))

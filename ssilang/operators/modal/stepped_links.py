@@ -1,0 +1,74 @@
+"""PASAPAS on modes with links: models MODAL and LIAISON, which DYNE steps."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.modal.explicit import ModalSteps
+from ssilang.kernel.modal.shape_models import is_shape
+from ssilang.language.values import ListReel, Mot, Table
+from ssilang.operators.modal.dyne import results_of_models
+from ssilang.operators.modal.dyne_models import is_link
+from ssilang.operators.tables.entries import Entries
+
+
+def stepped_links(entries: Entries, times: FloatArray, saved: NDArray[np.bool_]) -> bool:
+    """Step and fill the tables of results where MODELE has links; else nothing, and False.
+
+    The results of a link asked for (SORT) stand in VARIABLES_INTERNES, a table at SLIA.
+    """
+    model: Model | None = entries.get("MODELE")
+    if model is None or not any(is_link(z) for z in model.zones):
+        return False
+    if any(z.formulation == "MECANIQUE" and not is_shape(z) for z in model.zones):
+        raise entries.error("operators.statics.links-are-of-modes")
+    if not entries.flag("DYNAMIQUE"):
+        raise entries.error("operators.statics.links-want-dynamics")
+    gaps = np.diff(times)
+    if np.ptp(gaps) > 1e-6 * gaps[0]:
+        raise entries.error("operators.statics.links-want-equal-steps")
+    plan = ModalSteps(float(gaps[0]), len(gaps))
+    results, named = results_of_models(entries.call, entries, plan)
+    made = {n: Table() for n in ("TEMPS", "DEPLACEMENTS", "VITESSES", "VARIABLES_INTERNES")}
+    for number, step in enumerate(np.flatnonzero(saved)):
+        entry = results.get(int(step) + 1)
+        assert isinstance(entry, Table)
+        made["TEMPS"].set(number, float(times[step]))
+        made["DEPLACEMENTS"].set(number, entry.get(Mot("DEPLACEMENT")))
+        made["VITESSES"].set(number, entry.get(Mot("VITESSE")))
+        of_links = {id(z): _at_step(results.get(k), int(step)) for z, _, k in named}
+        blocks = tuple(_block(z, of_links.get(id(z))) for z in model.zones)
+        made["VARIABLES_INTERNES"].set(number, CellField(blocks, "VARIABLES INTERNES"))
+    for name, inner in made.items():
+        entries.table.set(Mot(name), inner)
+    entries.table.set(Mot("REPRISE_DYNE"), results.get(Mot("REPRISE")))
+    return True
+
+
+def _at_step(lists: object, step: int) -> Table | None:
+    """Results of a link at one step: lists of one value, tables of one field."""
+    if not isinstance(lists, Table):
+        return None
+    made = Table()
+    for index, values in lists.items():
+        one: object = Table()
+        if isinstance(values, ListReel):
+            one = ListReel(values.values[step : step + 1])
+        else:
+            one.set(1, values.get(step + 1))  # type: ignore[attr-defined]
+        made.set(index, one)
+    return made
+
+
+def _block(zone: Zone, results: Table | None) -> CellFieldBlock:
+    """The cells of a zone with the results of its link."""
+    values = {}
+    if results is not None:
+        column = np.empty((len(zone.cells), 1), dtype=object)
+        column[:] = results
+        values["SLIA"] = column
+    return CellFieldBlock(zone.cells, values, "GRAVITE", zone.element, zone.constituent)

@@ -1,0 +1,85 @@
+"""The table of a sweep, as its folder has it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from itertools import takewhile
+from pathlib import Path
+from urllib.parse import quote
+
+from ssilang.io.errors import InputError
+from ssilang.io.file_names import inside
+from ssilang.report.html import text
+from ssilang.report.records import MOST_BYTES
+
+TABLE, RUNS = "sweep.csv", "runs"
+MOTION = "MOTION"
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A folder of a sweep: rows of its table by title, as they are written.
+
+    Attributes
+    ----------
+    swept, figures : lists of str
+        Titles of what was given and of what runs reported.
+    """
+
+    folder: Path
+    rows: list[dict[str, str]]
+    swept: list[str]
+    figures: list[str]
+
+
+def is_sweep(folder: Path) -> bool:
+    """Whether a folder has the table and the runs of a sweep."""
+    return inside(folder, TABLE) is not None and (folder / RUNS).is_dir()
+
+
+def read_sweep(folder: Path) -> Sweep:
+    """Read the table of a sweep.
+
+    Raises
+    ------
+    InputError
+        If it is damaged.
+    """
+    path = folder / TABLE
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ValueError(f"more than {MOST_BYTES // 10**6} MB")
+        with path.open(encoding="utf-8", newline="") as file:
+            reader = csv.DictReader(file, delimiter=";")
+            rows = [{k: v or "" for k, v in row.items() if k} for row in reader]
+            titles = list(reader.fieldnames or [])
+    except (OSError, ValueError, csv.Error) as problem:
+        raise InputError("report.damaged", path=path, problem=problem) from None
+    if not {"run", "exit_code", "seconds", "error", "folder"} <= set(titles) or not rows:
+        raise InputError("report.not-a-sweep", path=path)
+    swept = list(takewhile(lambda t: t != "exit_code", titles[1:]))
+    own = {"run", "exit_code", "seconds", "error", "folder", *swept}
+    return Sweep(folder, rows, swept, [t for t in titles if t not in own])
+
+
+def link_to(folder: Path, run: str) -> str:
+    """Where a run's page stands, seen from the sweep's folder; '' if it has none."""
+    for name in ("report.html", "output.txt"):
+        if run and inside(folder / RUNS, f"{run}/{name}") is not None:
+            return text(f"{RUNS}/{quote(run)}/{name}")
+    return ""
+
+
+def short(value: str) -> str:
+    """A motion's path by its name, other values as they are."""
+    return Path(value).name if "/" in value or "\\" in value else value
+
+
+def real(value: str) -> float | None:
+    try:
+        found = float(value)
+    except ValueError:
+        return None
+    return found if math.isfinite(found) else None

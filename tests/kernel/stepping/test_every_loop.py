@@ -1,0 +1,124 @@
+"""Each step of each loop against the equations as they are written, with dense matrices.
+
+Nothing is solved here: that balance, supports, Newmark's formulas, laws and energies hold at every
+step says that the step is right, whatever way led to it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+from hypothesis import given, settings
+from references.awkward import PUSH, problems
+from references.recorder import Recorder
+
+from ssilang.kernel.interface.laws.columns import N_STATE
+from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.stepping import choose, effective
+from ssilang.kernel.stepping.problem import problem as problem_module
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
+
+LARGE: dict = {}
+STILL = {"tied": False, "moving": False}
+LOOPS = {
+    "springs": {"damping": "Rayleigh", "point_laws": PUSH, "line_laws": (), **STILL},
+    "modes": {"moving": False},
+    "dense": {"steps": 60},
+    "dissection": LARGE,
+    "condensed": LARGE,
+    "full Newton": LARGE,
+}
+
+
+def run(awkward, rule):
+    """A problem, its history and instants; large problems' loops take it for large."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(choose, "RULES", choose.only(rule))
+        if LOOPS[rule] == LARGE:
+            patch.setattr(effective, "SMALL", 0)
+            patch.setattr(problem_module, "SMALL", 0)
+        problem = awkward.problem()
+        recorder = Recorder(len(problem.times))
+        history = integrate(problem, [recorder], full_newton=rule == "full Newton")
+    assert history.loop == choose.rule_named(rule).loop
+    return problem, history, recorder.snapshots
+
+
+def near(found, expected, size, tolerance=1e-8):
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * max(size, 1e-30))
+
+
+def joints_at(interface, u, state):
+    """Jumps, tractions, new state, forces on the unknowns, stored and lost energy."""
+    delta = (interface.J @ u).reshape(-1, interface.dimension)
+    w = np.einsum("pij,pj->pi", interface.B, delta[interface.pairs].reshape(len(state), -1))
+    t, new = np.zeros_like(w), np.zeros((len(w), N_STATE))
+    D = np.zeros((*w.shape, w.shape[1]))
+    respond(interface.codes, w, state, interface.parameters, t, new, D)
+    force = np.zeros(delta.shape)
+    for p, pairs in enumerate(interface.pairs):
+        for k, pair in enumerate(pairs):
+            B = interface.B[p][:, k * delta.shape[1] : (k + 1) * delta.shape[1]]
+            force[pair] += interface.weights[p] * B.T @ t[p]
+    energies = sum(
+        weight * np.array(point_energies(*one))
+        for weight, *one in zip(
+            interface.weights, interface.codes, w, t, new, interface.parameters, strict=True
+        )
+    )
+    return w, t, new, interface.J.T @ force.ravel(), energies
+
+
+def check_steps(problem, history, instants):
+    """All that a step is made of, at every step."""
+    p, s = problem, problem.scheme
+    K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
+    free = la.null_space(rows)
+    factors = np.stack([np.interp(p.times, x, y) for x, y in p.loading.curves], axis=1)
+    F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
+    state, before, was = p.state, None, None
+    u, v, a = (np.array([getattr(i, n) for i in instants]) for n in "uva")
+    sizes = [np.abs(x).max() for x in (u, v, a)]
+    push = max(np.abs(F).max(), np.abs(u @ K).max(), np.abs(a @ M).max())
+    energy = np.abs(history.energies).max()
+    for k, now in enumerate(instants):
+        w, t, new, force, (stored, lost) = joints_at(p.interface, now.u, state)
+        near(now.w, w, np.abs(w).max(), 1e-10)
+        near(now.t, t, np.abs(t).max())
+        near(now.state, new, np.abs(new).max())
+        state = now.state
+        rest = C @ now.v + K @ now.u + force - F[k]
+        near(now.reaction, M @ now.a + rest, push)
+        found = history.energies[k]
+        near(found[KINETIC], 0.5 * now.v @ M @ now.v, energy)
+        near(found[ELASTIC], 0.5 * now.u @ K @ now.u, energy)
+        near(found[[STORED, LOST]], [stored, lost], energy)
+        if before is None:
+            near(free.T @ (M @ now.a + rest), 0.0, push)
+        else:
+            dt, du = p.times[k] - p.times[k - 1], now.u - before.u
+            near(rows @ now.u, imposed[k], sizes[0], 1e-10)
+            beta, gamma = s.beta, s.gamma
+            ahead = before.u + dt * before.v + dt**2 * (0.5 - beta) * before.a
+            near(now.u, ahead + dt**2 * beta * now.a, sizes[0])
+            near(now.v, before.v + dt * ((1 - gamma) * before.a + gamma * now.a), sizes[1])
+            inertia = M @ ((1 - s.alpha_m) * now.a + s.alpha_m * before.a)
+            balance = inertia + (1 - s.alpha_f) * rest + s.alpha_f * was
+            near(free.T @ balance, 0.0, push)
+            step = found - history.energies[k - 1]
+            near(step[DAMPED], 0.5 * du @ C @ (now.v + before.v), energy)
+            supports = 0.5 * (rows @ du) @ la.lstsq(rows.T, now.reaction + before.reaction)[0]
+            near(step[EXTERNAL], 0.5 * du @ (F[k] + F[k - 1]) + supports, energy)
+        before, was = now, rest
+
+
+@pytest.mark.parametrize("loop", LOOPS)
+def test_steps_are_those_of_the_equations(loop):
+    @settings(max_examples=8, derandomize=True)
+    @given(problems(**LOOPS[loop]))
+    def holds(awkward):
+        check_steps(*run(awkward, loop))
+
+    holds()

@@ -1,0 +1,122 @@
+"""What is written and read again is what it was: mixed, unsorted, single and empty."""
+
+from __future__ import annotations
+
+import importlib.util
+import itertools
+
+import numpy as np
+import pytest
+from script_runs import found
+
+from ssilang.kernel.mesh.mesh import Mesh
+
+# cells of one node, of several kinds that share nodes, in no order; of both orders; one alone
+PLANE = {
+    "mixed": "OPTI DIME 2 ELEM QUA4 ; P9 = 3. 1. ; P1 = 0. 0. ; P5 = 1. 0. ; P2 = 1. 1. ; "
+    "P7 = 0. 1. ; P3 = 2. 0.5 ; P4 = 2.5 -0.5 ; "
+    "S = (MANU 'TRI3' P5 P3 P2) ET (MANU 'QUA4' P1 P5 P2 P7) ET (MANU 'TRI3' P4 P3 P5) ET "
+    "(MANU 'QUA4' P4 P9 P2 P3) ET (MANU 'SEG2' P7 P1) ;",
+    "flat": "OPTI DIME 2 ELEM QUA4 ; P9 = 3. 1. ; P1 = 2. 0.5 ; P5 = 1. 0. ; P2 = 1. 1. ; "
+    "S = (MANU 'TRI3' P5 P1 P2) ET (MANU 'TRI3' P9 P2 P1) ;",
+    "curved": "OPTI DIME 2 ELEM QUA8 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+    "OPTI ELEM TRI6 ; S = ((DROI 1 (5. 0.) (6. 0.)) TRAN 2 (0.3 1.)) ET S ;",
+    "one": "OPTI DIME 2 ELEM TRI3 ; S = MANU 'TRI3' (2. 0.) (2. 1.) (0. 0.) ;",
+}
+SPACE = {
+    "mixed": "OPTI DIME 3 ELEM CUB8 ; P8 = 0. 0. 0. ; P1 = 1. 0. 0. ; P7 = 1. 1. 0. ; "
+    "P2 = 0. 1. 0. ; "
+    "P6 = 0. 0. 1. ; P3 = 1. 0. 1. ; P5 = 1. 1. 1. ; P4 = 0. 1. 1. ; P9 = 0.5 0.5 2. ; "
+    "P10 = 2. 0. 0. ; P11 = 2. 0. 1. ; P12 = 3. 1. 2. ; "
+    "S = (MANU 'TET4' P5 P12 P9 P11) ET (MANU 'CUB8' P8 P1 P7 P2 P6 P3 P5 P4) ET "
+    "(MANU 'PYR5' P6 P3 P5 P4 P9) ET (MANU 'PRI6' P1 P10 P7 P3 P11 P5) ;",
+    "one": "OPTI DIME 3 ELEM TET4 ; S = MANU 'TET4' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) (0. 0. 2.) ;",
+}
+MESHES = {f"{k} in {name}": text for name, group in (("the plane", PLANE), ("space", SPACE))
+          for k, text in group.items()}  # fmt: skip
+# a file's name, how it is written, how it is read, what meshes it has
+FILES = {
+    "own": ("'m'", "SORT S ;", "OPTI LECT 'm' ; OUBL S ; LIRE S ; S2 = S ;"),
+    "archive": ("'x'", "OPTI SAUV 'm' ; SAUV S ;", "OUBL S ; OPTI REST 'm' ; REST ; S2 = S ;"),
+    "Gmsh": ("'m.msh'", "SORT 'MESH' S ;", "T = LIRE 'm.msh' ; S2 = T . 'MAILLAGE' ;"),
+    "MED": ("'m.med'", "SORT 'MESH' S ;", "T = LIRE 'm.med' ; S2 = T . 'S' ;"),
+    "Abaqus": ("'m.inp'", "SORT 'MESH' S ;", "T = LIRE 'm.inp' ; S2 = T . 'S' ;"),
+    "Abaqus deck": ("'m.inp'", "SORT 'ABAQ' S ;", "T = LIRE 'm.inp' ; S2 = T . 'MAILLAGE' ;"),
+    "Nastran": ("'m.bdf'", "SORT 'NAS' S ;", "T = LIRE 'm.bdf' ; S2 = T . 'MAILLAGE' ;"),
+    "AVS": ("'m.inp'", "SORT 'AVS' S ;",
+            "OPTI LECT 'm.inp' ; T = LIRE 'AVS' ; S2 = T . 'LEMAILLA' ;"),
+    "VTK": ("'m.vtu'", "SORT 'VTK ' S ;", "T = LIRE 'm.vtu' ; S2 = T . 'MAILLAGE' ;"),
+}  # fmt: skip
+
+
+def cells(mesh: Mesh) -> list:
+    """Each cell by its kind and the coordinates of its nodes, in their order."""
+    return sorted(
+        (block.kind.name, np.round(corners, 9).tolist())
+        for block in mesh.blocks
+        for corners in block.coordinates
+    )
+
+
+LINELESS = ("Abaqus deck", "mixed in the plane")
+
+
+@pytest.mark.parametrize(
+    ("file", "mesh"), [p for p in itertools.product(FILES, MESHES) if p != LINELESS]
+)
+def test_cells_come_back_as_they_were(file, mesh, tmp_path):
+    if file == "MED" and importlib.util.find_spec("h5py") is None:
+        pytest.skip("h5py is not installed")
+    name, write, read = FILES[file]
+    script = f"{MESHES[mesh]} OPTI SORT {name} ; S1 = S ; {write} {read}"
+    was, now = found(script, "S1", "S2", folder=tmp_path)
+    assert cells(now) == cells(was)
+
+
+LISTS = {
+    "unsorted": ("PROG 3. -1.E-300 2.5E12 0.", [3.0, -1e-300, 2.5e12, 0.0]),
+    "integers": ("LECT 5 -3 4 4", [5, -3, 4, 4]),
+    "reals": ("PROG 0.1 0.3 -2. 1.", [0.1, 0.3, -2.0, 1.0]),
+}
+SIGNS = {"VIRG": ",", "PVIR": ";", "ESPA": " "}
+
+
+@pytest.mark.parametrize("mark", SIGNS)
+@pytest.mark.parametrize("rows", [4, 1])
+@pytest.mark.parametrize("order", list(itertools.permutations(LISTS)))
+def test_columns_come_back_in_their_order(order, rows, mark, tmp_path):
+    made = " ".join(f"(EXTR ({LISTS[name][0]}) (LECT 1 PAS 1 {rows}))" for name in order)
+    script = (
+        f"OPTI SORT 'c.csv' ; SORT 'EXCE' {made} 'SEPA' '{mark}' ; "
+        f"T = LIRE 'CSV' 'c.csv' 'SEPA' '{SIGNS[mark]}' ;"
+    )
+    table = found(script, "T", folder=tmp_path)
+    for k, name in enumerate(order, 1):
+        assert list(table.get(k).values) == LISTS[name][1][:rows]
+
+
+SAVED = {
+    "A": "A = 3", "Z1": "Z1 = -0.1", "B": "B = FAUX", "W": "W = 'a b'", "E": "E = LECT",
+    "L": "L = LECT 3", "R": "R = PROG", "Q": "Q = PROG 2. -1. 0.5", "M": "M = MOTS 'UX' 'A' 'UX'",
+    "T": "T = TABL ; T . 'Z' = 2 ; T . 1 = 'A' ; T . -3 = TABL ; T . 'A' = PROG",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("names", [list(SAVED), list(SAVED)[::-1], *([name] for name in SAVED)])
+def test_values_come_back_from_an_archive(names, tmp_path):
+    """All at once in either order, and each alone."""
+    made = " ; ".join(SAVED[name] for name in names)
+    script = f"{made} ; OPTI SAUV 's' ; SAUV {' '.join(names)} ; "
+    again = "".join(f"{name}0 = {name} ; OUBL {name} ; " for name in names)
+    script += f"{again} OPTI REST 's' ; REST ;"
+    values = found(script, *(w for name in names for w in (f"{name}0", name)), folder=tmp_path)
+    for was, now in zip(values[::2], values[1::2], strict=True):
+        assert content(now) == content(was)
+        assert type(now) is type(was)
+
+
+def content(value):
+    """Numbers, words and tables as plain values, in their order."""
+    if hasattr(value, "items"):
+        return [(str(index), content(one)) for index, one in value.items()]
+    return list(value.values) if hasattr(value, "values") else value
