@@ -52,7 +52,6 @@ ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
 HANGS = 120.0  # s of processor time of one test beyond the limit: it is counted as noticed
 FILES = 12  # of tests, at most, for a mutant
-COMMON = 0.15  # of the files of tests have a name: it tells nothing
 LIBRARIES = ("hypothesis", "numba", "numpy", "scipy.linalg", "scipy.sparse.linalg", "xdist")
 GOOD = """
 import sys
@@ -63,7 +62,7 @@ for path in sorted((PACKAGE / "kernel").rglob("*.py")):
     print(f"{name}-{state_of(name)}")
 """
 
-_OTHER: dict[type[ast.AST], type[ast.AST]] = {
+_OTHER: dict[type[ast.AST], Any] = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult,
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq,
     ast.NotEq: ast.Eq, ast.And: ast.Or, ast.Or: ast.And, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -220,7 +219,7 @@ def faults(path: Path) -> list[Fault]:
         found.append(Fault(str(path.relative_to(ROOT)), node.lineno, old, changed.decode(), kind))
 
     def walk(node: Any, returns: ast.expr | None, twins: Twins, inside: bool) -> None:
-        if isinstance(node, _SAID):
+        if isinstance(node, _SAID) or getattr(node, "arg", "") == "strict":  # of zip: a guard
             return
         if isinstance(node, ast.FunctionDef):
             kinds = [(a.arg, ast.unparse(a.annotation)) for a in node.args.args if a.annotation]
@@ -289,6 +288,10 @@ class Callers:
         self.uses: dict[tuple[str, str], set[str]] = {}  # 'module.name' for what is imported
         self.words: dict[tuple[str, str], set[str]] = {}
         self.spans: dict[str, list[tuple[int, int, str]]] = {}
+        self.library = {
+            path.stem: set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
+            for path in (ROOT / "stdlib").glob("*.ssi")
+        }  # procedures written in the language
         for path in sorted((ROOT / "ssilang").rglob("*.py")):
             module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
             tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -301,9 +304,7 @@ class Callers:
                 if isinstance(node, ast.FunctionDef | ast.ClassDef):
                     self._put(module, node, imported)
 
-    def _put(
-        self, module: str, node: ast.FunctionDef | ast.ClassDef, imported: dict[str, str]
-    ) -> None:
+    def _put(self, module: str, node: Any, imported: dict[str, str]) -> None:
         names = {getattr(n, "id", getattr(n, "attr", "")) for n in ast.walk(node)}
         key = (module, node.name)
         self.uses.setdefault(key, set()).update(imported.get(n, f"{module}.{n}") for n in names)
@@ -319,8 +320,11 @@ class Callers:
         found, known, weight = {module: 1.0}, set(at), 1.0
         for _ in range(4):
             for key in at:
-                for name in {key[1], key[0]} | self.words[key]:
+                words = self.words[key]
+                for name in {key[1], key[0]} | words:
                     found.setdefault(name, weight)
+                for name in (p for p, said in self.library.items() if said & words):
+                    found.setdefault(name, 0.4 * weight)
             ways = {f"{m}.{n}" for m, n in at}
             at = {key for key, used in self.uses.items() if key not in known and used & ways}
             known, weight = known | at, 0.4 * weight
@@ -334,9 +338,8 @@ def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str
     rank = dict.fromkeys(texts, 0.0)
     for name, weight in callers.names(fault).items():
         have = [file for file, words in texts.items() if name in words]
-        if len(have) <= COMMON * len(texts):
-            for file in have:
-                rank[file] += weight * math.log(len(texts) / len(have))
+        for file in have:  # a name that most have tells nothing
+            rank[file] += weight * math.log(len(texts) / len(have))
     for file in texts:
         if Path(file).parent == mirror or mirror in Path(file).parents:
             rank[file] += 6.0 + 12.0 * (module.name in Path(file).stem)
@@ -480,8 +483,10 @@ def main() -> None:
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")
     asked = parser.parse_args()
-    chosen, share = drawn(asked.count, asked.seed)
-    chosen = survivors(asked.again) if asked.again else chosen
+    if asked.again:
+        chosen, share = survivors(asked.again), f"the survivors of {asked.again.name}"
+    else:
+        chosen, share = drawn(asked.count, asked.seed)
     if asked.list:
         print("\n".join(map(str, chosen)))
         return

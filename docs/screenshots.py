@@ -15,6 +15,7 @@ import asyncio
 import io
 import json
 import os
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -182,6 +183,28 @@ def notebook(browser: Chromium, folder: Path) -> None:
     keep("notebook", browser.png())
 
 
+def fragility(browser: Chromium, folder: Path) -> None:
+    """The suite of docs/sweep.md."""
+    from ssilang.cli.main import main as command
+
+    scripts = re.findall(r"```ssi\n(.*?)```", (_HERE / "sweep.md").read_text("utf-8"), re.DOTALL)
+    suite = folder / "suite"
+    suite.mkdir()
+    for name, script in zip(("records", "oscillator"), scripts[2:], strict=True):
+        (suite / f"{name}.ssi").write_text(script, encoding="utf-8")
+    command([str(suite / "records.ssi"), "--out", str(suite / "results" / "records")])
+    command(
+        ["sweep", str(suite / "oscillator.ssi"), "--motions", str(suite / "results" / "records"),
+         "--set", "AG=1,2,4,6,10", "--fragility", "drift>0.001",
+         "--out", str(suite / "oscillator_sweep")]
+    )  # fmt: skip
+    browser.open(suite / "oscillator_sweep" / "report.html", 1000, 1150)
+    browser.until("!!document.querySelector('figure.chart').plot")
+    browser.run("document.querySelector('#fragility').scrollIntoView()")
+    browser.run("new Promise(r => setTimeout(r, 1000))")
+    keep("fragility", browser.png())
+
+
 def site(browser: Chromium, made: Path) -> None:
     """The gallery."""
     browser.open(made / "cases" / "gallery.html", 1240, 640)
@@ -208,6 +231,7 @@ def main(monaco: str, made: str = "site") -> None:
         try:
             editor(browser, Path(monaco), folder)
             notebook(browser, folder)
+            fragility(browser, folder)
             site(browser, Path(made).resolve())
         finally:
             browser.close()

@@ -38,7 +38,8 @@ class Argument(Translated):
     A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
-    with its name and its place. Numbers outside of `range` are refused, of `usual` told.
+    with its name and its place. Numbers outside of `range` are refused, of `usual` told, and those
+    not `above` the operand of that name. Words and objects that are `distinct` stand once.
     """
 
     name: str
@@ -57,6 +58,8 @@ class Argument(Translated):
     whole: bool = False
     range: Range = UNSAID
     usual: Range = UNSAID
+    above: str = ""
+    distinct: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,9 +154,14 @@ def arg(
     kind: str = "",
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    above: str = "",
+    distinct: bool = False,
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual)
+    return Argument(
+        name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual, above=above,
+        distinct=distinct,
+    )  # fmt: skip
 
 
 def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Argument:
@@ -183,12 +191,14 @@ def opt(
     kind: str = "",
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    distinct: bool = False,
 ) -> Argument:
     """An optional operand."""
     return Argument(
         name, types or (ANY,), optional=True, default=default, en=en, unit=unit, kind=kind,
         range=range,
         usual=usual,
+        distinct=distinct,
     )  # fmt: skip
 
 
@@ -205,6 +215,7 @@ def many(
     whole: bool = False,
     range: Range = UNSAID,
     usual: Range = UNSAID,
+    distinct: bool = False,
 ) -> Argument:
     """All operands of one of the types that can be read, as a tuple.
 
@@ -227,6 +238,7 @@ def many(
         whole=whole,
         range=range,
         usual=usual,
+        distinct=distinct,
     )
 
 
@@ -354,6 +366,10 @@ class HelpTable:
     rows: tuple[tuple[str, ...], ...]
 
 
+Tables = Callable[[str], Sequence[HelpTable]]
+"""Makes tables in 'en' or 'fr'."""
+
+
 @dataclass(frozen=True, slots=True)
 class Help(Translated):
     """Help of an operator, shown by INFO, `ssilang help` and the manual.
@@ -366,7 +382,7 @@ class Help(Translated):
     en: str
     syntax: str = ""  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
-    tables: Callable[[str], Sequence[HelpTable]] | None = None
+    tables: Tables | None = None
     in_french: str = ""
 
     @property
@@ -638,7 +654,9 @@ def operator(
     name: str,
     *entries: Entry,
     family: str,
-    help: Help,
+    en: str,
+    syntax: str = "",
+    tables: Tables | None = None,
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
@@ -657,6 +675,8 @@ def operator(
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
+    en, syntax, tables
+        Its help, see `Help`.
     gives : str, sequence of str, Like, or By, optional
         Types of the results; by default what the function's annotation says.
     reads_itself : str
@@ -670,7 +690,10 @@ def operator(
     """
 
     def add(function: Function) -> Operator:
-        made = shared(name, family, help, aliases=aliases, terminal=terminal, full_name=full_name)
+        made = shared(
+            name, family, en, syntax, tables,
+            aliases=aliases, terminal=terminal, full_name=full_name,
+        )  # fmt: skip
         made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
 
@@ -680,14 +703,17 @@ def operator(
 def shared(
     name: str,
     family: str,
-    help: Help,
+    en: str,
+    syntax: str = "",
+    tables: Tables | None = None,
     *,
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
 ) -> Operator:
-    """Register an operator whose forms stand in several families."""
-    made = Operator(name, family, help, [], tuple(aliases), terminal, full_name or name)
+    """Register an operator whose forms stand in several families; `form` adds one."""
+    about = Help(en, syntax, tables=tables)
+    made = Operator(name, family, about, [], tuple(aliases), terminal, full_name or name)
     for word in (name, *aliases):
         OPERATORS[word] = made
     return made

@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any
 from ssilang.language.filled import Filled
 from ssilang.language.registry import (
     ANY,
-    Help,
-    Operator,
     arg,
     flag,
     operator,
@@ -28,57 +26,44 @@ if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
 
-def shared_operator(
-    name: str,
-    family: str,
-    en: str,
-    full_name: str = "",
-    terminal: bool = False,
-    syntax: str = "",
-) -> Operator:
-    """An operator whose forms stand in several families; `form` adds one (see `Operator.form`)."""
-    help = Help(en, syntax)
-    return shared(name, family, help, full_name=full_name, terminal=terminal)
-
-
-EXTR = shared_operator(
-    "EXTR", "objects", "Takes a part out of an object.", "EXTRAIRE", terminal=True
+EXTR = shared(
+    "EXTR", "objects", "Takes a part out of an object.", full_name="EXTRAIRE", terminal=True
 )
-DIME = shared_operator(
+DIME = shared(
     "DIME",
     "objects",
     "Number of items of a list, table, word, curve ...",
-    "DIMENSION",
+    full_name="DIMENSION",
     syntax="ENTI1 = DIME OBJ1 ;",
 )
-ENLE = shared_operator("ENLE", "objects", "Removes items; gives a new object.", "ENLEVER")
-REDU = shared_operator("REDU", "fields", "Restricts an object to a smaller support.", "REDUIRE")
-MANU = shared_operator(
-    "MANU", "objects", "Makes an object from its parts, named by a keyword.", "MANUEL"
+ENLE = shared("ENLE", "objects", "Removes items; gives a new object.", full_name="ENLEVER")
+REDU = shared("REDU", "fields", "Restricts an object to a smaller support.", full_name="REDUIRE")
+MANU = shared(
+    "MANU", "objects", "Makes an object from its parts, named by a keyword.", full_name="MANUEL"
 )
-CHAN = shared_operator(
-    "CHAN", "objects", "Changes an object in a way named by a keyword.", "CHANGER"
+CHAN = shared(
+    "CHAN", "objects", "Changes an object in a way named by a keyword.", full_name="CHANGER"
 )
-MAXI = shared_operator("MAXI", "fields", "Largest value of a list, field or curve.", "MAXIMUM")
-MINI = shared_operator("MINI", "fields", "Smallest value of a list, field or curve.", "MINIMUM")
-COPI = shared_operator("COPI", "objects", "Copy of an object.", "COPIER")
-ORDO = shared_operator("ORDO", "objects", "Sorts the items of an object.", "ORDONNER")
+MAXI = shared("MAXI", "fields", "Largest value of a list, field or curve.", full_name="MAXIMUM")
+MINI = shared("MINI", "fields", "Smallest value of a list, field or curve.", full_name="MINIMUM")
+COPI = shared("COPI", "objects", "Copy of an object.", full_name="COPIER")
+ORDO = shared("ORDO", "objects", "Sorts the items of an object.", full_name="ORDONNER")
 
-COUL = shared_operator("COUL", "objects", "Gives a colour.", "COULEUR")
-INVE = shared_operator("INVE", "objects", "Inverts an object.", "INVERSE")
-UNIQ = shared_operator("UNIQ", "objects", "Removes doubles.", "UNIQUE")
-INTG = shared_operator("INTG", "fields", "Integral of a field or a curve.")
+COUL = shared("COUL", "objects", "Gives a colour.", full_name="COULEUR")
+INVE = shared("INVE", "objects", "Inverts an object.", full_name="INVERSE")
+UNIQ = shared("UNIQ", "objects", "Removes doubles.", full_name="UNIQUE")
+INTG = shared("INTG", "fields", "Integral of a field or a curve.")
 
-PSCA = shared_operator("PSCA", "fields", "Scalar product.", "PSCAL")
-PVEC = shared_operator("PVEC", "fields", "Vector product.")
-COOR = shared_operator("COOR", "mesh", "Coordinates of what an object stands on.", "COORDONNEE")
-DIFF = shared_operator(
+PSCA = shared("PSCA", "fields", "Scalar product.", full_name="PSCAL")
+PVEC = shared("PVEC", "fields", "Vector product.")
+COOR = shared("COOR", "mesh", "Coordinates of what an object stands on.", full_name="COORDONNEE")
+DIFF = shared(
     "DIFF",
     "objects",
     "What belongs to one of two objects only (symmetric difference).",
-    "DIFFERENCE",
+    full_name="DIFFERENCE",
 )
-INTE = shared_operator("INTE", "objects", "What is common to two objects.", "INTERSECTION")
+INTE = shared("INTE", "objects", "What is common to two objects.", full_name="INTERSECTION")
 
 ListingEntry = Callable[[Any, bool, Teller], str]
 LISTINGS: Filled[str, ListingEntry] = Filled("listings")
@@ -209,10 +194,8 @@ operator(
     flag("merged", "NOER", en="doubles are no error"),
     gives=ANY,
     family="objects",
-    help=Help(
-        "Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
-        "OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; OBJ2 = ET TAB1 | LOBJ1 ; "
-        "LOG4 = ET LOG1 LOG2 LOG3 ... ;",
-    ),
+    en="Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
+    syntax="OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; "
+    "OBJ2 = ET TAB1 | LOBJ1 ; LOG4 = ET LOG1 LOG2 LOG3 ... ;",
     reads_itself="the types of its operands, words too, choose a rule, which may read more",
 )(_unite)

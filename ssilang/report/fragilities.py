@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from ssilang.io.errors import InputError
 from ssilang.io.file_names import inside
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances
+from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
 from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
@@ -35,6 +35,12 @@ _FEWEST = 5
 _APART = 8.0
 """Times another intensity: less than g over m/s2, more than most records of a suite differ by."""
 _CURVE = 101
+_METHODS = {"counts": "report.fragility-counts", "cloud": "report.fragility-cloud"}
+_HEADS = (
+    "report.fragility-limit", "report.fragility-intensity", "report.fragility-method",
+    "report.fragility-median", "report.fragility-interval", "report.fragility-dispersion",
+    "report.fragility-error", "report.fragility-exceeded", "report.fragility-governs",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -128,7 +134,7 @@ def fits_of(sweep: Sweep, asked: Asked) -> list[Fit]:
         _fit(sweep, limit, intensity, method)
         for limit in dict.fromkeys(asked.limits)
         for intensity in intensities_of(sweep, asked)
-        for method in ("counts", "cloud")
+        for method in _METHODS
     ]
 
 
@@ -186,13 +192,10 @@ def rows_of(fits: Iterable[Fit]) -> list[dict[str, object]]:
     return [
         {
             "limit": str(fit.limit), "intensity": fit.intensity, "method": fit.method,
-            "runs": fit.runs, "exceeded": fit.exceeded,
-            "median": f and f.median, "low": f and f.bounds()[0], "high": f and f.bounds()[1],
-            "dispersion": f and f.dispersion, "dispersion_error": f and f.dispersion_error,
-            "governs": fit.worst.get("run"),
+            "runs": fit.runs, "exceeded": fit.exceeded, "governs": fit.worst.get("run"),
+            **(asdict(fit.found) if fit.found else {}),
         }
         for fit in fits
-        for f in (fit.found,)
     ]  # fmt: skip
 
 
@@ -201,11 +204,7 @@ def fragility_html(sweep: Sweep, fits: list[Fit], charts: Sequence[Chart], told:
     if not fits:
         return f'<p class="bad">{text(told("report.fragility-no-intensity"))}</p>'
     notes = "".join(f"<p class=note>{text(n)}</p>" for n in _notes(sweep, fits, told))
-    heads = [
-        told(f"report.fragility-{n}")
-        for n in ("limit", "intensity", "method", "median", "interval", "dispersion", "error",
-                  "exceeded", "governs")
-    ]  # fmt: skip
+    heads = [told(code) for code in _HEADS]
     rows = [_row(sweep, fit, told) for fit in fits]
     return notes + table(heads, rows, (5, 6)) + charts_html(charts, "fragility", told)
 
@@ -216,13 +215,15 @@ def _row(sweep: Sweep, fit: Fit, told: Teller) -> list[str]:
         low, high = f.bounds()
         shown = [f"{f.median:.4g}", f"{low:.4g} … {high:.4g}", f"{f.dispersion:.3g}",
                  f"{f.dispersion_error:.2g}"]  # fmt: skip
+        if np.isnan(f.median_error):
+            shown[1], shown[3] = text(told("report.fragility-few", count=LEAST_RECORDS)), ""
         if fit.method == "cloud" and fit.exceeded in (0, fit.runs):
             shown[1] += f" ({text(told('report.fragility-beyond'))})"
     elif fit.problem is not None:
         shown[0] = text(told(fit.problem.code, **fit.problem.data))
     run = text(fit.worst.get("run", ""))
     link = link_to(sweep.folder, fit.worst["folder"]) if fit.worst else ""
-    method = text(told(f"report.fragility-{fit.method}"))
+    method = text(told(_METHODS[fit.method]))
     return [
         text(fit.limit).replace(" ", "&nbsp;"), text(fit.intensity), method, *shown,
         f"{fit.exceeded} / {fit.runs}", f'<a href="{link}">{run}</a>' if link else run,
@@ -299,5 +300,5 @@ def _lines(fit: Fit, x: FloatArray, d: FloatArray, told: Teller) -> Iterator[Lin
         high = min(x.max() * 3.0, max(x.max(), f.median * np.exp(2.0 * f.dispersion)))
         steep = f.median * np.exp(f.dispersion * np.linspace(-3.0, 3.0, _CURVE))
         grid = np.union1d(np.linspace(low, high, _CURVE), steep[(steep > low) & (steep < high)])
-        method = told(f"report.fragility-{fit.method}")
+        method = told(_METHODS[fit.method])
         yield Line(f"{fit.limit}, {method}", grid, f.probability(grid))

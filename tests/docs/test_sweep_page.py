@@ -1,7 +1,9 @@
-"""The scripts of the page on many runs: records are read, and the deck runs under one."""
+"""The scripts of the page on many runs: records are read, decks run, and a suite's fragility."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
 from pathlib import Path
 
@@ -9,9 +11,10 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import RunOptions, run_file
+from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 
 _PAGE = (Path(__file__).resolve().parents[2] / "docs" / "sweep.md").read_text(encoding="utf-8")
-_READING, _ROCKING = re.findall(r"```ssi\n(.*?)```", _PAGE, re.DOTALL)
+_READING, _ROCKING, _RECORDS, _OSCILLATOR = re.findall(r"```ssi\n(.*?)```", _PAGE, re.DOTALL)
 _STEP = 0.01
 
 
@@ -61,3 +64,55 @@ def test_the_deck_rocks_and_lifts_its_edges(folder: Path) -> None:
     up = find("UY").values
     assert up[0] == pytest.approx(-settled, rel=0.2)
     assert up.max() > settled
+
+
+def test_the_suite_has_the_fragility_that_its_records_were_made_for(tmp_path: Path) -> None:
+    (tmp_path / "records.ssi").write_text(_RECORDS)
+    (tmp_path / "oscillator.ssi").write_text(_OSCILLATOR)
+    motions = tmp_path / "results" / "records"
+    made = run_file(tmp_path / "records.ssi", RunOptions(output_directory=motions))
+    assert made.exit_code == 0, made.message
+    options = SweepOptions(
+        tmp_path / "oscillator.ssi", ["AG=1,2,4,6,10"], motions, tmp_path / "out", jobs=1,
+        together=50, fragility=["drift>0.001"],
+    )  # fmt: skip
+    out, err = io.StringIO(), io.StringIO()
+    assert sweep(options, out, err) == 0, err.getvalue()
+    with (tmp_path / "out" / "sweep.csv").open(newline="") as file:
+        runs = list(csv.DictReader(file, delimiter=";"))
+    lengths = 0.04 * np.exp(0.3 * _normals())
+    number = [int(re.search(r"sine_(\d+)", r["MOTION"])[1]) - 1 for r in runs]  # type: ignore[index]
+    exact = np.array([float(r["AG"]) for r in runs]) * _drift(lengths[number], np.pi)
+    assert np.array([float(r["drift"]) for r in runs]) == pytest.approx(exact, rel=2e-3)
+    with (tmp_path / "out" / "fragility.csv").open(newline="") as file:
+        fits = {(r["intensity"], r["method"]): r for r in csv.DictReader(file, delimiter=";")}
+    # a drift of 1 mm: half of the records at a PGA of 2 pi d / L^2, whose dispersion is twice L's
+    cloud, counts = fits["PGA", "cloud"], fits["PGA", "counts"]
+    known = 2.0 * np.pi * 0.001 / 0.04**2
+    assert float(cloud["median"]) == pytest.approx(known, rel=0.02)
+    scatter = 0.6 * np.sqrt((_normals() ** 2).sum() * 5 / 48)
+    assert float(cloud["dispersion"]) == pytest.approx(scatter, rel=0.01)
+    assert float(counts["median"]) == pytest.approx(known, rel=0.05)  # a tenth of the records
+    assert abs(float(counts["dispersion"]) - 0.6) < float(counts["dispersion_error"])
+    assert abs(np.log(float(counts["median"]) / known)) < float(counts["median_error"])
+    assert float(fits["PGD", "cloud"]["median"]) == pytest.approx(0.001, rel=0.01)
+    assert float(fits["PGD", "cloud"]["dispersion"]) < 0.002
+    assert fits["PGD", "counts"]["median"] == ""  # nothing overlaps
+    assert "the likelihood has no maximum" in (tmp_path / "out" / "report.html").read_text()
+
+
+def _normals() -> np.ndarray:
+    """Deviates of the page's ten records."""
+    found = re.search(r"LZ = PROG (.*?) ;", _RECORDS)
+    assert found
+    return np.array([float(x) for x in found[1].split()])
+
+
+def _drift(length: np.ndarray, w: float) -> np.ndarray:
+    """Largest motion of an undamped oscillator after one sine: its Fourier transform over w.
+
+    Records are 20 straight lines: hats of a half width h, whose transforms are squares of sinc.
+    """
+    k, h = np.arange(21)[:, None], length / 20.0
+    transform = h * (np.sin(0.1 * np.pi * k) * np.exp(1j * w * k * h)).sum(axis=0)
+    return np.abs(transform) * np.sinc(w * h / (2.0 * np.pi)) ** 2 / w

@@ -2,11 +2,11 @@
 
 import pytest
 
-from ssilang.language.registry import OPERATORS, Help, shared
+from ssilang.language.registry import OPERATORS, shared
 
 
 def test_a_second_operator_of_one_name_is_no_operator():
     known = OPERATORS["ZOND"]
     with pytest.raises(ValueError, match="ZOND is declared twice"):
-        shared("ZOND", "curves", Help(en="another"))
+        shared("ZOND", "curves", "another")
     assert OPERATORS["ZOND"] is known

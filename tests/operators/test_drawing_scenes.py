@@ -11,6 +11,7 @@ import pytest
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
+from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from tests.windows import needs_window
@@ -50,6 +51,7 @@ STATEMENTS = [
     "TRAC (VECT U 'DEPL') S ;",
     "TRAC S (VECT SG MO) ;",
     "TRAC ((RIGI MO MA) ET (BLOQ 'DEPL' L)) ;",
+    "TRAC S (ANNO 'ETIQ' (0. 0.) 'SO' 'base' 0.1 'BLEU') ;",
     "TRAC S ((ANNO 'CATE' 'ROUG' 'soil') ET (ANNO 'ETIQ' (0. 0.) 'BLEU' 'SO' 0.1 FAUX 'base')) ;",
     "OPTI ISOV LIGNE ; TRAC X S ;",
     "OPTI ISOV SULI ; TRAC X S ;",
@@ -62,6 +64,31 @@ def test_forms_that_draw_one_picture(text: str, tmp_path: Path) -> None:
     (path,) = tmp_path.iterdir()
     assert path.read_bytes()[:4] == b"\x89PNG"
     assert result.session.workspace.output.files == [path]
+
+
+@pytest.mark.parametrize(
+    ("words", "text", "colour", "place"),
+    [
+        ("'N' 'top'", "top", "", "N"),
+        ("'top' 'S'", "top", "", "S"),
+        ("'SE' 'top' VERT", "top", "VERT", "SE"),
+        ("VERT 0.1 FAUX 'top' 'O'", "top", "VERT", "O"),
+        ("'N' 'S'", "S", "", "N"),
+        ("'ROUG'", "ROUG", "", "NE"),
+        ("'O' 'ROUG' 'VERT'", "VERT", "ROUG", "O"),
+    ],
+)
+def test_colour_and_side_of_a_label_stand_before_its_text_or_behind(words, text, colour, place):
+    result = run_text(f"OPTI DIME 2 ; P = 1. 0. ; A = ANNO 'ETIQ' P {words} ;")
+    (tag,) = result.session.root.find("A").tags
+    assert (tag.text, tag.colour, tag.place) == (text, index_of(colour) if colour else 0, place)
+
+
+def test_the_colour_of_a_category_stands_before_its_text_or_behind():
+    result = run_text("A = ANNO 'CATE' 'VERT' 'soil' ; B = ANNO 'CATE' 'soil' 'VERT' ;")
+    one, other = (result.session.root.find(name).categories for name in "AB")
+    assert one == other
+    assert one[0].text == "soil"
 
 
 def test_pictures_are_named_after_title_or_objects(tmp_path: Path) -> None:

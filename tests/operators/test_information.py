@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from ssilang.cli.run import run_text
 
 
@@ -90,6 +92,46 @@ def test_assi_runs_the_phrase_that_follows(tmp_path):
     assert [float(line.split(":")[1]) for line in lines if "value" in line] == [2.0, 1.0]
 
 
-def test_assi_for_all_is_refused_by_name(tmp_path):
-    result = run_text("X = ASSI 'TOUS' PROG 1. ;", output_directory=tmp_path)
-    assert "ASSI TOUS" in result.message
+SLAVES = (
+    "T = TABL 'ESCLAVE' ; T . 1 = PROG 3. -4. ; T . 3 = PROG 5. ; U = TABL 'ESCLAVE' ; "
+    "U . 3 = PROG 7. ; U . 1 = PROG 1. 2. ; "
+)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "values"),
+    [
+        ("X = ASSI 'TOUS' MAXI T 'ABS' ;", {1: 4.0, 3: 5.0}),
+        ("X = 'ASSI' TOUS 'MAXI' 'ABS' T ;", {1: 4.0, 3: 5.0}),
+        ("DEBP P A*LISTREEL ; FINP (MAXI A) (MINI A) ; X Y = ASSI 'TOUS' P T ;", {1: 3.0, 3: 5.0}),
+        ("DEBP P A*LISTREEL ; FINP (MAXI A) (MINI A) ; Y X = ASSI 'TOUS' P T ;", {1: -4.0, 3: 5.0}),
+    ],
+)
+def test_assi_runs_a_phrase_for_all_objects_of_a_table(phrase, values, tmp_path):
+    result = run_text(SLAVES + phrase, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    found = result.session.root.find("X")
+    assert found.subtype == "ESCLAVE"
+    assert {i: v for i, v in found.items() if i != "SOUSTYPE"} == values
+
+
+def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
+    text = SLAVES + "U . 1 = PROG 1. 2. ; X = ASSI 'TOUS' ET T U ; A = X . 1 ; B = X . 3 ;"
+    root = run(text, tmp_path).session.root
+    assert list(root.find("A").values) == [3.0, -4.0, 1.0, 2.0]
+    assert list(root.find("B").values) == [5.0, 7.0]
+
+
+@pytest.mark.parametrize(
+    ("phrase", "said"),
+    [
+        ("X = ASSI 'TOUS' PROG 1. ;", "no table ESCLAVE"),
+        ("V = TABL 'ESCLAVE' ; V . 1 = 3 ; X = ASSI 'TOUS' ET T V ;", "different indices"),
+        ("DEBP P A*LISTREEL ; SI ((DIME A) > 1) ; RESP 1. ; FINSI ; FINP 2. ;"
+         "X = ASSI 'TOUS' P T ;", "another number of results"),
+    ],
+)  # fmt: skip
+def test_assi_for_all_tells_what_is_in_its_way(phrase, said, tmp_path):
+    result = run_text(SLAVES + phrase, output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert said in result.message

@@ -101,3 +101,14 @@ def test_imaginary_names_of_a_matrix():
     result = run_text(COPIED.split("S =")[0] + "I = CHAN 'INCO' (K ET R) 'COMP' ;")
     assert result.exit_code == 1
     assert "conditions" in result.message
+
+
+def test_impedances_above_resonance_are_no_springs_below_zero():
+    result = run_text(
+        "OPTI DIME 2 ; P = 0. 0. ; K = MANU 'RIGI' P (MOTS 'UX') (PROG 4.) ;"
+        "Z = (IMPE K 'RAIDEUR') ET (IMPE K 'MASSE' 2.) ET (IMPE K 'AMOR' 0.1) ;"
+        "U = RESO Z (MANU 'CHPO' P 'FX' 1.2 'NATURE' 'DISCRET') ; X = EXTR U 'UX' P ;"
+    )
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("X") == pytest.approx(1.2 * -12.0 / (12.0**2 + 0.4**2))
+    assert not result.session.warnings

@@ -365,3 +365,32 @@ def test_lobatto_points_integrate_high_degrees(found):
     for degree in range(8):
         exact = 2 / (degree + 1) if degree % 2 == 0 else 0
         assert w.values @ x.values**degree == pytest.approx(exact, abs=1e-14)
+
+
+# ---- two components together
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3, 1e4])
+def test_components_are_turned_from_x_to_y(found, unit):
+    """A record along the new x axis is all in its component, whatever the unit of time."""
+    angle = np.radians(25.0)
+    script = (
+        f"T = {unit} * (PROG 0. 1. 2. 3.5) ; "
+        f"X = EVOL 'MANU' T (PROG 0. {3 * np.cos(angle)} 0. {-2 * np.cos(angle)}) ; "
+        f"Y = EVOL 'MANU' T (PROG 0. {3 * np.sin(angle)} 0. {-2 * np.sin(angle)}) ; "
+        "A B = TOUR X Y 25. ; "
+    )
+    a, b = found(script, "A", "B")
+    np.testing.assert_allclose(parts(a)[0][1], [0, 3, 0, -2], atol=1e-12)
+    np.testing.assert_allclose(parts(b)[0][1], 0, atol=1e-12)
+    np.testing.assert_allclose(parts(a)[0][0], unit * np.array([0, 1, 2, 3.5]))
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3, 1e4])
+@pytest.mark.parametrize("other", ["0. 1. 2.00001 3.5", "0. 1. 2.", "0.00001 1. 2. 3.5"])
+def test_components_at_other_instants_are_refused(refused, unit, other):
+    script = (
+        f"X = EVOL 'MANU' ({unit} * (PROG 0. 1. 2. 3.5)) (PROG 0. 3. 1. 2.) ; "
+        f"T = {unit} * (PROG {other}) ; Y = EVOL 'MANU' T (0. * T) ; A B = TOUR X Y 25. ; "
+    )
+    assert "the components have 4 and" in refused(script)

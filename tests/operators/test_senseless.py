@@ -1,5 +1,6 @@
 """Scripts that are well typed and make no sense: each is told, by its code."""
 
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -368,6 +369,46 @@ def test_models_that_make_no_sense_are_told(what: str, tmp_path: Path) -> None:
 def test_models_that_make_sense_are_not(what: str, tmp_path: Path) -> None:
     codes = told(SENSIBLE_MODELS[what], tmp_path)
     assert {c for c in codes if c != "operators.dynamics.contact-not-resolved"} == set()
+
+
+DRAWN = tomllib.loads(Path(__file__).with_name("senseless_drawn.toml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("what", DRAWN)
+def test_scripts_drawn_over_all_operators_are_told(what: str, tmp_path: Path) -> None:
+    codes = told(DRAWN[what]["script"], tmp_path)
+    code = DRAWN[what]["told"]
+    assert code in codes if code else codes == []
+
+
+SENSIBLE_ENDS = {
+    "a joint between two points": "L = DROI 1 (0. 0.) (0. 0.) ;",
+    "a surface about an axis": (
+        "OPTI MODE AXIS ; X = (DROI 2 (0. 0.) (1. 0.)) ROTA 4 90. (0. 0.) ;"
+    ),
+    "one component after the other": (
+        "C = MANU 'CHPO' (0. 0.) 'UX' 3. 'UY' 4. ; X = EXCO (MOTS 'UX' 'UY') C (MOTS 'UY' 'UX') ;"
+    ),
+    "a copy in its place": SQUARE + "X = S PLUS (0. 0.) ; ELIM X S 1.E-3 ;",
+    "curves end to end": (
+        "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; "
+        "X = CONC E (EVOL 'MANU' (PROG 1. 2.) (PROG 1. 2.)) ;"
+    ),
+    "lists of words of one kind": "X = (MOTS 'UX' 'UX') ;",
+    "a signal whose last point closes the period": (
+        "E = EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 9 * 1.) ; X = TFR 3 E 'REIM' 'FMAX' 0.5 ;"
+    ),
+    "a disc by its radius": (
+        "T = TABL ; T . 'FORME' = 'DISQUE' ; T . 'RAYON' = 2. ; T . 'YOUNG' = 1.E8 ; "
+        "T . 'POISSON' = 0.3 ; T . 'MASSE_VOLUMIQUE' = 2000. ; T . 'FREQUENCE' = 1. ; "
+        "R = IMPEDSOL T ;"
+    ),
+}
+
+
+@pytest.mark.parametrize("what", SENSIBLE_ENDS)
+def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
+    assert told(SENSIBLE_ENDS[what], tmp_path) == []
 
 
 def test_free_motions_have_no_frequency(tmp_path: Path) -> None:

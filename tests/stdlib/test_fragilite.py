@@ -8,7 +8,7 @@ from ssilang.kernel.records.fragility import of_cloud, of_exceedances
 
 X = np.array([2.0, 1.0, 4.0, 3.0, 2.5, 3.0])
 D = np.array([3.0, 1.0, 6.0, 3.5, 4.5, 4.2])
-RECORDS = np.array([1, 2, 1, 2, 3, 3])
+RECORDS = np.array([1, 2, 1, 5, 3, 4])
 SUITE = (
     "T = TABL ; T . 'INTENSITES' = PROG 2. 1. 4. 3. 2.5 3. ; "
     "T . 'DEMANDES' = PROG 3. 1. 6. 3.5 4.5 4.2 ; T . 'SEUIL' = 4. ;"
@@ -37,11 +37,18 @@ def test_runs_in_any_order_with_ties_give_the_kernels_fit_and_its_curve():
     assert np.interp(fit.median, curve.abscissas, curve.ordinates) == pytest.approx(0.5, abs=1e-9)
 
 
+def test_fewer_than_five_records_at_several_scales_tell_no_errors():
+    values, _, told = found(SUITE + "T . 'SIGNAUX' = LECT 1 2 1 2 3 3 ;")
+    assert np.isnan(values[2:]).all()
+    assert values[:2] == pytest.approx(parts(of_exceedances(X, (D > 4.0) * 1.0, np.ones(6)))[:2])
+    assert told == ["operators.curves.fragility-few-records"]
+
+
 def test_factors_that_fall_and_records_at_several_scales():
     falling = SUITE.replace(
         "PROG 3. 1. 6. 3.5 4.5 4.2", "(PROG 6 * 12.) / (PROG 3. 1. 6. 3.5 4.5 4.2)"
     )
-    more = "T . 'SEUIL' = 3. ; T . 'SENS' = 'DESSOUS' ; T . 'SIGNAUX' = LECT 1 2 1 2 3 3 ;"
+    more = "T . 'SEUIL' = 3. ; T . 'SENS' = 'DESSOUS' ; T . 'SIGNAUX' = LECT 1 2 1 5 3 4 ;"
     counts = of_exceedances(X, (D > 4.0).astype(float), np.ones(6), RECORDS)
     assert found(falling + more)[0] == pytest.approx(parts(counts))
     cloud = of_cloud(X, D, 4.0, capacity=0.3, records=RECORDS)

@@ -114,7 +114,8 @@ def _asked(options: SweepOptions) -> Asked:
 def _judge(options: SweepOptions, asked: Asked, err: TextIO) -> bool:
     """Leave what was asked for beside the table, and the fits; whether a name is unknown."""
     if not asked.limits:
-        (options.folder / ASKED).unlink(missing_ok=True)
+        for name in (ASKED, FITS):
+            (options.folder / name).unlink(missing_ok=True)
         return False
     asked.write(options.folder)
     made = read_sweep(options.folder)
@@ -157,11 +158,11 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         done = sentence("cli.runs-done", {"done": len(rows), "total": len(tasks)}, options.language)
         out.write(done + "\n")
     waiting = [task for task in tasks if task.number not in rows]
-    asked, looked = _asked(options), bool(rows)
+    asked, named = _asked(options), bool(rows)
     for row in _progress(_run(waiting, options, err), len(waiting), teller(options.language), err):
         rows[row["run"]] = row
-        if row["exit_code"] == 0 and not looked:  # not only in the morning
-            looked = True
+        if row["exit_code"] == 0 and not named:  # not only in the morning
+            named = True
             _tell_unknown(asked, list(row), options, err)
         if row["exit_code"] != 0:
             failure = {"number": row["run"], "error": row["error"], "folder": row["folder"]}

@@ -27,6 +27,8 @@ from ssilang.kernel.base.errors import FieldError
 
 LEAST_RUNS = 3
 """Two parameters and a degree of freedom."""
+LEAST_RECORDS = 5
+"""Of which errors by record are given: fewer scores tell too little of their scatter."""
 _LEAST_SLOPE = 1e-6
 """Of the probit over a standard deviation of the intensities: less is none."""
 
@@ -42,7 +44,8 @@ class Fragility:
     dispersion : float
         Standard deviation of the logarithm of the intensity at which a run exceeds.
     median_error, dispersion_error : float
-        Standard errors of the median's logarithm and of the dispersion.
+        Standard errors of the median's logarithm and of the dispersion; nan of runs of fewer
+        than `LEAST_RECORDS` records at several intensities.
     exceeded, runs : int
         Runs that passed the limit, and all.
     """
@@ -114,33 +117,39 @@ def of_exceedances(
     centre, scale = x.mean(), x.std()
     rows = np.column_stack([np.ones(len(x)), (x - centre) / scale])
 
-    def slopes(p: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        eta = rows @ p
+    def terms(p: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+        """What is lost of the likelihood, scores (n, 2), information (2, 2)."""
+        eta, held = rows @ p, runs - exceeded
         up, down = (np.exp(norm.logpdf(eta) - log_ndtr(s * eta)) for s in (1.0, -1.0))
-        return eta, up, down
+        missed = -float(exceeded @ log_ndtr(eta) + held @ log_ndtr(-eta))
+        weights = exceeded * up * (up + eta) + held * down * (down - eta)
+        return (
+            missed,
+            (exceeded * up - held * down)[:, None] * rows,
+            rows.T @ (weights[:, None] * rows),
+        )
+
+    start = np.array([float(norm.ppf(passed / total)), 1.0])
 
     def lost(p: FloatArray) -> float:
-        eta = rows @ p
-        return -float(exceeded @ log_ndtr(eta) + (runs - exceeded) @ log_ndtr(-eta))
+        return terms(p)[0]
 
-    def scores(p: FloatArray) -> FloatArray:
-        _, up, down = slopes(p)
-        return np.asarray((exceeded * up - (runs - exceeded) * down)[:, None] * rows)
+    def slope(p: FloatArray) -> FloatArray:
+        return np.asarray(-terms(p)[1].sum(axis=0), float)
 
-    def information(p: FloatArray) -> FloatArray:
-        eta, up, down = slopes(p)
-        weights = exceeded * up * (up + eta) + (runs - exceeded) * down * (down - eta)
-        return np.asarray(rows.T @ (weights[:, None] * rows))
+    def curvature(p: FloatArray) -> FloatArray:
+        return terms(p)[2]
 
     found = minimize(
-        lost, np.array([norm.ppf(passed / total), 1.0]), jac=lambda p: -scores(p).sum(axis=0),
-        hess=information, method="trust-exact", options={"gtol": 1e-10 * total},
+        lost, start, jac=slope, hess=curvature,
+        method="trust-exact", tol=1e-10 * float(total),
     ).x  # fmt: skip
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")
     back = np.array([[1.0, -centre / scale], [0.0, 1.0 / scale]])
-    spread = back @ _covariance(information(found), scores(found), records) @ back.T
+    _, scores, information = terms(found)
+    spread = back @ _covariance(information, scores, records) @ back.T
     # ln median = -a / b, dispersion = 1 / b
     to = np.array([[-1.0 / b, a / b**2], [0.0, -1.0 / b**2]])
     errors = np.sqrt(np.diag(to @ spread @ to.T))
@@ -211,16 +220,12 @@ def of_cloud(
     information = np.zeros((3, 3))
     information[:2, :2] = rows.T @ rows / variance
     information[2, 2] = 0.5 * (n - 2) / variance**2
-    scores = np.column_stack(
-        [rows * (e / variance)[:, None], 0.5 * (e**2 - e @ e / n) / variance**2]
-    )
+    scores = np.column_stack([rows * e[:, None], 0.5 * (e**2 - e @ e / n) / variance]) / variance
     spread = _covariance(information, scores, records)
     dispersion = float(np.sqrt(rest)) / abs(b)
-    to = np.array(
-        [
-            [-1.0 / b, -np.log(median) / b, 0.0],
-            [0.0, -dispersion / b, 0.5 * dispersion / rest],
-        ]
+    to = (
+        np.array([[-1.0, -np.log(median), 0.0], [0.0, -dispersion, 0.5 * dispersion * b / rest]])
+        / b
     )
     errors = np.sqrt(np.diag(to @ spread @ to.T))
     return Fragility(median, dispersion, float(errors[0]), float(errors[1]), passed, n)
@@ -241,11 +246,13 @@ def _covariance(
     information: FloatArray, scores: FloatArray, records: NDArray[np.int_] | None
 ) -> FloatArray:
     """Of the parameters: the inverse information, about the scores of whole records if named."""
-    inverse = np.linalg.inv(information)
+    inverse = np.asarray(np.linalg.inv(information), float)
     if records is None or len(set(records.tolist())) == len(records):
         return inverse
     _, which = np.unique(records, return_inverse=True)
     count = int(which.max()) + 1
+    if count < LEAST_RECORDS:
+        return np.full_like(inverse, np.nan)
     sums = np.zeros((count, scores.shape[1]))
     np.add.at(sums, which, scores)
-    return np.asarray(inverse @ (sums.T @ sums * (count / max(count - 1, 1))) @ inverse)
+    return np.asarray(inverse @ (sums.T @ sums * (count / (count - 1))) @ inverse)

@@ -8,7 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import is_symmetric, vector_to_field
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
 from ssilang.kernel.modal.reduced import reduced_problem
 from ssilang.kernel.solvers.inertia import count_negative
 from ssilang.kernel.statics.linear import SolveOptions, linear_system
@@ -52,8 +52,12 @@ def negative_unknowns(matrix: Matrix) -> list[tuple[int, str, float]]:
     """Node, name and stiffness of unknowns where springs make the diagonal negative.
 
     A spring below zero beside a stiffer one, or a condition, is meant (a weight that leans), and so
-    are the diagonals of stresses of a matched layer.
+    are the diagonals of stresses of a matched layer. Impedances, which have real and imaginary
+    parts of the same unknowns, are below zero above a frequency.
     """
+    names = {n for b in matrix.blocks for n in b.unknowns}
+    if any(imaginary(n) in names for n in names):
+        return []
     looked = [b for b in matrix.blocks if b.zone is None and (_diagonal(b) < 0.0).any()]
     if not looked:
         return []

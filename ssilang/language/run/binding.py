@@ -29,8 +29,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call, Operand, accepts, shortened
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import Mot, type_of
-from ssilang.language.vocabulary.terms import UNSAID
+from ssilang.language.values import ListMots, Mot, type_of
 
 Heads = tuple[tuple[int, Mapping[str, tuple[tuple[int, Keyword | Select, str], ...]]], ...]
 """Keywords, with their place and their word, by what it begins with; by the length compared."""
@@ -58,7 +57,7 @@ class Binder:
         self.call = call
         self.main = main  # the operand that chose the form
         self.taken = 0  # keywords
-        self._odd: list[tuple[bool, SsiError]] = []  # numbers: whether outside of their range
+        self._given_ones: list[tuple[Argument, Operand]] = []  # of which something is declared
         self._levels: list[_Level] = []
         self._wordless = trial.wordless or call.wordless()
         self._keywords_there = trial.keywords
@@ -218,24 +217,32 @@ class Binder:
         raise self._lacking(a)
 
     def _given(self, a: Argument, operand: Operand) -> Any:
-        if a.range is not UNSAID and (wrong := a.range.flaw(operand.value, a.name)):
-            self._odd.append((True, self._told(wrong[0], a, operand, wrong[1])))
-        elif a.usual is not UNSAID and (odd := a.usual.flaw(operand.value, a.name)):
-            self._odd.append((False, self._told("unusual", a, operand, odd[1])))
+        if a.distinct or a.range.bounded or a.usual.bounded:
+            self._given_ones.append((a, operand))
         return operand if a.whole else operand.value
 
-    def tell_ranges(self) -> None:
-        """Refuse the first number outside of its range, once all else fits; tell the unusual.
+    def tell_flaws(self) -> None:
+        """Refuse the first number outside of its range, once all else fits; tell what is odd.
 
         Raises
         ------
         SsiError
             'out-of-range' or 'not-increasing'.
         """
-        for refused, error in sorted(self._odd, key=lambda told: not told[0]):
-            if refused:
-                raise error
-            self.call.session.report(error)
+        for a, operand in self._given_ones:
+            if wrong := a.range.flaw(operand.value, a.name):
+                raise self._told(wrong[0], a, operand, wrong[1])
+        report, values = self.call.session.report, {a.name: o.value for a, o in self._given_ones}
+        for n, (a, operand) in enumerate(self._given_ones):
+            if odd := a.usual.flaw(operand.value, a.name):
+                report(self._told("unusual", a, operand, odd[1]))
+            least = values.get(a.above)
+            if isinstance(least, int | float) and not operand.value > least:
+                told = {"value": operand.value, "other": a.above, "least": least}
+                report(self._told("not-above", a, operand, told))
+            before = [o.value for b, o in self._given_ones[:n] if b is a] if a.distinct else []
+            if a.distinct and (twice := _twice(operand.value, before)):
+                report(self._told("given-twice", a, operand, {"twice": twice}))
 
     def _told(
         self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
@@ -368,19 +375,33 @@ class Binder:
         return (
             list(self.call.operands),
             len(self.call.used),
-            (self._wordless, self._keyless, self.taken, len(self._odd)),
+            (self._wordless, self._keyless, self.taken, len(self._given_ones)),
             [(v, dict(v.values), set(v.seen)) for v in levels],
         )
 
     def _put_back(self, kept: _Kept) -> None:
-        operands, used, (self._wordless, self._keyless, self.taken, odd), levels = kept
+        operands, used, (self._wordless, self._keyless, self.taken, given), levels = kept
         self.call.operands[:] = operands
-        del self.call.used[used:], self._odd[odd:]
+        del self.call.used[used:], self._given_ones[given:]
         for level, values, seen in levels:
             level.values.clear()
             level.values.update(values)
             level.seen.clear()
             level.seen.update(seen)
+
+
+def _twice(value: Any, before: Sequence[Any]) -> str:
+    """A word of a value that stands twice in it or stood before; of an object its type."""
+    if isinstance(value, ListMots):
+        words = [_bare(w) for w in value.values]
+        return next((w for n, w in enumerate(words) if w in words[:n]), "")
+    if isinstance(value, str):
+        return _bare(value) if _bare(value) in map(_bare, before) else ""
+    return type_of(value) if any(value is b for b in before) else ""
+
+
+def _bare(word: Any) -> str:
+    return str(word).rstrip()
 
 
 def _place_of(known: tuple[int, Keyword | Select, str]) -> int:
@@ -579,7 +600,7 @@ def _bound(form: Form, call: Call, trial: Trial) -> Bound:
                 values[entry.name] = binder.operand(entry)
         else:
             values = binder.bind(entries)
-        binder.tell_ranges()
+        binder.tell_flaws()
         if form.said is not None and "word" not in form.injected:
             values.pop("word", None)
         words_alone = trial.keyed and binder.taken and not call.operands

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.language.run.call import Operand
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
@@ -254,6 +254,13 @@ class Evaluator(PhraseRunner):
             if not isinstance(operands[0].value, Mot | Texte | Procedure):
                 return [o.value for o in operands]
         return [o.value for o in self._unnamed(statement)]
+
+    def reduced(self, operands: Sequence[Operand], span: Span) -> list[Any]:
+        """Values that a phrase of these operands leaves."""
+        call = Call(self.session, list(operands), span)
+        self._reduce(call)
+        self.refuse_leftovers([o for o in call.operands if not o.result])
+        return [o.value for o in call.operands]
 
     def run_top(self, nodes: Sequence[tree.Node]) -> None:
         """Run nodes that stand outside of any procedure.

@@ -68,6 +68,9 @@ class Runner(Protocol):
     def refuse_leftovers(self, left: Sequence[Any], taken: Sequence[Any] = ()) -> None:
         """Raise the error for operands that nothing read, if there are any."""
 
+    def reduced(self, operands: Sequence[Any], span: Span) -> list[Any]:
+        """Values that a phrase of these operands leaves."""
+
     def guarded(self, action: Callable[[], Any], span: Span | None, name: str) -> Any:
         """Run what an operator does; whatever it raises becomes an error of the script."""
 

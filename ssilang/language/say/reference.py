@@ -25,7 +25,6 @@ from ssilang.language.registry import (
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
-from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID
 from ssilang.messages.message import examples, spoken, teller
 
 WIDTH = 88
@@ -237,7 +236,7 @@ def _said(a: Argument, language: str) -> str:
     told = [
         f"; {teller(language)(code) + ' ' if code else ''}{bounds_told(b, a.name, language)}"
         for code, b in bounds
-        if b not in (UNSAID, ANY_NUMBER)
+        if b.bounded
     ]
     return f"{_meaning(a, language)}{unit}{default}{''.join(told)}"
 

@@ -90,6 +90,8 @@ class TableEntry:
         What other procedures, or habit, call the same thing.
     range, usual : Range
         Numbers outside of `range` are refused, outside of `usual` told.
+    only : dict
+        Words of entries beside it without which it counts for nothing.
     """
 
     path: tuple[str, ...]
@@ -108,6 +110,7 @@ class TableEntry:
     taken_over: bool = False
     range: Range = UNSAID
     usual: Range = UNSAID
+    only: Mapping[str, tuple[str, ...]] | None = None
 
     @property
     def index(self) -> str:
@@ -276,6 +279,7 @@ def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntr
         tuple(said.get("means", ())),
         range=read_range(said.get("range", "")),
         usual=read_range(said.get("usual", "")),
+        only={i: tuple(words) for i, words in said["only"].items()} if "only" in said else None,
     )
 
 

@@ -14,7 +14,7 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range
+from ssilang.language.vocabulary.terms import Range
 from ssilang.messages.message import COLON, spoken, teller
 
 _COLUMNS = (
@@ -130,7 +130,7 @@ def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> R
     if entry.values:
         meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
     for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
-        if bound not in (UNSAID, ANY_NUMBER):
+        if bound.bounded:
             told = bounds_told(bound, entry.index, language)
             meaning += f"\n{teller(language)(code)}{COLON[language]}{told}"
     types = " | ".join(entry.types) or teller(language)("help.any")

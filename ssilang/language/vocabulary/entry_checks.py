@@ -22,6 +22,8 @@ from ssilang.language.vocabulary.entries import (
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ssilang.language.run.scopes import Frame
     from ssilang.language.run.session import Session
     from ssilang.language.text.source import Span
@@ -71,7 +73,7 @@ def meant_truth(entry: TableEntry, value: Any) -> Any:
     return _TRUTH_WORDS.get(str(value).upper().rstrip(), value)
 
 
-def truth_told(procedure: str, where: tuple[object, ...], meant: bool) -> dict[str, object]:
+def truth_told(procedure: str, where: tuple[object, ...], meant: object) -> dict[str, object]:
     """Data of the warning of a word that means a LOGIQUE."""
     word = "VRAI" if meant else "FAUX"
     return {"procedure": procedure, "operator": procedure, "where": shown(where), "word": word}
@@ -183,6 +185,9 @@ class TableCheck:
     ) -> None:
         """Warn, once for a table, of what changes nothing; FAUX and a default ask for nothing."""
         known = [(i, v, self.declared.at(path, i)) for i, v in given if v is not False]
+        for index, _, entry in known if self.aloud else ():
+            if entry is not None and entry.only and entry.is_read:
+                self._only_with(table, path, (*where, index), entry.only)
         # other entries that nobody reads are those of tables that operators make
         unused = [(i, e) for i, v, e in known if e and e.theme == UNUSED and v != e.fallback]
         readers = _Readers(self.session, self.place, table, len(path) > 1)
@@ -196,6 +201,25 @@ class TableCheck:
             "entries-without-effect", self.place, procedure=name, operator=name, names=names,
             en=en, fr=fr,
         )  # fmt: skip
+
+    def _only_with(
+        self,
+        table: Table,
+        path: tuple[str, ...],
+        where: tuple[object, ...],
+        only: Mapping[str, tuple[str, ...]],
+    ) -> None:
+        """Warn of an entry that counts with other words of the entries beside it."""
+        for index, words in only.items():
+            beside = self.declared.at(path, index)
+            given = table.get(Mot(index)) if table.has(Mot(index)) else beside and beside.fallback
+            said = beside.word(given) if beside is not None and isinstance(given, str) else None
+            if said is not None and said not in words:
+                name, other = self.declared.name, shown((*where[:-1], index))
+                self.session.warn(
+                    "entry-only-with", self.place, procedure=name, operator=name,
+                    where=shown(where), other=other, words=list(words), given=said,
+                )  # fmt: skip
 
     def _known(self, entry: TableEntry, value: Any, where: tuple[object, ...]) -> None:
         if entry.role == REFUSED and value is not False:  # FAUX asks for nothing

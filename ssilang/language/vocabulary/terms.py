@@ -78,18 +78,24 @@ class Range:
     increasing: bool = False
     zero: bool = True
 
+    @property
+    def bounded(self) -> bool:
+        """Whether there are numbers outside of it."""
+        return self is not UNSAID and self is not ANY_NUMBER
+
     def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
         """What is wrong with a number or a list of them: a code and data; None if nothing is.
 
-        What is neither, as a field where a number would do too, is not judged; nor is anything
-        where any number has sense.
+        Nothing is judged where any number has sense, and of other objects a vector alone, where
+        it must not be zero.
         """
-        if self is UNSAID or self is ANY_NUMBER or isinstance(value, bool):
+        if not self.bounded or isinstance(value, bool):
             return None
         if isinstance(value, int | float):
             return None if value in self else self._outside(value, name)
         if not isinstance(value, ListReel | ListEnti):
-            return None
+            vector = None if self.zero else getattr(value, "coordinates", None)
+            return None if vector is None or np.any(vector) else self._outside(0.0, name)
         numbers = np.asarray(value.values, dtype=float)
         with np.errstate(invalid="ignore"):
             above = numbers > self.low if self.open_low else numbers >= self.low

@@ -13,11 +13,20 @@ from ssilang.kernel.records.filters import without_trend
 from ssilang.kernel.records.integration import brought_to_rest, integrated
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import Help, arg, choice, key, operator, opt
+from ssilang.language.registry import arg, choice, key, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
-from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade, warn_of_motions
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    LIMITS,
+    one_part,
+    shade,
+    warn_of_motions,
+    warn_of_points,
+    warn_of_sampling,
+)
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 
@@ -35,12 +44,10 @@ _RULE = choice(
     CURVE,
     _RULE,
     family="signals",
-    help=Help(
-        en="Displacements and velocities of accelerations at a constant step, from rest: by "
-        "trapezoids twice ('SIMP', the default) or exactly for an acceleration linear in the "
-        "steps ('LINE').",
-        syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
-    ),
+    en="Displacements and velocities of accelerations at a constant step, from rest: by "
+    "trapezoids twice ('SIMP', the default) or exactly for an acceleration linear in the "
+    "steps ('LINE').",
+    syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
 )
 def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     """Integrate records."""
@@ -65,13 +72,11 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
         en="degree of the velocity's polynomial",
     ),
     family="signals",
-    help=Help(
-        en="Accelerations corrected, as little as possible in least squares, so that INSI (with "
-        "the same 'SIMP' or 'LINE') ends with no velocity, no displacement and no mean "
-        "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
-        "start, that is nearest to the velocity is taken off.",
-        syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
-    ),
+    en="Accelerations corrected, as little as possible in least squares, so that INSI (with "
+    "the same 'SIMP' or 'LINE') ends with no velocity, no displacement and no mean "
+    "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
+    "start, that is nearest to the velocity is taken off.",
+    syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
 )
 def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     """Correct records."""
@@ -109,11 +114,9 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     ),
     key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour"),
     family="signals",
-    help=Help(
-        en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
-        "pseudo-velocity 'VITE' (w times it), pseudo-acceleration 'ACCE' (w squared times it).",
-        syntax="EVOL2 = CHSP EVOL1 'ENTR' MOT1 'SORT' MOT2 ('COUL' COUL1) ;",
-    ),
+    en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
+    "pseudo-velocity 'VITE' (w times it), pseudo-acceleration 'ACCE' (w squared times it).",
+    syntax="EVOL2 = CHSP EVOL1 'ENTR' MOT1 'SORT' MOT2 ('COUL' COUL1) ;",
 )
 def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | None) -> Curve:
     """Change the unit of spectra."""
@@ -139,12 +142,10 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
     *LIMITS,
     COLOUR,
     family="signals",
-    help=Help(
-        en="One-sided power spectral density (per hertz) of a signal at constant step, on 2**N1 "
-        "points (cut, or filled with zeros): summed over the frequencies times their step it is "
-        "the mean square.",
-        syntax="EVOL1 = DSPR N1 EVOL2 ('FMIN' F1) ('FMAX' F2) (COUL1) ;",
-    ),
+    en="One-sided power spectral density (per hertz) of a signal at constant step, on 2**N1 "
+    "points (cut, or filled with zeros): summed over the frequencies times their step it is "
+    "the mean square.",
+    syntax="EVOL1 = DSPR N1 EVOL2 ('FMIN' F1) ('FMAX' F2) (COUL1) ;",
 )
 def dspr(
     call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None
@@ -153,7 +154,10 @@ def dspr(
     if not 1 <= power <= 26:
         raise call.error("operators.curves.power-of-two", power, power=power)
     part = one_part(call, curve)
-    f, y = power_density(part.ordinates, constant_step(part.abscissas), 2**power)
+    step = constant_step(part.abscissas)
+    warn_of_points(call, part, 2**power)
+    warn_of_sampling(call, step, highest)
+    f, y = power_density(part.ordinates, step, 2**power)
     kept = (f >= abs(lowest)) & (f <= (abs(highest) or np.inf))
     index = shade(colour, 0)
     made = CurvePart(f[kept], y[kept], "FREQ (HZ)", "DSP UN**2/HZ", part.legend, index)
@@ -197,15 +201,13 @@ PERIODS = opt(
     ),
     COLOUR,
     family="signals",
-    help=Help(
-        en="Response spectra of a stationary acceleration of duration X1 whose one-sided power "
-        "density (per hertz) is given, one for each damping of the list: over 75 periods from "
-        "0.04 s to the duration, or over the second list. 'ACCE' (absolute), 'VITE' or 'DEPL' "
-        "(relative); the largest value is the median of the law of rare crossings ('CRAM') or the "
-        "mean of a Gumbel law through two fractiles of Vanmarcke's ('NEWG').",
-        syntax="EVOL1 = PSRS EVOL2 X1 LREEL1 (LREEL2) ('ACCE' | 'VITE' | 'DEPL') "
-        "('CRAM' | 'NEWG') ('PERI' | 'FREQ') (COUL1) ;",
-    ),
+    en="Response spectra of a stationary acceleration of duration X1 whose one-sided power "
+    "density (per hertz) is given, one for each damping of the list: over 75 periods from "
+    "0.04 s to the duration, or over the second list. 'ACCE' (absolute), 'VITE' or 'DEPL' "
+    "(relative); the largest value is the median of the law of rare crossings ('CRAM') or the "
+    "mean of a Gumbel law through two fractiles of Vanmarcke's ('NEWG').",
+    syntax="EVOL1 = PSRS EVOL2 X1 LREEL1 (LREEL2) ('ACCE' | 'VITE' | 'DEPL') "
+    "('CRAM' | 'NEWG') ('PERI' | 'FREQ') (COUL1) ;",
 )
 def psrs(
     call: Call,

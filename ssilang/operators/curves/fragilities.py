@@ -7,8 +7,9 @@ from dataclasses import astuple
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.records.fragility import Fragility, of_cloud, of_exceedances
-from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
+from ssilang.language.registry import arg, flag, key, operator, opt, said
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 
@@ -27,19 +28,21 @@ _RECORDS = key(
     _RECORDS,
     family="signals",
     gives=("EVOLUTIO", "LISTREEL"),
-    help=Help(
-        en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
-        "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
-        syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
-    ),
+    en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
+    "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
+    syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
 )
 def zfra(
-    intensities: ListReel, exceeded: ListReel, runs: ListReel | None, records: ListEnti | None
+    call: Call,
+    intensities: ListReel,
+    exceeded: ListReel,
+    runs: ListReel | None,
+    records: ListEnti | None,
 ) -> tuple[Curve, ListReel]:
     """From counts."""
     of = np.ones(len(exceeded.values)) if runs is None else runs.values
     which = None if records is None else records.values
-    return _told(of_exceedances(intensities.values, exceeded.values, of, which))
+    return _told(call, of_exceedances(intensities.values, exceeded.values, of, which))
 
 
 @zfra.form(
@@ -61,6 +64,7 @@ def zfra(
     syntax="EVOL1 LREEL1 = ZFRA 'NUAG' LREEL2 LREEL3 X1 ('DESS') ('CAPA' X2) ('SIGN' LENTI1) ;",
 )
 def _cloud(
+    call: Call,
     word: str,
     intensities: ListReel,
     demands: ListReel,
@@ -73,10 +77,12 @@ def _cloud(
         intensities.values, demands.values, limit, below=below, capacity=capacity,
         records=None if records is None else records.values,
     )  # fmt: skip
-    return _told(found)
+    return _told(call, found)
 
 
-def _told(found: Fragility) -> tuple[Curve, ListReel]:
+def _told(call: Call, found: Fragility) -> tuple[Curve, ListReel]:
+    if np.isnan(found.median_error):
+        call.warn("operators.curves.fragility-few-records", count=LEAST_RECORDS)
     x = found.median * np.exp(found.dispersion * np.linspace(-3.0, 3.0, _POINTS))
     part = CurvePart(x, found.probability(x), "intensity", "probability")
     return Curve((part,)), ListReel(astuple(found))

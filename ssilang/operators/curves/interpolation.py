@@ -25,7 +25,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import (
     Chosen,
-    Help,
     Like,
     arg,
     choice,
@@ -104,16 +103,14 @@ ipol = operator(
     *_SPLINE,
     family="curves",
     gives=Like("value"),
-    help=Help(
-        en="Value of a function given by a curve or two lists, at a number, at each item of a "
-        "list or value of a field: linear, or by a cubic spline ('SPLI', with slopes at the ends "
-        "'DGAU' and 'DDRO'); constant outside. 'TOUS': all ordinates of a curve that goes back. "
-        "Field between those of a table RESULTAT. Point at a distance along a line, given by its "
-        "field of curvilinear abscissas.",
-        syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
-        "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
-        "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
-    ),
+    en="Value of a function given by a curve or two lists, at a number, at each item of a "
+    "list or value of a field: linear, or by a cubic spline ('SPLI', with slopes at the ends "
+    "'DGAU' and 'DDRO'); constant outside. 'TOUS': all ordinates of a curve that goes back. "
+    "Field between those of a table RESULTAT. Point at a distance along a line, given by its "
+    "field of curvilinear abscissas.",
+    syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
+    "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
+    "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
 )(_interpolate)
 
 
@@ -296,10 +293,8 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     CURVE,
     family="curves",
     full_name="PRIMITIVE",
-    help=Help(
-        en="Primitive of curves by trapezes, zero at the first abscissa.",
-        syntax="EVOL2 = PRIM EVOL1 ;",
-    ),
+    en="Primitive of curves by trapezes, zero at the first abscissa.",
+    syntax="EVOL2 = PRIM EVOL1 ;",
 )
 def prim(curve: Curve) -> Curve:
     """Running integral."""

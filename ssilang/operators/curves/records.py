@@ -22,11 +22,19 @@ from ssilang.kernel.records.signals import (
     settled,
     transform,
 )
-from ssilang.language.registry import Help, arg, by, choice, flag, key, operator
+from ssilang.language.registry import arg, by, choice, flag, key, operator
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.curves.signals import filt
-from ssilang.operators.curves.words import COLOUR, CURVE, check_together, one_part, shade
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    check_together,
+    one_part,
+    shade,
+    warn_of_points,
+    warn_of_sampling,
+)
 from ssilang.operators.mesh.copies.images import tour
 from ssilang.operators.workspace import workspace
 
@@ -89,11 +97,10 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
         en="largest misfit, 0.05 without it"),
     family="signals",
     gives=("EVOLUTIO", "FLOTTANT"),
-    help=Help(
-        en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
+    en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
         "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
         "part of the target.",
-        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;"),
+        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
 )  # fmt: skip
 def zond(
     call: Call, record: Curve, target: Curve, damping: float, tolerance: float
@@ -156,17 +163,15 @@ def zond(
     family="signals",
     full_name="ONDE",
     gives=by("form", dict.fromkeys(("REIM", "MOPH"), ("CHPOINT", "MAILLAGE")), "EVOLUTIO"),
-    help=Help(
-        en="Continuous wavelet transform (Morlet's wavelet of pulsation 'PULS', 5 by default) of a "
-        "signal on 2**N1 points, scaled so that a sine gives its amplitude. 'REIM' or 'MOPH': "
-        "nodal field (PREE PIMA, or MODU and PHAS in degrees) and its mesh, a unit square with "
-        "time in abscissa and frequency in ordinate (evenly spaced in 1/f), zero near the ends. "
-        "'CRMO' or 'CRPH': its ridge, by the largest modulus or where the phase turns at the "
-        "wavelet's pulsation to 'EPSI' (1.E-4): frequency and amplitude in time.",
-        syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
-        "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
-        "('EPSI' X5) ('PULS' X4) (COUL1) ;",
-    ),
+    en="Continuous wavelet transform (Morlet's wavelet of pulsation 'PULS', 5 by default) of a "
+    "signal on 2**N1 points, scaled so that a sine gives its amplitude. 'REIM' or 'MOPH': "
+    "nodal field (PREE PIMA, or MODU and PHAS in degrees) and its mesh, a unit square with "
+    "time in abscissa and frequency in ordinate (evenly spaced in 1/f), zero near the ends. "
+    "'CRMO' or 'CRPH': its ridge, by the largest modulus or where the phase turns at the "
+    "wavelet's pulsation to 'EPSI' (1.E-4): frequency and amplitude in time.",
+    syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
+    "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
+    "('EPSI' X5) ('PULS' X4) (COUL1) ;",
 )
 def onde(
     call: Call,
@@ -189,6 +194,8 @@ def onde(
     step, n = constant_step(part.abscissas), 2**power
     if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
+    warn_of_points(call, part, n)
+    warn_of_sampling(call, step, highest)
     scale = scales(lowest, highest, rows, pulsation)
     found = transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)

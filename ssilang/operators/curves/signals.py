@@ -22,7 +22,6 @@ from ssilang.kernel.records.signals import (
 from ssilang.language.registry import (
     ANY,
     Chosen,
-    Help,
     arg,
     choice,
     flag,
@@ -34,7 +33,16 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
-from ssilang.operators.curves.words import COLOUR, CURVE, LIMITS, one_part, shade
+from ssilang.operators.curves.words import (
+    COLOUR,
+    CURVE,
+    LIMITS,
+    one_part,
+    shade,
+    warn_of_order,
+    warn_of_points,
+    warn_of_sampling,
+)
 
 
 def spectrum(
@@ -66,14 +74,12 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
     COLOUR,
     choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
-    help=Help(
-        en="Fast Fourier transform of a signal at constant step, on 2**N1 points (cut, or filled "
-        "with zeros): the integral of s(t) exp(-2 i pi f t), as real and imaginary parts ('REIM') "
-        "or modulus and phase in degrees ('MOPH'), over frequencies between FMIN and FMAX. Of a "
-        "list of fields: lists of real and imaginary fields, and the frequencies.",
-        syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
-        "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
-    ),
+    en="Fast Fourier transform of a signal at constant step, on 2**N1 points (cut, or filled "
+    "with zeros): the integral of s(t) exp(-2 i pi f t), as real and imaginary parts ('REIM') "
+    "or modulus and phase in degrees ('MOPH'), over frequencies between FMIN and FMAX. Of a "
+    "list of fields: lists of real and imaginary fields, and the frequencies.",
+    syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
+    "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
 )
 def tfr(
     call: Call,
@@ -90,7 +96,10 @@ def tfr(
     if len(signal.parts) != 1:
         raise call.error("operators.curves.one-curve-at-a-time", signal, n_parts=len(signal.parts))
     part = signal.parts[0]
-    f, values = fourier(part.ordinates, constant_step(part.abscissas), 2**power)
+    step = constant_step(part.abscissas)
+    warn_of_points(call, part, 2**power)
+    warn_of_sampling(call, step, highest)
+    f, values = fourier(part.ordinates, step, 2**power)
     kept = (f >= lowest) & (f <= highest)
     shades = (shade(colour, 0), shade(second_colour, 0))
     return spectrum(f[kept], values[kept], form, shades, signal.title)
@@ -151,11 +160,9 @@ def tfr_of_fields(
     "TFRI",
     arg("curve", "EVOLUTIO", en="complex curve"),
     family="signals",
-    help=Help(
-        en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
-        "constant step: a real signal; inverse of TFR.",
-        syntax="EVOL2 = TFRI EVOL1 ;",
-    ),
+    en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
+    "constant step: a real signal; inverse of TFR.",
+    syntax="EVOL2 = TFRI EVOL1 ;",
 )
 def tfri(call: Call, curve: Curve) -> Curve:
     """Transform back."""
@@ -196,13 +203,11 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
     ),
     family="signals",
     full_name="FILTRE",
-    help=Help(
-        en="Filter as a complex curve on 2**(N1 - 1) + 1 frequencies: first-order high-pass "
-        "('PHAU') or low-pass ('PBAS') of cut-off F1, or a power of the circular frequency "
-        "(i 2 pi f)**N ('OMEG').",
-        syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
-        "'DFRQ' F2 ;",
-    ),
+    en="Filter as a complex curve on 2**(N1 - 1) + 1 frequencies: first-order high-pass "
+    "('PHAU') or low-pass ('PBAS') of cut-off F1, or a power of the circular frequency "
+    "(i 2 pi f)**N ('OMEG').",
+    syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
+    "'DFRQ' F2 ;",
 )
 def filt(
     call: Call,
@@ -238,10 +243,8 @@ def filt(
     COLOUR,
     family="signals",
     full_name="HANNING",
-    help=Help(
-        en="Hanning's mean (1/4, 1/2, 1/4) of a spectrum, N1 times.",
-        syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
-    ),
+    en="Hanning's mean (1/4, 1/2, 1/4) of a spectrum, N1 times.",
+    syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
 )
 def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
     """Smooth a spectrum."""
@@ -273,13 +276,11 @@ _PERCENT = opt(
     flag("ends", "FIN", en="places where they end too"),
     family="signals",
     gives=ANY,
-    help=Help(
-        en="Number of shocks in records: stretches above a threshold in percent of the largest "
-        "absolute value (1.E-6 by default). Of one record also the peaks ('MAXI') and the places "
-        "where shocks begin ('DEBU') and end ('FIN').",
-        syntax="LENT1 = COMT EVOL1 (X1) ; N1 (LREE1) (LENT2) (LENT3) = COMT EVOL1 (X1) ('MAXI') "
-        "('DEBU') ('FIN') ;",
-    ),
+    en="Number of shocks in records: stretches above a threshold in percent of the largest "
+    "absolute value (1.E-6 by default). Of one record also the peaks ('MAXI') and the places "
+    "where shocks begin ('DEBU') and end ('FIN').",
+    syntax="LENT1 = COMT EVOL1 (X1) ; N1 (LREE1) (LENT2) (LENT3) = COMT EVOL1 (X1) ('MAXI') "
+    "('DEBU') ('FIN') ;",
 )
 def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, ends: bool) -> Any:
     """Count shocks."""
@@ -301,11 +302,9 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     _PERCENT,
     family="signals",
     full_name="TOTEMP",
-    help=Help(
-        en="Length of the abscissas where the absolute value of each curve is above a level, in "
-        "percent of its largest.",
-        syntax="LREE1 = TOTE EVOL1 (X1) ;",
-    ),
+    en="Length of the abscissas where the absolute value of each curve is above a level, in "
+    "percent of its largest.",
+    syntax="LREE1 = TOTE EVOL1 (X1) ;",
 )
 def tote(curve: Curve, percent: float) -> ListReel:
     """Measure durations."""
@@ -329,12 +328,10 @@ _AXIS = arg("name", "MOT", en="name of the ordinates")
     ),
     arg("values", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     family="signals",
-    help=Help(
-        en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
-        "('NOCO': pairs one after the other with 'COUP', else all times then all values, or two "
-        "lists, the first of which holds the step or 0).",
-        syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
-    ),
+    en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
+    "('NOCO': pairs one after the other with 'COUP', else all times then all values, or two "
+    "lists, the first of which holds the step or 0).",
+    syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
 )
 def fdt(name: str, step: float, values: ListReel) -> Curve:
     """A curve at a constant step."""
@@ -360,9 +357,11 @@ def fdt_of_times(
     if len(numbers) % 2:
         raise call.error("operators.curves.times-and-values-in-pairs", n_values=len(numbers))
     if pairs:
-        return _in_time(numbers[::2], numbers[1::2], name)
-    half = len(numbers) // 2
-    return _in_time(numbers[:half], numbers[half:], name)
+        times, values_there = numbers[::2], numbers[1::2]
+    else:
+        times, values_there = np.split(numbers, 2)
+    warn_of_order(call, times)
+    return _in_time(times, values_there, name)
 
 
 def _in_time(t: Any, y: Any, name: str) -> Curve:

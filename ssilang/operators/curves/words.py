@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.language.registry import arg, choice, key
 from ssilang.language.run.call import Call, Operand
@@ -27,7 +28,7 @@ LIMITS = (
     key(
         "highest",
         "FMAX",
-        arg("highest", "FLOTTANT", unit="Hz", range=POSITIVE),
+        arg("highest", "FLOTTANT", unit="Hz", range=POSITIVE, above="lowest"),
         default=np.inf,
         en="highest frequency, all without it",
     ),
@@ -116,3 +117,26 @@ def axis_name(call: Call) -> str:
         said = [f"'{str(w.value).rstrip()}'" for w in words]
         raise SsiError("operators.curves.two-axis-names", whole, names=said)
     return whole.text
+
+
+def warn_of_points(call: Call, part: CurvePart, points: int) -> None:
+    """Warn of a signal that is cut to so many points."""
+    if len(part.abscissas) > points + 1:  # a last point closes the period
+        left = float(part.abscissas[points - 1])
+        call.warn(
+            "operators.curves.signal-cut", count=len(part.abscissas), points=points, time=left
+        )
+
+
+def warn_of_sampling(call: Call, step: float, highest: float) -> None:
+    """Warn of frequencies above half that of the samples."""
+    if np.isfinite(highest) and highest > 0.5 / step * (1.0 + 1e-6):
+        call.warn("operators.curves.beyond-sampling", highest=highest, most=0.5 / step)
+
+
+def warn_of_order(call: Call, abscissas: FloatArray) -> None:
+    """Warn of abscissas that go back."""
+    back = np.flatnonzero(np.diff(abscissas) < 0.0)
+    if len(back):
+        k = int(back[0])
+        call.warn("operators.curves.goes-back", before=abscissas[k], after=abscissas[k + 1])

@@ -16,7 +16,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
-    Help,
     arg,
     choice,
     main,
@@ -29,7 +28,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.dispatch import EXTR, shared_operator, union
+from ssilang.operators.dispatch import EXTR, union
 from ssilang.operators.workspace import workspace
 
 
@@ -60,12 +59,10 @@ def is_colour(word: str) -> bool:
     opt("model", "MMODEL", en="its model"),
     family="drawing",
     full_name="DEFORME",
-    help=Help(
-        en="A deformed shape for TRAC: a mesh moved by an amplified displacement (the "
-        "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
-        "field to show on it. ET puts several shapes into one picture.",
-        syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
-    ),
+    en="A deformed shape for TRAC: a mesh moved by an amplified displacement (the "
+    "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
+    "field to show on it. ET puts several shapes into one picture.",
+    syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
 )
 def defo(
     colour: str | None,
@@ -92,15 +89,13 @@ _FAMILIES = {
 VECT = shared(
     "VECT",
     "drawing",
-    Help(
-        en="Arrows for TRAC. Of a nodal field: its displacements (DEPL), forces (FORC) or the "
-        "components named, times an amplification (chosen by the picture if it is not given; "
-        "negative: the arrow points at its node), in a colour. Of a field in cells: with a "
-        "LISTMOTS, the vector of these components in each cell; without, the strokes of its "
-        "principal stresses, or of the one named, with a LISTMOTS of colours.",
-        syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
-        "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
-    ),
+    en="Arrows for TRAC. Of a nodal field: its displacements (DEPL), forces (FORC) or the "
+    "components named, times an amplification (chosen by the picture if it is not given; "
+    "negative: the arrow points at its node), in a colour. Of a field in cells: with a "
+    "LISTMOTS, the vector of these components in each cell; without, the strokes of its "
+    "principal stresses, or of the one named, with a LISTMOTS of colours.",
+    syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
+    "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
     full_name="VECTEUR",
 )
 _SCALE = opt(
@@ -211,7 +206,7 @@ def amplification(call: Call, shape: Deformed, what: str) -> float:
     return automatic_scale(first.mesh, first.displacement)
 
 
-ANNO = shared_operator(
+ANNO = shared(
     "ANNO", "drawing", "Makes texts that TRAC adds to a picture; ET puts several together."
 )
 
@@ -229,13 +224,15 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     en="CATE: a line of the legend, a colour and its meaning.",
 )
 def _category(colour: str, text: str) -> Annotation:
+    if not is_colour(colour) and is_colour(text):
+        colour, text = text, colour
     return Annotation((Category(index_of(colour), str(text)),))
 
 
 @ANNO.form(
     said("ETIQ"),
     arg("point", "POINT", en="where"),
-    many("words", "MOT", at_least=1, en="colour and side, if any, then the text"),
+    many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
     opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
     syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
@@ -246,12 +243,18 @@ def _category(colour: str, text: str) -> Annotation:
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
 ) -> Annotation:
-    colour, place = 0, "NE"
-    for word in words[:-1]:
-        if word.strip().upper() in PLACES:
-            place = word.strip().upper()
-        elif is_colour(word):
-            colour = index_of(word)
-        else:
+    found: dict[str, str] = {}
+    for word in words:
+        side = word.strip().upper() in PLACES and "place" not in found
+        role = (
+            "place" if side else "colour" if is_colour(word) and "colour" not in found else "text"
+        )
+        if role in found:
             raise call.error("operators.drawing.no-colour-no-place", said=word, places=PLACES)
-    return Annotation((), (Tag(point, str(words[-1]), colour, place, distance, link),))
+        found[role] = word
+    if "text" not in found:  # the text is spelt as a side or a colour
+        role = next(r for r, word in found.items() if word is words[-1])
+        found["text"] = found.pop(role)
+    colour = index_of(found["colour"]) if "colour" in found else 0
+    place = found.get("place", "NE").strip().upper()
+    return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
@@ -60,12 +60,10 @@ MOST_STEPS = 1e9
     "ZDYN",
     arg("table", "TABLE", en="table of DYNAMIC"),
     family="dynamics",
-    help=Help(
-        en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
-        "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
-        "returned.",
-        syntax="TAB2 = ZDYN TAB1 ;",
-    ),
+    en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
+    "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
+    "returned.",
+    syntax="TAB2 = ZDYN TAB1 ;",
 )
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""

@@ -14,7 +14,7 @@ from ssilang.kernel.elements.results.shear_history import largest_shear_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.values import ListChpo, Table
 from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
 
@@ -30,12 +30,10 @@ MOST_VALUES = 1 << 20
     arg("model", "MMODEL", en="model"),
     arg("motion", "LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
     family="dynamics",
-    help=Help(
-        en="Largest shear strain over displacements (a list, or results of DYNAMIC), at the "
-        "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
-        "the strain.",
-        syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
-    ),
+    en="Largest shear strain over displacements (a list, or results of DYNAMIC), at the "
+    "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
+    "the strain.",
+    syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
 )
 def zgam(model: Model, motion: ListChpo | Table) -> CellField:
     """Largest strain zone by zone."""

@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.recording import thinned_drawing
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel, Table
 from ssilang.messages.message import Teller, teller
@@ -38,11 +38,9 @@ _TOP = 1000.0
     arg("given", "TABLE", en="what @BILANSSI was given"),
     arg("found", "TABLE", en="what it found"),
     family="dynamics",
-    help=Help(
-        en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
-        "its curves into the run's report.",
-        syntax="ZBIL TAB1 TAB2 ;",
-    ),
+    en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
+    "its curves into the run's report.",
+    syntax="ZBIL TAB1 TAB2 ;",
 )
 def zbil(session: Session, given: Table, found: Table) -> None:
     """Keep a verdict."""

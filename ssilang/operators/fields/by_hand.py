@@ -21,7 +21,6 @@ from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
-    Help,
     arg,
     choice,
     each,
@@ -57,7 +56,7 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
     _ON_NODES,
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component"),
+        arg("component", "MOT", en="name of a component", distinct=True),
         arg(
             "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
         ),
@@ -189,7 +188,7 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     choice("integration", ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"),
     each(
         "pairs",
-        arg("component", "MOT", en="name of a component"),
+        arg("component", "MOT", en="name of a component", distinct=True),
         arg("value", en="its value or object"),
         at_least=1,
     ),
@@ -348,13 +347,11 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
     arg("model", "MMODEL", en="model"),
     choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
     family="fields",
-    help=Help(
-        en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
-        "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
-        "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-        "HOTANGEN).",
-        syntax="CHAM1 = ZERO MODL1 MOT1 ;",
-    ),
+    en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
+    "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
+    "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
+    "HOTANGEN).",
+    syntax="CHAM1 = ZERO MODL1 MOT1 ;",
 )
 def zero(call: Call, model: Model, word: str | None) -> CellField:
     """Zeros."""

@@ -12,7 +12,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
     ANY,
     Chosen,
-    Help,
     arg,
     by,
     choice,
@@ -39,11 +38,9 @@ def _joined(first: Cloud, second: Cloud) -> Cloud:
     arg("field", "CHPOINT", "MCHAML", en="field"),
     family="clouds",
     full_name="NUAGE",
-    help=Help(
-        en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
-        "(names with their types first), or the values of a field, one row a node or point.",
-        syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
-    ),
+    en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
+    "(names with their types first), or the values of a field, one row a node or point.",
+    syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
 )
 def nuag(field: NodeField | CellField) -> Cloud:
     """Cloud of the values of a field."""

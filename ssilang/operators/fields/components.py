@@ -13,7 +13,6 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
     Chosen,
-    Help,
     Like,
     arg,
     by,
@@ -50,19 +49,17 @@ _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
 
 @operator(
     "EXCO",
-    arg("wanted", "LISTMOTS", en="components wanted"),
+    arg("wanted", "LISTMOTS", en="components wanted", distinct=True),
     _LENIENT,
     _FIELD,
-    opt("new", "LISTMOTS", en="their new names"),
+    opt("new", "LISTMOTS", en="their new names", distinct=True),
     NATURE,
     gives=Like("field"),
     family="fields",
     full_name="EXCO",
-    help=Help(
-        en="Field of some components, under new names if they are given (one component of a field "
-        "at nodes is called SCAL without). 'NOID': a missing component is no error.",
-        syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
-    ),
+    en="Field of some components, under new names if they are given (one component of a field "
+    "at nodes is called SCAL without). 'NOID': a missing component is no error.",
+    syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
 )
 def exco(
     call: Call,
@@ -122,7 +119,7 @@ def _extracted(
 
 _NEW_NAMES = (
     arg("old", "LISTMOTS", en="names to change"),
-    arg("new", "LISTMOTS", en="new names"),
+    arg("new", "LISTMOTS", en="new names", distinct=True),
     _FIELD,
     NATURE,
 )
@@ -138,11 +135,9 @@ _ONE_NAME = (
     *_NEW_NAMES,
     gives=Like("field"),
     family="fields",
-    help=Help(
-        en="Field with other names of components: one name for a single component, or a list of "
-        "old names and a list of new ones.",
-        syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
-    ),
+    en="Field with other names of components: one name for a single component, or a list of "
+    "old names and a list of new ones.",
+    syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
 )
 def nomc(
     call: Call, old: ListMots, new: ListMots, field: NodeField | CellField, nature: str | None

@@ -13,7 +13,6 @@ from ssilang.kernel.fields.cell_algebra import component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
-    Help,
     Operator,
     arg,
     by,
@@ -183,11 +182,9 @@ _add_forms(MINI, False, "smallest")
     arg("field", "CHPOINT", en="field"),
     *_COMPONENTS,
     family="fields",
-    help=Help(
-        en="Nodal field divided by its value of largest size, which becomes 1; among the "
-        "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
-        syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
-    ),
+    en="Nodal field divided by its value of largest size, which becomes 1; among the "
+    "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
+    syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
 )
 def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | None) -> NodeField:
     """Bring a field to one."""
@@ -207,11 +204,9 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
     arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
     family="fields",
     full_name="PILEPS",
-    help=Help(
-        "The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
-        "of the fields in cells E1 and E2 (strains), component by component.",
-        "X1 = PILE MCHAML1 MCHAML2 CRIT ;",
-    ),
+    en="The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
+    "of the fields in cells E1 and E2 (strains), component by component.",
+    syntax="X1 = PILE MCHAML1 MCHAML2 CRIT ;",
 )
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""

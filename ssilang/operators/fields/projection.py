@@ -9,7 +9,7 @@ from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
+from ssilang.language.registry import arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
@@ -44,16 +44,14 @@ _TOLERANCE = opt(
     _SUPPORT,
     _TOLERANCE,
     family="fields",
-    help=Help(
-        en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
-        "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
-        "or at the points of a support). 'MINI': nodal values in each cell of the model with the "
-        "least integral of squared differences, by N1 points in each direction (3). The tolerance "
-        "is relative to the cells (1.E-5); points beyond it get no value on a mesh and 0 on a "
-        "model, which is told, and raises SOUC.",
-        syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
-        "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
-    ),
+    en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
+    "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
+    "or at the points of a support). 'MINI': nodal values in each cell of the model with the "
+    "least integral of squared differences, by N1 points in each direction (3). The tolerance "
+    "is relative to the cells (1.E-5); points beyond it get no value on a mesh and 0 on a "
+    "model, which is told, and raises SOUC.",
+    syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
+    "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
 )
 def proi(
     call: Call, place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float

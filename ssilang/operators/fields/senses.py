@@ -8,7 +8,7 @@ from ssilang.kernel.fields.cell_algebra import added, component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.measure import signed_area
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 
@@ -17,14 +17,12 @@ from ssilang.language.values import Table
     "SENS",
     arg("contours", "TABLE", en="closed contours by number"),
     family="fields",
-    help=Help(
-        "Of a table of closed contours in the plane, such as CCON gives: the table of their "
-        "senses, "
-        "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
-        "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
-        "their difference (one component).",
-        "TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
-    ),
+    en="Of a table of closed contours in the plane, such as CCON gives: the table of their "
+    "senses, "
+    "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
+    "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
+    "their difference (one component).",
+    syntax="TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
 )
 def sens(call: Call, contours: Table) -> Table:
     """Senses of contours."""

@@ -44,7 +44,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import Help, arg, by, choice, flag, main, many, operator, opt
+from ssilang.language.registry import arg, by, choice, flag, main, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
@@ -111,13 +111,11 @@ def _tensor(
     MODEL,
     STATE,
     family="stress",
-    help=Help(
-        en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
-        "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
-        "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
-        "in COQ6 and COQ8 that of the stresses at each point.",
-        syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
-    ),
+    en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
+    "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
+    "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
+    "in COQ6 and COQ8 that of the stresses at each point.",
+    syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
 )
 def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Equivalent stress."""
@@ -131,10 +129,8 @@ def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     _SIDE,
     family="stress",
     full_name="TRESCA",
-    help=Help(
-        en="Tresca's equivalent stress: the largest difference of principal stresses.",
-        syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-    ),
+    en="Tresca's equivalent stress: the largest difference of principal stresses.",
+    syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
 )
 def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
     """Equivalent stress."""
@@ -149,13 +145,11 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     _SIDE,
     family="stress",
     full_name="PRINCIPALE",
-    help=Help(
-        en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
-        "..., global cosines; they decrease in space. In the plane the third is the one out of the "
-        "plane, unless 'TRID' is given.",
-        syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
-        "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
-    ),
+    en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
+    "..., global cosines; they decrease in space. In the plane the third is the one out of the "
+    "plane, unless 'TRID' is given.",
+    syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
+    "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
 )
 def prin(
     call: Call, model: Model, fields: tuple[CellField, ...], ordered: bool, side: str
@@ -182,11 +176,9 @@ def prin(
     _SIDE,
     family="stress",
     full_name="INVARIANT",
-    help=Help(
-        en="The three invariants of a stress or strain field: trace, sum of the principal minors "
-        "of order two, determinant.",
-        syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-    ),
+    en="The three invariants of a stress or strain field: trace, sum of the principal minors "
+    "of order two, determinant.",
+    syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
 )
 def inva(
     call: Call, model: Model, fields: tuple[CellField, ...], side: str
@@ -210,11 +202,9 @@ def inva(
     many("others", "MCHAML", en="accepted, not used"),
     family="stress",
     full_name="ENERGIE",
-    help=Help(
-        en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
-        "material twice the energy); INTG integrates it.",
-        syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
-    ),
+    en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
+    "material twice the energy); INTG integrates it.",
+    syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
 )
 def ener(
     call: Call, model: Model, first: CellField, second: CellField, others: tuple[CellField, ...]
@@ -252,12 +242,10 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     many("given", "MCHAML", en="parameters"),
     family="stress",
     full_name="GRADIENT",
-    help=Help(
-        en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
-        "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
-        "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
-        syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
-    ),
+    en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
+    "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
+    "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
+    syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
 )
 def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...]) -> CellField:
     """Gradients."""
@@ -330,10 +318,8 @@ def _only(call: Call, field: CellField) -> str:
     MODEL,
     family="stress",
     full_name="JACOBIEN",
-    help=Help(
-        en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
-        syntax="CHAM1 = JACO MODL1 ;",
-    ),
+    en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
+    syntax="CHAM1 = JACO MODL1 ;",
 )
 def jaco(model: Model) -> CellField:
     """Jacobians."""

@@ -11,20 +11,17 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.language.registry import arg, choice, key, lead, opt, said
+from ssilang.language.registry import arg, choice, key, lead, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table
 from ssilang.language.vocabulary.terms import POSITIVE
-from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
-LIRE = shared_operator(
-    "LIRE", "files", "Reads a file below the script's folder or the output folder."
-)
+LIRE = shared("LIRE", "files", "Reads a file below the script's folder or the output folder.")
 
 
 _FILE = lead("file", "MOT", en="file")

@@ -8,23 +8,33 @@ from typing import Any
 
 from ssilang.io.csv_tables import Column, csv_lines
 from ssilang.kernel.curves.curve import Curve
-from ssilang.language.registry import Chosen, arg, choice, key, lead, many, opt, said, select
+from ssilang.language.registry import (
+    Chosen,
+    arg,
+    choice,
+    key,
+    lead,
+    many,
+    opt,
+    said,
+    select,
+    shared,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
-from ssilang.operators.dispatch import shared_operator
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
 from ssilang.operators.workspace import workspace
 
-SORT = shared_operator(
+SORT = shared(
     "SORT",
     "files",
     "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
     "folder. The extension may be left out.",
-    "SORTIR",
+    full_name="SORTIR",
 )
 
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
-    Help,
     Like,
     arg,
     choice,
@@ -28,13 +27,11 @@ from ssilang.operators.lists.search import equal_items
 DANS = shared(
     "DANS",
     "lists",
-    Help(
-        en="Whether a list of integers stands in another one (as its k-th stretch of that "
-        "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
-        "('SEQU') or in any order ('QUEL').",
-        syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
-        "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
-    ),
+    en="Whether a list of integers stands in another one (as its k-th stretch of that "
+    "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
+    "('SEQU') or in any order ('QUEL').",
+    syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
+    "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
 )
 _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")
 _SECOND = "list where it is looked for"
@@ -111,10 +108,8 @@ Subtracted = ListReel | ListEnti | ListMots
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("first"),
     family="lists",
-    help=Help(
-        en="The items of a list that are not in a second one.",
-        syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
-    ),
+    en="The items of a list that are not in a second one.",
+    syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
 )
 def sauf(
     call: Call, first: Subtracted, second: Subtracted, tolerance: float | None, fold: bool

@@ -13,7 +13,6 @@ from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.registry import (
     ANY,
     Argument,
-    Help,
     Like,
     arg,
     flag,
@@ -177,10 +176,8 @@ def _size(value: AnyList) -> int:
 INSE = shared(
     "INSE",
     "lists",
-    Help(
-        en="New list with an item put at place N1; those from there on move up.",
-        syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
-    ),
+    en="New list with an item put at place N1; those from there on move up.",
+    syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
     full_name="INSERER",
 )
 
@@ -209,11 +206,9 @@ for _kind, _item in _ITEM.items():
 REMP = shared(
     "REMP",
     "lists",
-    Help(
-        en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
-        "word where each MOT2 is replaced by MOT3.",
-        syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
-    ),
+    en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
+    "word where each MOT2 is replaced by MOT3.",
+    syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
     full_name="REMPLACER",
 )
 
@@ -272,10 +267,8 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
     gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",
-    help=Help(
-        en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
-        syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
-    ),
+    en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
+    syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
 )
 def somm(running: bool, value: ListReel | ListEnti) -> Any:
     """Sum a list."""

@@ -12,7 +12,7 @@ from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
-    Help,
+    Chosen,
     Like,
     arg,
     choice,
@@ -23,6 +23,7 @@ from ssilang.language.registry import (
     many,
     operator,
     opt,
+    select,
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
@@ -65,12 +66,10 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
-    help=Help(
-        en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
-        "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
-        "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
-        syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
-    ),
+    en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
+    "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
+    "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
+    syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
 )
 def posi(
     call: Call, item: Any, where: Any, every: bool, fold: bool, tolerance: float | None
@@ -169,10 +168,9 @@ _DISTINCT = key(
     en="without doubles, within a tolerance",
 )
 _COST = (
-    key(
+    select(
         "cost",
-        "COUT",
-        arg("costs", "LISTREEL", "LISTENTI", range=ANY_NUMBER),
+        {"COUT": [arg("costs", "LISTREEL", "LISTENTI", range=ANY_NUMBER)]},
         optional=False,
         en="cost of each item at each place",
     ),
@@ -183,21 +181,21 @@ _OTHERS = many("others", *SORTABLE, en="lists that follow it", range=ANY_NUMBER)
 
 
 @ORDO.form(
-    _SORTED,
     *_COST,
     *_ORDER,
+    _SORTED,
     _OTHERS,
     gives=ANY,
 )
 def _sort_by_cost(
     call: Call,
     value: Sortable,
-    cost: ListReel | ListEnti,
+    cost: Chosen,
     others: tuple[Sortable, ...],
     **_: object,
 ) -> Any:
     lists = _together(call, value, others)
-    total, order = _cheapest(call, cost, len(value))
+    total, order = _cheapest(call, cost["costs"], len(value))
     return (total, *(taken(v, order) for v in lists))
 
 
@@ -253,19 +251,19 @@ def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
 
 
 _TABLE = main("table", "TABLE", en="table of lists")
-_INDEX_EN = "index of the list to sort by"
+_INDEX_EN = "index of the list to sort by, or a list beside the table"
 
 
 @ORDO.form(
-    _TABLE,
     *_COST,
     *_ORDER,
+    _TABLE,
     opt("index", en="changes nothing: all lists follow"),
     gives=ANY,
     syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
 )
 def _sort_table_by_cost(
-    call: Call, table: Table, cost: ListReel | ListEnti, **_: object
+    call: Call, table: Table, cost: Chosen, **_: object
 ) -> tuple[float | int, Table]:
     lengths = {len(v) for _, v in table.items() if isinstance(v, Sortable)}
     if not lengths:
@@ -273,7 +271,7 @@ def _sort_table_by_cost(
     if len(lengths) != 1:
         sizes = " ".join(map(str, sorted(lengths)))
         raise call.error("operators.lists.sorted-lengths", table, sizes=sizes)
-    total, order = _cheapest(call, cost, lengths.pop())
+    total, order = _cheapest(call, cost["costs"], lengths.pop())
     return total, _in_order(table, order, len(order))
 
 
@@ -286,7 +284,7 @@ def _sort_table_by_cost(
     arg("index", en=_INDEX_EN),
     syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
     en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
-    "list.",
+    "list. A list beside the table sorts those of its length in the same way.",
 )
 def _sort_table(
     call: Call,
@@ -297,14 +295,15 @@ def _sort_table(
     fold: bool,
     distinct: float | None,
 ) -> Table:
-    if not table.has(index):
+    beside = not table.has(index) and isinstance(index, Sortable)
+    if not table.has(index) and not beside:
         raise call.error("operators.lists.no-list-to-sort-by", index)
-    first: Any = table.get(index)
+    first: Any = index if beside else table.get(index)
     if not isinstance(first, Sortable):
         raise call.error("operators.lists.index-holds-no-list", index)
     places = sorting(first.values, order == "DECR", absolute, fold)
     if distinct is not None:
-        if sum(isinstance(v, Sortable) for _, v in table.items()) > 1:
+        if beside or sum(isinstance(v, Sortable) for _, v in table.items()) > 1:
             raise call.error("operators.lists.one-list-without-doubles")
         places = without_doubles(first.values, places, distinct, absolute, fold)
     return _in_order(table, places, len(first))

@@ -19,7 +19,6 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.statics.linear import linear_system, product
 from ssilang.language.registry import (
     Chosen,
-    Help,
     arg,
     by,
     choice,
@@ -394,7 +393,8 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
     arg("field", "CHPOINT", en="X"),
     arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
-    help=Help("Quadratic form X^T M X of a field and a matrix.", "X1 = XTMX CHPO1 RIG1 ;"),
+    en="Quadratic form X^T M X of a field and a matrix.",
+    syntax="X1 = XTMX CHPO1 RIG1 ;",
 )
 def xtmx(field: NodeField, matrix: Matrix) -> float:
     return _form(field, matrix, field)
@@ -406,10 +406,8 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
     arg("left", "CHPOINT", en="Y"),
     arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
-    help=Help(
-        "Bilinear form Y^T M X of two fields (X first) and a matrix.",
-        "X1 = YTMX CHPO1 CHPO2 RIG1 ;",
-    ),
+    en="Bilinear form Y^T M X of two fields (X first) and a matrix.",
+    syntax="X1 = YTMX CHPO1 CHPO2 RIG1 ;",
 )
 def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
     return _form(left, matrix, right)
@@ -420,10 +418,8 @@ def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
     arg("matrix", "RIGIDITE", en="matrix"),
     family="matrix",
     full_name="DIMNOYAU",
-    help=Help(
-        en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
-        syntax="N1 = DIMN RIG1 ;",
-    ),
+    en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
+    syntax="N1 = DIMN RIG1 ;",
 )
 def dimn(matrix: Matrix) -> int:
     """Dimension of the kernel."""

@@ -19,7 +19,6 @@ from ssilang.kernel.matrices.matrix import Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
-    Help,
     Keyword,
     arg,
     choice,
@@ -198,13 +197,11 @@ def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
     opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
     opt("dual", "MOT", kind="component", en="dual, else the same"),
     family="matrix",
-    help=Help(
-        en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
-        "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
-        "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
-        "(SCAL) and the dual (the same).",
-        syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
-    ),
+    en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
+    "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
+    "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
+    "(SCAL) and the dual (the same).",
+    syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
 )
 def mfil(
     call: Call,
@@ -229,11 +226,9 @@ def mfil(
     arg("fields", "LISTCHPO", en="fields v"),
     arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
     family="matrix",
-    help=Help(
-        en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
-        "M_DAMPIN and M_DAMP_K.",
-        syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
-    ),
+    en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
+    "M_DAMPIN and M_DAMP_K.",
+    syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
 )
 def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
     """Sum of the outer products."""
@@ -246,11 +241,9 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
     arg("field", "CHPOINT", en="v"),
     opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
     family="matrix",
-    help=Help(
-        en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
-        "all its nodes.",
-        syntax="RIG1 = XXT CHPO1 (X1) ;",
-    ),
+    en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
+    "all its nodes.",
+    syntax="RIG1 = XXT CHPO1 (X1) ;",
 )
 def xxt(field: NodeField, factor: float) -> Matrix:
     """Outer product."""
@@ -264,10 +257,8 @@ def xxt(field: NodeField, factor: float) -> Matrix:
     arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
     family="matrix",
     full_name="CABLE",
-    help=Help(
-        en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
-        syntax="RIG1 = CABL GEO1 X1 X2 ;",
-    ),
+    en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
+    syntax="RIG1 = CABL GEO1 X1 X2 ;",
 )
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""

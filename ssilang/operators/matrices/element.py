@@ -21,7 +21,7 @@ from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Argument, Help, arg, choice, flag, key, many, operator, opt
+from ssilang.language.registry import Argument, arg, choice, flag, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
@@ -98,6 +98,8 @@ def _additional(
     groups = {"DEPL": NODE_TRANSLATIONS[mode], "ROTA": NODE_ROTATIONS[mode]}
     said = [n for name in names for n in groups.get(name, (name,))]
     nodes = nodes_of(place)
+    if not len(nodes):
+        call.warn("operators.matrices.at-no-node")
     chosen = dict.fromkeys(said or NODE_TRANSLATIONS[mode])
     values = {n: np.full(len(nodes), amount) for n in chosen}
     return nodal_diagonal(place.nodes, nodes, values, kind)
@@ -110,13 +112,10 @@ def _additional(
     *_IGNORED,
     family="matrix",
     full_name="RIGIDITE",
-    help=Help(
-        en="Stiffness matrix: of a model with its parameters (or Hooke matrices and geometric "
-        "parameters), or springs added at nodes: 'DEPL' on all translations, 'ROTA' on all "
-        "rotations, or on the named unknowns; every node gets the whole value.",
-        syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\n"
-        "RIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-    ),
+    en="Stiffness matrix: of a model with its parameters (or Hooke matrices and geometric "
+    "parameters), or springs added at nodes: 'DEPL' on all translations, 'ROTA' on all "
+    "rotations, or on the named unknowns; every node gets the whole value.",
+    syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\nRIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
 )
 def rigi(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
@@ -164,13 +163,10 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
     *_IGNORED,
     family="matrix",
     full_name="MASSE",
-    help=Help(
-        en="Mass matrix: consistent one of a model with its parameters (RHO), or masses added at "
-        "nodes: 'DEPL' on all translations, 'ROTA' inertia on all rotations, or on the named "
-        "unknowns; every node gets the whole value.",
-        syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\n"
-        "MAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-    ),
+    en="Mass matrix: consistent one of a model with its parameters (RHO), or masses added at "
+    "nodes: 'DEPL' on all translations, 'ROTA' inertia on all rotations, or on the named "
+    "unknowns; every node gets the whole value.",
+    syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\nMAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
 )
 def mass(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
@@ -193,12 +189,10 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
     PARAMETERS,
     *_IGNORED,
     family="matrix",
-    help=Help(
-        en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
-        "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
-        "list keep their diagonal term).",
-        syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
-    ),
+    en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
+    "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
+    "list keep their diagonal term).",
+    syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
 )
 def lump(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
@@ -225,16 +219,14 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
     *_IGNORED,
     family="matrix",
     full_name="AMORTISSEMENT",
-    help=Help(
-        en="Damping matrix: of a model whose parameters hold the viscosity VISQ (a stiffness "
-        "with VISQ for modulus); of the absorbing boundary GEO1 of a model (Lysmer: RHO VP along "
-        "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
-        "translations, 'ROTA' on all rotations, or on the named unknowns. 'COROTATIF': damping "
-        "that turns with beams at OMEG about their axis, with the circulatory stiffness beside it.",
-        syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
-        "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
-        "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-    ),
+    en="Damping matrix: of a model whose parameters hold the viscosity VISQ (a stiffness "
+    "with VISQ for modulus); of the absorbing boundary GEO1 of a model (Lysmer: RHO VP along "
+    "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
+    "translations, 'ROTA' on all rotations, or on the named unknowns. 'COROTATIF': damping "
+    "that turns with beams at OMEG about their axis, with the circulatory stiffness beside it.",
+    syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
+    "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
+    "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
 )
 def amor(
     call: Call,
@@ -295,11 +287,9 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
     *_IGNORED,
     family="matrix",
     full_name="HOOKE",
-    help=Help(
-        en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
-        "take it in the place of the parameters.",
-        syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
-    ),
+    en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
+    "take it in the place of the parameters.",
+    syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
 )
 def hook(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
@@ -321,11 +311,9 @@ def hook(
     _BUCKLING,
     family="matrix",
     full_name="KSIGMA",
-    help=Help(
-        en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
-        "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
-        syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
-    ),
+    en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
+    "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
+    syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
 )
 def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool) -> Matrix:
     """Geometric stiffness."""
@@ -347,13 +335,11 @@ _WHOLE = flag("whole", "ASYM", en="the unsymmetric part too")
     _BUCKLING,
     _WHOLE,
     family="matrix",
-    help=Help(
-        en="How the forces of a pressure change when the sides that carry it move and turn "
-        "(follower pressure): derivative of the nodal forces, symmetric part unless 'ASYM'. The "
-        "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
-        "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
-        syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
-    ),
+    en="How the forces of a pressure change when the sides that carry it move and turn "
+    "(follower pressure): derivative of the nodal forces, symmetric part unless 'ASYM'. The "
+    "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
+    "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
+    syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
 )
 def kp(
     call: Call, model: Model, pressure: NodeField | CellField, buckling: bool, whole: bool

@@ -11,7 +11,7 @@ from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import Term
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, choice, each, flag, key, operator, opt, said
+from ssilang.language.registry import arg, choice, each, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Procedure
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
@@ -133,21 +133,19 @@ _SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, 
     key("dual", "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"),
     family="relations",
     full_name="RELATION",
-    help=Help(
-        "Linear relations, to add to the matrix of a system; DEPI gives their value (default 0). "
-        "A sum of terms makes one relation for each node of the meshes (all of the same number of "
-        "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
-        "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
-        "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body: "
-        "'DEPL' keeps the distances of its nodes, which may not lie in a plane; 'DEPL' 'ROTA' "
-        "ties it to a centre that turns, the first node of GEO1 (beams, shells, or a point of its "
-        "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
-        "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
-        "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
-        "RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
-        "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
-        "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
-    ),
+    en="Linear relations, to add to the matrix of a system; DEPI gives their value (default 0). "
+    "A sum of terms makes one relation for each node of the meshes (all of the same number of "
+    "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
+    "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
+    "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body: "
+    "'DEPL' keeps the distances of its nodes, which may not lie in a plane; 'DEPL' 'ROTA' "
+    "ties it to a centre that turns, the first node of GEO1 (beams, shells, or a point of its "
+    "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
+    "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
+    "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
+    syntax="RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
+    "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
+    "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
 )
 def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
     """One relation, from a field of factors."""

@@ -10,11 +10,12 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, choice, flag, operator, opt
+from ssilang.language.registry import choice, flag, operator, opt
 from ssilang.language.run.call import Call
+from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 
-_VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
+_VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s", usual=NOT_ZERO)
 
 
 @operator(
@@ -24,15 +25,13 @@ _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s")
     PARAMETERS,
     _VECTOR,
     family="matrix",
-    help=Help(
-        en="Stiffness of a body in a turning frame, to be added to that of its elements: "
-        "'CENTRIFUGE' for the rotation vector w (rho w x (w x u), negative across the axis), "
-        "'EULER' for the rate of the vector (rho dw/dt x u, antisymmetric). Continuous elements, "
-        "bars, beams and pipes (whose mass stands on their line), shells (on their surface). In "
-        "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
-        "(1 without a vector).",
-        syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
-    ),
+    en="Stiffness of a body in a turning frame, to be added to that of its elements: "
+    "'CENTRIFUGE' for the rotation vector w (rho w x (w x u), negative across the axis), "
+    "'EULER' for the rate of the vector (rho dw/dt x u, antisymmetric). Continuous elements, "
+    "bars, beams and pipes (whose mass stands on their line), shells (on their surface). In "
+    "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
+    "(1 without a vector).",
+    syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
 )
 def kent(
     call: Call,
@@ -72,12 +71,10 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
     _VECTOR,
     family="matrix",
     full_name="CORIOLIS",
-    help=Help(
-        en="Coriolis' forces in a frame that turns at the vector w, as an antisymmetric damping: "
-        "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
-        "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
-        syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
-    ),
+    en="Coriolis' forces in a frame that turns at the vector w, as an antisymmetric damping: "
+    "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
+    "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
+    syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
 )
 def cori(
     call: Call,
@@ -101,12 +98,10 @@ def cori(
     PARAMETERS,
     family="matrix",
     full_name="GYROSCOPIQUE",
-    help=Help(
-        en="Gyroscopic coupling of beams that turn about their own axis at the speed OMEG (rad/s, "
-        "a parameter), in a fixed frame: an antisymmetric matrix on the velocities, counted as a "
-        "damping.",
-        syntax="RIG1 = GYRO MODL1 MAT1 ;",
-    ),
+    en="Gyroscopic coupling of beams that turn about their own axis at the speed OMEG (rad/s, "
+    "a parameter), in a fixed frame: an antisymmetric matrix on the velocities, counted as a "
+    "damping.",
+    syntax="RIG1 = GYRO MODL1 MAT1 ;",
 )
 def gyro(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Turning beams."""

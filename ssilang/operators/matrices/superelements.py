@@ -19,7 +19,7 @@ from ssilang.kernel.matrices.superelement import (
     shape_fields,
 )
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, by, choice, flag, main, operator, opt, said, shared
+from ssilang.language.registry import arg, by, choice, flag, main, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
@@ -29,22 +29,20 @@ SUPE = shared(
     "SUPE",
     "matrix",
     full_name="SUPER",
-    help=Help(
-        "Super-elements. 'RIGIDITE': the stiffness of a body condensed onto master unknowns: those "
-        "of all unknowns at the nodes of a mesh, of another matrix, or of a field's components. "
-        "The "
-        "conditions in the matrix stay on the condensed one, their unknowns being masters too, so "
-        "that they can be loaded by DEPI and may be unilateral; with 'NOMU' they hold inside. "
-        "EXTR SUP1 'RIGI' gives the condensed stiffness. 'CHARGE': the loads on the masters "
-        "that do "
-        "what the loads on the body do. 'DEPLA': the displacement of the whole body from that of "
-        "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters asked "
-        "for feel, the conditions in the matrix holding; with 'LCHP' the displacement of the body "
-        "for a unit of each of them comes first.",
-        "SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
-        "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
-        "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
-    ),
+    en="Super-elements. 'RIGIDITE': the stiffness of a body condensed onto master unknowns: those "
+    "of all unknowns at the nodes of a mesh, of another matrix, or of a field's components. "
+    "The "
+    "conditions in the matrix stay on the condensed one, their unknowns being masters too, so "
+    "that they can be loaded by DEPI and may be unilateral; with 'NOMU' they hold inside. "
+    "EXTR SUP1 'RIGI' gives the condensed stiffness. 'CHARGE': the loads on the masters "
+    "that do "
+    "what the loads on the body do. 'DEPLA': the displacement of the whole body from that of "
+    "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters asked "
+    "for feel, the conditions in the matrix holding; with 'LCHP' the displacement of the body "
+    "for a unit of each of them comes first.",
+    syntax="SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
+    "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
+    "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
 )
 _ELEMENT = arg("element", "SUPERELE", en="super-element")
 _ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing")
@@ -145,12 +143,10 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     arg("matrix", "RIGIDITE", en="relations C"),
     arg("diagonal", "CHPOINT", en="M^-1"),
     family="matrix",
-    help=Help(
-        en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
-        "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
-        "without the unknowns that the relations give by the others.",
-        syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
-    ),
+    en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
+    "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
+    "without the unknowns that the relations give by the others.",
+    syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
 )
 def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
     """On the multipliers."""

@@ -19,7 +19,6 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import (
     Argument,
     Entry,
-    Help,
     When,
     arg,
     choice,
@@ -31,7 +30,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO
 from ssilang.operators.workspace import Workspace, workspace
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -77,7 +76,7 @@ def _held(*centre: Argument) -> tuple[Entry, ...]:
         key(
             "direction",
             "DIRECTION",
-            arg("vector", "POINT", "CHPOINT"),
+            arg("vector", "POINT", "CHPOINT", usual=NOT_ZERO),
             en="along a vector, or a field of vectors",
         ),
         key(
@@ -172,16 +171,14 @@ class _Held:
     when=IN_PLANE,
     family="relations",
     full_name="BLOQUE",
-    help=Help(
-        "Holds unknowns of the nodes of a mesh: zero, or the value that DEPI gives. With 'MINI' "
-        "they stay at or above it, with 'MAXI' at or below. 'DEPL' and 'ROTA' name all "
-        "displacements and rotations of the mode; 'DIRE' holds along a vector (or a field of "
-        "vectors), 'RADI' and 'ORTHO' along or across the line from a point (2D) or an axis (3D).",
-        "RIG1 = BLOQ ('MINI' | 'MAXI') MOT1 (MOT2 ...) | LISTMOTS1 GEO1 ;\n"
-        "RIG1 = BLOQ ('DEPL') ('ROTA') ('DIRE' VEC1 | CHPO1) GEO1 ;\n"
-        "RIG1 = BLOQ 'RADI' | 'ORTHO' P1 (P2) GEO1 ;\n"
-        "RIG1 = BLOQ TAB1 ;  (LIAISONS_STATIQUES)",
-    ),
+    en="Holds unknowns of the nodes of a mesh: zero, or the value that DEPI gives. With 'MINI' "
+    "they stay at or above it, with 'MAXI' at or below. 'DEPL' and 'ROTA' name all "
+    "displacements and rotations of the mode; 'DIRE' holds along a vector (or a field of "
+    "vectors), 'RADI' and 'ORTHO' along or across the line from a point (2D) or an axis (3D).",
+    syntax="RIG1 = BLOQ ('MINI' | 'MAXI') MOT1 (MOT2 ...) | LISTMOTS1 GEO1 ;\n"
+    "RIG1 = BLOQ ('DEPL') ('ROTA') ('DIRE' VEC1 | CHPO1) GEO1 ;\n"
+    "RIG1 = BLOQ 'RADI' | 'ORTHO' P1 (P2) GEO1 ;\n"
+    "RIG1 = BLOQ TAB1 ;  (LIAISONS_STATIQUES)",
 )
 def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
     """Conditions on single nodes."""
@@ -251,12 +248,10 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
     ),
     family="relations",
     full_name="DEPIMPOSE",
-    help=Help(
-        "Values imposed on conditions made by BLOQ, RELA ...: one number for all, or a field of "
-        "the held unknowns. With 'RELA' a field SCAL gives the value of relations between unknowns "
-        "of one node. Add the result to the second member of RESO.",
-        "CHPO1 = DEPI RIG1 FLOT1 | CHPO2 | 'RELA' CHPO3 ;\nDEPI TAB1 ;  (LIAISONS_STATIQUES)",
-    ),
+    en="Values imposed on conditions made by BLOQ, RELA ...: one number for all, or a field of "
+    "the held unknowns. With 'RELA' a field SCAL gives the value of relations between unknowns "
+    "of one node. Add the result to the second member of RESO.",
+    syntax="CHPO1 = DEPI RIG1 FLOT1 | CHPO2 | 'RELA' CHPO3 ;\nDEPI TAB1 ;  (LIAISONS_STATIQUES)",
 )
 def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> NodeField:
     """Values of conditions."""
@@ -329,12 +324,10 @@ _PLANE_SYNTAX = "RIG1 = {} ('DEPL') ('ROTA') P1 P2 (P3 in 3D) GEO1 (FLOT1) ;"
     when=IN_PLANE,
     family="relations",
     full_name="SYMT",
-    help=Help(
-        "Conditions of symmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): no "
-        "displacement across it ('DEPL'), no rotation about axes in it ('ROTA'). FLOT1 is the "
-        "distance up to which a node counts (default a tenth of the density).",
-        _PLANE_SYNTAX.format("SYMT"),
-    ),
+    en="Conditions of symmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): no "
+    "displacement across it ('DEPL'), no rotation about axes in it ('ROTA'). FLOT1 is the "
+    "distance up to which a node counts (default a tenth of the density).",
+    syntax=_PLANE_SYNTAX.format("SYMT"),
 )
 def symt(call: Call, **said: Any) -> Matrix:
     """Symmetry."""
@@ -350,11 +343,9 @@ symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
     when=IN_PLANE,
     family="relations",
     full_name="ANTISYMETRIE",
-    help=Help(
-        "Conditions of antisymmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): "
-        "no displacement within it, no rotation about its normal.",
-        _PLANE_SYNTAX.format("ANTI"),
-    ),
+    en="Conditions of antisymmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): "
+    "no displacement within it, no rotation about its normal.",
+    syntax=_PLANE_SYNTAX.format("ANTI"),
 )
 def anti(call: Call, **said: Any) -> Matrix:
     """Antisymmetry."""
@@ -378,11 +369,9 @@ _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMB
     when=IN_PLANE,
     family="relations",
     full_name="APPUI",
-    help=Help(
-        "Linear springs to the ground at the nodes of a mesh, on the unknowns named or along a "
-        "direction (as in BLOQ), of stiffness FLOT1 each.",
-        "RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
-    ),
+    en="Linear springs to the ground at the nodes of a mesh, on the unknowns named or along a "
+    "direction (as in BLOQ), of stiffness FLOT1 each.",
+    syntax="RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
 )
 def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:
     """Springs to the ground."""

@@ -12,7 +12,7 @@ from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Chosen, Help, arg, flag, operator, opt, select
+from ssilang.language.registry import Chosen, arg, flag, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
@@ -32,11 +32,9 @@ from ssilang.operators.numbers.noise import session_generator
     arg("matrix", "RIGIDITE", en="matrix"),
     family="fields",
     full_name="CHPOINT",
-    help=Help(
-        en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
-        "random values between 0 and 1 ('ALEATOIRE').",
-        syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
-    ),
+    en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
+    "random values between 0 and 1 ('ALEATOIRE').",
+    syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     """Field on the unknowns of a matrix."""
@@ -44,6 +42,8 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
         raise call.error("operators.matrices.which-values")
     value = values["value"] if values.word == "UNIFORME" else None
     numbering = numbering_of(matrix)
+    if not numbering.size:
+        call.warn("operators.matrices.at-no-node")
     generator = session_generator(call, None)
     made = {}
     for name in numbering.unknowns:
@@ -65,12 +65,10 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most"),
     family="matrix",
     full_name="ORTHOGONALISER",
-    help=Help(
-        en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
-        "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
-        "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
-        syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
-    ),
+    en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
+    "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
+    "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
+    syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
 )
 def orth(
     call: Call,

@@ -26,7 +26,6 @@ from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume
 from ssilang.language.registry import (
     Chosen,
-    Help,
     arg,
     flag,
     key,
@@ -39,7 +38,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -108,19 +107,17 @@ _CUTS = (
     opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
     family="mesh",
     full_name="VOLUME",
-    help=Help(
-        en="Volume inside a closed surface, filled with tetrahedra (pyramids on quadrangles) when "
-        "nothing else is said. Volume swept by a surface: along a vector ('TRAN'), about an axis "
-        "('ROTA', degrees), parallel to itself along a line ('GENE'), or from one surface to "
-        "another of the same structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; "
-        "without N1 the mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions "
-        "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
-        "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
-        "FACE gives the faces.",
-        syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
-        "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
-        "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
-    ),
+    en="Volume inside a closed surface, filled with tetrahedra (pyramids on quadrangles) when "
+    "nothing else is said. Volume swept by a surface: along a vector ('TRAN'), about an axis "
+    "('ROTA', degrees), parallel to itself along a line ('GENE'), or from one surface to "
+    "another of the same structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; "
+    "without N1 the mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions "
+    "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
+    "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
+    "FACE gives the faces.",
+    syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
+    "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
+    "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
 )
 def volu(
     call: Call,
@@ -152,7 +149,7 @@ def volu(
     said("TRANSLATION"),
     _BASE,
     *_CUTS,
-    arg("vector", "POINT", en="vector", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
 )
 def translated(
     call: Call,
@@ -258,11 +255,9 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
     "PAVE",
     many("faces", "MAILLAGE", en="six faces, opposite ones one after the other"),
     family="mesh",
-    help=Help(
-        en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
-        "after the other.",
-        syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
-    ),
+    en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
+    "after the other.",
+    syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
 )
 def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
     """Fill a block."""

@@ -27,7 +27,6 @@ from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
 from ssilang.language.registry import (
     Chosen,
-    Help,
     Like,
     arg,
     either,
@@ -167,13 +166,11 @@ pjba = operator(
     BASIS,
     gives=Like("thing"),
     family="modal",
-    help=Help(
-        "Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
-        "(and FBET) at the points that mark the shapes, matrices give the matrix X^T K X there, a "
-        "list of fields the products with each shape (with a matrix: X^T M u).",
-        "OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
-        "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
-    ),
+    en="Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
+    "(and FBET) at the points that mark the shapes, matrices give the matrix X^T K X there, a "
+    "list of fields the products with each shape (with a matrix: X^T M u).",
+    syntax="OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
+    "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
 )(_pjba)
 
 
@@ -335,15 +332,13 @@ operator(
     opt("shocks", "TABLE", en="points of shocks: . i . 'POINT' and . 'NORMALE'"),
     opt("field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI"),
     family="modal",
-    help=Help(
-        "Pseudo-modes: the static response to forces, to a unit force at each point of shock along "
-        "its normal, to displacements of supports ('SEISME' and a field of DEPI) or to a unit "
-        "acceleration of the base ('SEISME' 'UX': forces - M d), minus what the modes of the table "
-        "hold of it. With free motions the response is taken at half "
-        "the first frequency, or at 'FREQ'.",
-        "TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) (CHPO1 "
-        "| LCHP1) ;",
-    ),
+    en="Pseudo-modes: the static response to forces, to a unit force at each point of shock along "
+    "its normal, to displacements of supports ('SEISME' and a field of DEPI) or to a unit "
+    "acceleration of the base ('SEISME' 'UX': forces - M d), minus what the modes of the table "
+    "hold of it. With free motions the response is taken at half "
+    "the first frequency, or at 'FREQ'.",
+    syntax="TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) "
+    "(CHPO1 | LCHP1) ;",
 )(_psmo)
 
 
@@ -358,6 +353,8 @@ def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
             if node in inside
         }
     )
+    if not pairs:
+        call.warn("operators.modal.no-conditions-there")
     table = Table("LIAISONS_STATIQUES")
     for number, (node, unknown) in enumerate(pairs, start=1):
         entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
@@ -370,11 +367,9 @@ operator(
     arg("matrix", "RIGIDITE", en="conditions"),
     arg("place", "MAILLAGE", en="points"),
     family="modal",
-    help=Help(
-        "Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
-        "conditions of a matrix act.",
-        "TAB1 = IDLI RIG1 GEO1 ;",
-    ),
+    en="Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
+    "conditions of a matrix act.",
+    syntax="TAB1 = IDLI RIG1 GEO1 ;",
 )(_idli)
 
 

@@ -27,7 +27,7 @@ from ssilang.kernel.modal.explicit import (
 from ssilang.kernel.modal.links import STATES
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
-from ssilang.language.registry import Help, arg, choice, many, operator, opt
+from ssilang.language.registry import arg, choice, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import POSITIVE
@@ -80,6 +80,8 @@ def _dyne(
     if "system" not in tables:
         raise call.error("operators.modal.dyne-wants-table-base")
     system = system_of(call, tables["system"])
+    if tables.keys().isdisjoint(("start", "loads", "links")):
+        call.warn("operators.modal.nothing-moves")
     damping = damping_of(call, tables.get("damping"), system)
     return _integrated(call, tables, system, damping, ModalSteps(h, steps, every, scheme))
 
@@ -363,23 +365,21 @@ _FORM = operator(
         en="one step of so many is kept, all without it",
     ),
     family="modal",
-    help=Help(
-        "Time stepping on modes: De Vogelaere (fourth order), central differences, average "
-        "acceleration or Fox-Goodwin, from rest, from initial values or going on from a run "
-        "(INITIAL); loads on the modes (CHARGEMENT, index 'BASE_A', made by PJBA or SEIS), "
-        "damping, and links (LIAISON): POINT_PLAN, POINT_POINT, POINT_CERCLE with friction or "
-        "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, CERCLE_CERCLE_FROTTEMENT, plastic "
-        "springs and hinges between points, lines (LIGNE_LIGNE_FROTTEMENT: nodes and another line; "
-        "LIGNE_CERCLE_FROTTEMENT: a line and circles about it), COUPLAGE_DEPLACEMENT, "
-        "COUPLAGE_VITESSE and POLYNOMIALE. A mode CORPS_RIGIDE turns a body by any angle. "
-        "Contacts push "
-        "against the normal, which points "
-        "into the obstacle, where the motion along it is beyond the gap. The table of results has "
-        "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
-        "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
-        "TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
-        "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
-    ),
+    en="Time stepping on modes: De Vogelaere (fourth order), central differences, average "
+    "acceleration or Fox-Goodwin, from rest, from initial values or going on from a run "
+    "(INITIAL); loads on the modes (CHARGEMENT, index 'BASE_A', made by PJBA or SEIS), "
+    "damping, and links (LIAISON): POINT_PLAN, POINT_POINT, POINT_CERCLE with friction or "
+    "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, CERCLE_CERCLE_FROTTEMENT, plastic "
+    "springs and hinges between points, lines (LIGNE_LIGNE_FROTTEMENT: nodes and another line; "
+    "LIGNE_CERCLE_FROTTEMENT: a line and circles about it), COUPLAGE_DEPLACEMENT, "
+    "COUPLAGE_VITESSE and POLYNOMIALE. A mode CORPS_RIGIDE turns a body by any angle. "
+    "Contacts push "
+    "against the normal, which points "
+    "into the obstacle, where the motion along it is beyond the gap. The table of results has "
+    "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
+    "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
+    syntax="TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
+    "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
 )(_dyne)
 
 
@@ -400,7 +400,9 @@ def _of_models(call: Call, scheme: bool, table: Table) -> None:
     plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"))
     results, named = results_of_models(call, entries, plan)
     made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
-    for step, time in enumerate(results.get(Mot("TEMPS_DE_SORTIE")).values):
+    times = results.get(Mot("TEMPS_DE_SORTIE"))
+    assert isinstance(times, ListReel)
+    for step, time in enumerate(times.values):
         made["TEMPS"].set(step, float(time))
         entry = results.get(step + 1)
         for name in ("DEPLACEMENT", "VITESSE"):

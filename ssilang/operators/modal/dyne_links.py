@@ -92,7 +92,8 @@ class Seen:
         mode, axis, arm = self.spin
         angles = values[:, mode]
         turned = np.outer(np.cos(angles), arm) + np.outer(np.sin(angles), np.cross(axis, arm))
-        return moved + turned - arm + np.outer(1.0 - np.cos(angles), (axis @ arm) * axis)
+        moved += turned - arm + np.outer(1.0 - np.cos(angles), (axis @ arm) * axis)
+        return moved
 
 
 Named = tuple[str, int, Seen | int]

@@ -8,7 +8,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
-from ssilang.language.registry import Help, arg, choice, key, many, operator, opt
+from ssilang.language.registry import arg, choice, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
@@ -64,14 +64,12 @@ operator(
     opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
     family="modal",
     full_name="IMPEDANCE",
-    help=Help(
-        "Matrix of harmonic motions u exp(i w t) on real and imaginary parts (UX and IUX, FX and "
-        "IFX ...): of a stiffness (K), a mass (- w^2 M) or a damping (i w C), w = 1 if it is not "
-        "given; 'QUEL' gives the factors of the four blocks. A second matrix serves the imaginary "
-        "rows.",
-        "RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
-        "LREEL1) (LOG1) ;",
-    ),
+    en="Matrix of harmonic motions u exp(i w t) on real and imaginary parts (UX and IUX, FX and "
+    "IFX ...): of a stiffness (K), a mass (- w^2 M) or a damping (i w C), w = 1 if it is not "
+    "given; 'QUEL' gives the factors of the four blocks. A second matrix serves the imaginary "
+    "rows.",
+    syntax="RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
+    "LREEL1) (LOG1) ;",
 )(_impe)
 
 
@@ -107,11 +105,9 @@ operator(
     opt("pairs", "ENTIER", range=POSITIVE, en="number of couples, all without it"),
     family="modal",
     full_name="VIBC",
-    help=Help(
-        "All complex modes of a small system (usually projected on real modes by PJBA), "
-        "[K + i w C - w^2 M] x = 0 with w = 2 pi f: couples f, - conj f by increasing modulus, or "
-        "the N1 first couples. With the basis of the projection the shapes are physical. A "
-        "positive imaginary part of f means decay.",
-        "BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
-    ),
+    en="All complex modes of a small system (usually projected on real modes by PJBA), "
+    "[K + i w C - w^2 M] x = 0 with w = 2 pi f: couples f, - conj f by increasing modulus, or "
+    "the N1 first couples. With the basis of the projection the shapes are physical. A "
+    "positive imaginary part of f means decay.",
+    syntax="BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
 )(_vibc)

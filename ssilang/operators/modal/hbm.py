@@ -11,7 +11,7 @@ from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import (
@@ -51,10 +51,8 @@ def known_names(entries: Entries) -> Names:
     "ZHBM",
     arg("table", "TABLE", en="table of HBM"),
     family="modal",
-    help=Help(
-        en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
-        syntax="ZHBM TAB1 ;",
-    ),
+    en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
+    syntax="ZHBM TAB1 ;",
 )
 def zhbm(call: Call, table: Table) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
@@ -156,10 +154,8 @@ class Motion:
     arg("table", "TABLE", en="table of HBM_POST"),
     arg("results", "LISTMOTS", en="MAXI, TEMP, VITE"),
     family="modal",
-    help=Help(
-        en="Results in time of the table of HBM_POST, which is the procedure to call.",
-        syntax="ZHPO TAB1 LMOT1 ;",
-    ),
+    en="Results in time of the table of HBM_POST, which is the procedure to call.",
+    syntax="ZHPO TAB1 LMOT1 ;",
 )
 def zhpo(call: Call, table: Table, results: ListMots) -> None:
     """Maxima, motions and velocities from the coefficients."""

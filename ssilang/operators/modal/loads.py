@@ -9,7 +9,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, arg, choice, many, operator
+from ssilang.language.registry import arg, choice, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
@@ -28,12 +28,10 @@ _AXES = ("UX", "UY", "UZ")
     choice("direction", _AXES, optional=False, en="direction of the ground"),
     family="modal",
     full_name="SEISME",
-    help=Help(
-        en="Load on the modes of a basis by an acceleration of the ground in time, along 'UX', "
-        "'UY' or 'UZ', times a number: the generalised force of mode i is -Q_i X1 times the curve, "
-        "Q_i the generalised displacement of the mode in that direction.",
-        syntax="CHAR1 = SEIS EVOL1 TAB1 X1 'UX' | 'UY' | 'UZ' ;",
-    ),
+    en="Load on the modes of a basis by an acceleration of the ground in time, along 'UX', "
+    "'UY' or 'UZ', times a number: the generalised force of mode i is -Q_i X1 times the curve, "
+    "Q_i the generalised displacement of the mode in that direction.",
+    syntax="CHAR1 = SEIS EVOL1 TAB1 X1 'UX' | 'UY' | 'UZ' ;",
 )
 def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) -> Load:
     """Seismic load."""
@@ -60,22 +58,20 @@ def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) 
     arg("table", "TABLE", en="shapes"),
     family="modal",
     full_name="SIGSOL",
-    help=Help(
-        en="Table of modes, pseudo-modes or static shapes with the stresses of each: entry "
-        "CONTRAINTE_MODALE of modes, CONTRAINTE of the others. A new table; the shapes are those "
-        "of the old one.",
-        syntax="TAB2 = SIGS MODL1 MAT1 (CAR1) TAB1 ;",
-    ),
+    en="Table of modes, pseudo-modes or static shapes with the stresses of each: entry "
+    "CONTRAINTE_MODALE of modes, CONTRAINTE of the others. A new table; the shapes are those "
+    "of the old one.",
+    syntax="TAB2 = SIGS MODL1 MAT1 (CAR1) TAB1 ;",
 )
 def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
     """Stresses of modes."""
-    made, found = _with_stresses(present(call, model), joined(material), table)
+    made, found = with_stresses(present(call, model), joined(material), table)
     if not found:
         raise call.error("operators.modal.no-mode-no-shape", table)
     return made
 
 
-def _with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
+def with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
     """The table, and those in it, copied with the stresses; and how many were computed."""
     made, found = copied(table), 0
     for shape, entry in (("DEFORMEE_MODALE", "CONTRAINTE_MODALE"), ("DEFORMEE", "CONTRAINTE")):
@@ -86,7 +82,7 @@ def _with_stresses(model: Model, material: CellField, table: Table) -> tuple[Tab
             return made, 1
     for index, value in table.items():
         if isinstance(value, Table):
-            inner, count = _with_stresses(model, material, value)
+            inner, count = with_stresses(model, material, value)
             found += count
             if count:
                 made.set(index, inner)

@@ -16,7 +16,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined
 from ssilang.kernel.stepping.problem.loading import terms_of
-from ssilang.language.registry import Chosen, Help, arg, choice, main, operator, opt
+from ssilang.language.registry import Chosen, arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
@@ -274,16 +274,14 @@ reco = operator(
     _LOAD,
     opt("time", "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER),
     family="modal",
-    help=Help(
-        "Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
-        "field holds at the points that mark them; of results in time (DYNE, PASAPAS) at an "
-        "instant: 'DEPL', 'VITE', 'ACCE', 'CONT' for stresses (SIGS gives those of the shapes) or "
-        "'REAC' for reactions (REAC gives those of the shapes). "
-        "With a load, the pseudo-modes of the basis that its forces drive are added.",
-        "CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
-        "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
-        "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
-    ),
+    en="Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
+    "field holds at the points that mark them; of results in time (DYNE, PASAPAS) at an "
+    "instant: 'DEPL', 'VITE', 'ACCE', 'CONT' for stresses (SIGS gives those of the shapes) or "
+    "'REAC' for reactions (REAC gives those of the shapes). "
+    "With a load, the pseudo-modes of the basis that its forces drive are added.",
+    syntax="CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
+    "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
+    "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
 )(_reco)
 
 

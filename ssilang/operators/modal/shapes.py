@@ -14,7 +14,7 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numberin
 from ssilang.kernel.matrices.imposed import geometric_gaps
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Help, Like, arg, choice, flag, operator, opt, said
+from ssilang.language.registry import Like, arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.modal.basis import Shape, shapes_in
@@ -110,13 +110,11 @@ nnor = operator(
     gives=Like("thing"),
     family="modal",
     full_name="NNOR",
-    help=Help(
-        "Divides a field by its largest value (of the components named, or without them), or by "
-        "its Euclidean norm (of a matrix: square root of X^T M X). Of a modal table: all shapes, "
-        "with generalised masses and displacements that follow.",
-        "OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
-        "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
-    ),
+    en="Divides a field by its largest value (of the components named, or without them), or by "
+    "its Euclidean norm (of a matrix: square root of X^T M X). Of a modal table: all shapes, "
+    "with generalised masses and displacements that follow.",
+    syntax="OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
+    "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
 )(_nnor)
 
 
@@ -161,11 +159,9 @@ def _known(table: Table) -> list[Shape]:
     "JEU",
     arg("matrix", "RIGIDITE", en="relations"),
     family="relations",
-    help=Help(
-        "Second member of relations between displacements so that they speak of positions: the sum "
-        "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
-        "CHPO1 = JEU RIG1 ;",
-    ),
+    en="Second member of relations between displacements so that they speak of positions: the sum "
+    "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
+    syntax="CHPO1 = JEU RIG1 ;",
 )
 def jeu(matrix: Matrix) -> NodeField:
     """Values -C x of the relations."""

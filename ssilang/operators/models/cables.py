@@ -13,7 +13,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import POSITIVE
@@ -39,14 +39,12 @@ _ENTRIES = {
     opt("before", "MCHAML", en="not built"),
     family="model",
     full_name="PRECONTRAINTE",
-    help=Help(
-        en="Tensions EFFX of prestressing cables (bars BARR on SEG2, no branches) pulled by F1 at "
-        "one end: the last point of each cable, or the points given; pulled at both ends, a cable "
-        "has the larger tension. With a table, losses by friction (FF per radian, PHIF per metre: "
-        "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
-        "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
-        syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
-    ),
+    en="Tensions EFFX of prestressing cables (bars BARR on SEG2, no branches) pulled by F1 at "
+    "one end: the last point of each cable, or the points given; pulled at both ends, a cable "
+    "has the larger tension. With a table, losses by friction (FF per radian, PHIF per metre: "
+    "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
+    "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
+    syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
 )
 def prec(
     call: Call,
@@ -122,11 +120,9 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
     arg("mesh", "MAILLAGE", en="mesh"),
     family="model",
     full_name="IMPF",
-    help=Help(
-        en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
-        "'CONTACT' 'FROTTANT' does without).",
-        syntax="GEO1 = IMPF GEO2 ;",
-    ),
+    en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
+    "'CONTACT' 'FROTTANT' does without).",
+    syntax="GEO1 = IMPF GEO2 ;",
 )
 def impf(mesh: Mesh) -> Mesh:
     """The mesh, unchanged."""

@@ -21,7 +21,7 @@ from ssilang.kernel.materials.parameters import geometric_names, known_names
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import nearest_names
-from ssilang.language.registry import Chosen, Help, HelpTable, arg, each, many, operator, select
+from ssilang.language.registry import Chosen, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
@@ -55,7 +55,7 @@ _AXES = (
 _MODEL = arg("model", "MMODEL", en="model")
 _PAIRS = each(
     "pairs",
-    arg("name", "MOT", kind="parameter", en="parameter"),
+    arg("name", "MOT", kind="parameter", en="parameter", distinct=True),
     arg("value", *_VALUES, en="its value", range=ANY_NUMBER),
 )
 
@@ -88,22 +88,20 @@ def _tables(language: str) -> Sequence[HelpTable]:
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
-    help=Help(
-        en="Field of the parameters of a model: name and value, as many as wanted.\n"
-        "What each law takes stands in the tables below, and on the page of the law (`ssilang help "
-        "CAM_CLAY`); what an element takes, sections included, on that of the element. Geometric "
-        "parameters (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) may be given here too, or by "
-        "CARA. Joints of two points (JOI1) take forces where the others take tractions.\n"
-        "A value is a number, a field in cells, a curve (parameter that depends on another field) "
-        "or, for VECT, a point. Numbers outside of the range of a parameter, and laws whose "
-        "parameters do not go together, are refused.\n"
-        "Beams ELASTIQUE SECTION take the model of their section and its material: the section "
-        "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
-        "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
-        "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
-        syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-        tables=_tables,
-    ),
+    en="Field of the parameters of a model: name and value, as many as wanted.\n"
+    "What each law takes stands in the tables below, and on the page of the law (`ssilang help "
+    "CAM_CLAY`); what an element takes, sections included, on that of the element. Geometric "
+    "parameters (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) may be given here too, or by "
+    "CARA. Joints of two points (JOI1) take forces where the others take tractions.\n"
+    "A value is a number, a field in cells, a curve (parameter that depends on another field) "
+    "or, for VECT, a point. Numbers outside of the range of a parameter, and laws whose "
+    "parameters do not go together, are refused.\n"
+    "Beams ELASTIQUE SECTION take the model of their section and its material: the section "
+    "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
+    "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
+    "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
+    syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
+    tables=_tables,
 )
 def mate(call: Call, **said: Any) -> CellField:
     """Parameters of law and section; those of joints are checked by their law."""
@@ -129,11 +127,9 @@ def material_names(zone: Zone) -> tuple[str, ...]:
     family="model",
     full_name="CARACTERISTIQUE",
     aliases=("CARB",),
-    help=Help(
-        en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
-        "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
-        syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-    ),
+    en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
+    "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
+    syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
 )
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""

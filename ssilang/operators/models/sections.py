@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import Help, When, arg, by, flag, many, operator
+from ssilang.language.registry import When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
@@ -37,16 +37,14 @@ _IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
     when=_IN_SPACE,
     gives=by("checked", {True: ("LISTREEL",) * 3 + ("TABLE",)}, ("LISTREEL",) * 3),
     family="model",
-    help=Help(
-        en="Moments of a section of fibres (elements POJS, TRIS, QUAS) that is bent step by step "
-        "from its virgin state: curvatures about the local axis y (LREE4, in space only) and z "
-        "(LREE5), normal force LREE6 (positive in tension), each list with one value a step. "
-        "Gives the moments about y (in space only) and z, and the strain of the line of the beam. "
-        "FLOT1 is the error allowed on the normal force, relative to the sum of the forces of the "
-        "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
-        "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
-        syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
-    ),
+    en="Moments of a section of fibres (elements POJS, TRIS, QUAS) that is bent step by step "
+    "from its virgin state: curvatures about the local axis y (LREE4, in space only) and z "
+    "(LREE5), normal force LREE6 (positive in tension), each list with one value a step. "
+    "Gives the moments about y (in space only) and z, and the strain of the line of the beam. "
+    "FLOT1 is the error allowed on the normal force, relative to the sum of the forces of the "
+    "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
+    "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
+    syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
 )
 def mocu(
     call: Call,

@@ -27,7 +27,6 @@ from ssilang.kernel.plasticity.points import variable_names
 from ssilang.language.registry import (
     Chosen,
     Entry,
-    Help,
     arg,
     by,
     choice,
@@ -258,15 +257,13 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
     opt("given", "MCHAML", en="thickness or section of shells and beams"),
     family="models",
     full_name="TAILLE",
-    help=Help(
-        "'DIAMETRE_MIN': the smallest length of each element, at its middle, component L: "
-        "between two nodes, or from a node to a side that does not hold it. It limits the time "
-        "step "
-        "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
-        "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
-        "rectangle that has the larger radius of gyration of the section.",
-        "MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
-    ),
+    en="'DIAMETRE_MIN': the smallest length of each element, at its middle, component L: "
+    "between two nodes, or from a node to a side that does not hold it. It limits the time "
+    "step "
+    "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
+    "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
+    "rectangle that has the larger radius of gyration of the section.",
+    syntax="MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
 )
 def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:
     """Smallest lengths of elements."""

@@ -12,7 +12,7 @@ import numpy as np
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.language.filled import Filled
-from ssilang.language.registry import ANY, SCALAR_RULES, Help, arg, operator
+from ssilang.language.registry import ANY, SCALAR_RULES, arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
@@ -281,9 +281,7 @@ for _sign, _en in _TEXTS.items():
         arg("right", en="what stands behind it"),
         gives=ANY,
         family="arithmetic",
-        help=Help(
-            _en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
-            f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
-        ),
+        en=_en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
+        syntax=f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

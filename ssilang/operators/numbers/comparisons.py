@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import SCALAR_RULES, Help, arg, operator, opt
+from ssilang.language.registry import SCALAR_RULES, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
@@ -115,12 +115,10 @@ def _register_equality(sign: str, en: str, example: str) -> None:
         gives="LOGIQUE",
         family="comparisons",
         full_name=sign,
-        help=Help(
-            en + " The second of two numbers is converted to the type of the first; points are "
-            "equal when closer than a tolerance (a tenth of their density at first); trailing "
-            "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
-            f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
-        ),
+        en=en + " The second of two numbers is converted to the type of the first; points are "
+        "equal when closer than a tolerance (a tenth of their density at first); trailing "
+        "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
+        syntax=f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
     )(partial(_told, sign))
 
 
@@ -150,7 +148,6 @@ for _sign, _en in _TEXTS.items():
         _SECOND,
         gives="LOGIQUE",
         family="comparisons",
-        help=Help(
-            f"Whether the first number is {_en} than the second.", f"LOG1 = VAL1 {_sign} VAL2 ;"
-        ),
+        en=f"Whether the first number is {_en} than the second.",
+        syntax=f"LOG1 = VAL1 {_sign} VAL2 ;",
     )(partial(_compare_numbers, _sign))

@@ -14,7 +14,7 @@ from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, Like, arg, operator, opt
+from ssilang.language.registry import Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER
@@ -162,10 +162,8 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
         _VALUE,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
-        help=Help(
-            _en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
-            f"OBJ2 = {_name} OBJ1 ;",
-        ),
+        en=_en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
+        syntax=f"OBJ2 = {_name} OBJ1 ;",
     )(partial(_run, _name, _function))
 
 
@@ -173,11 +171,9 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
     "IFRE",
     arg("limit", "FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
     family="functions",
-    help=Help(
-        en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
-        "sin(t) / sqrt(2 pi t).",
-        syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
-    ),
+    en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
+    "sin(t) / sqrt(2 pi t).",
+    syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
 )
 def ifre(limit: float) -> tuple[float, float]:
     """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
@@ -195,11 +191,9 @@ def ifre(limit: float) -> tuple[float, float]:
     opt("second", *OPERANDS, en="denominator", range=ANY_NUMBER),
     gives=_REALS,
     family="functions",
-    help=Help(
-        en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
-        "between -180 and 180.",
-        syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
-    ),
+    en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
+    "between -180 and 180.",
+    syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
 )
 def atg(call: Call, first: Any, second: Any) -> Any:
     """Arc tangent of one or two objects."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.registry import SCALAR_RULES, Help, arg, operator
+from ssilang.language.registry import SCALAR_RULES, arg, operator
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.dispatch import union
 
@@ -31,9 +31,8 @@ union(("LOGIQUE", "LOGIQUE"))(_both)
     arg("first", "LOGIQUE", en="logical value"),
     arg("second", "LOGIQUE", en="another one"),
     family="comparisons",
-    help=Help(
-        en="True when one of two logical values is, or both.", syntax="LOG3 = LOG1 OU LOG2 ;"
-    ),
+    en="True when one of two logical values is, or both.",
+    syntax="LOG3 = LOG1 OU LOG2 ;",
 )
 def ou(first: bool, second: bool) -> bool:
     """Disjunction."""
@@ -44,7 +43,8 @@ def ou(first: bool, second: bool) -> bool:
     "NON",
     arg("value", "LOGIQUE", en="logical value"),
     family="comparisons",
-    help=Help(en="Negation of a logical value.", syntax="LOG2 = NON LOG1 ;"),
+    en="Negation of a logical value.",
+    syntax="LOG2 = NON LOG1 ;",
 )
 def non(value: bool) -> bool:
     """Negation."""
@@ -57,9 +57,8 @@ def non(value: bool) -> bool:
     arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
     family="comparisons",
     full_name="MULTIPLE",
-    help=Help(
-        en="Whether the first integer is a multiple of the second.", syntax="LOG1 = MULT N1 N2 ;"
-    ),
+    en="Whether the first integer is a multiple of the second.",
+    syntax="LOG1 = MULT N1 N2 ;",
 )
 def mult(first: int, second: int) -> bool:
     """Divisibility."""

@@ -14,7 +14,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
     Chosen,
     Entry,
-    Help,
     Like,
     arg,
     by,
@@ -47,15 +46,13 @@ _LIMITS = {
 MASQ = shared(
     "MASQ",
     "numbers",
-    Help(
-        en="Ones where a relation with a number, or with the values of an object of the same "
-        "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
-        "in cells has a component.",
-        syntax="OBJ2 = OBJ1 MASQ 'SUPERIEUR' | 'EGSUPE' | 'EGALE' | 'EGINFE' | 'INFERIEUR' | "
-        "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
-        "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
-        "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
-    ),
+    en="Ones where a relation with a number, or with the values of an object of the same "
+    "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
+    "in cells has a component.",
+    syntax="OBJ2 = OBJ1 MASQ 'SUPERIEUR' | 'EGSUPE' | 'EGALE' | 'EGINFE' | 'INFERIEUR' | "
+    "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
+    "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
+    "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
     full_name="MASQUE",
 )
 
@@ -155,11 +152,9 @@ def _existing(value: CellField, component: str | None) -> CellField:
 BORN = shared(
     "BORN",
     "numbers",
-    Help(
-        en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
-        "Of a field, component by component; of curves, curve by curve: those named are kept.",
-        syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
-    ),
+    en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
+    "Of a field, component by component; of curves, curve by curve: those named are kept.",
+    syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
     full_name="BORNER",
 )
 _HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", range=ANY_NUMBER)

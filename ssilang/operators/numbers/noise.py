@@ -11,7 +11,6 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
-    Help,
     arg,
     choice,
     key,
@@ -42,13 +41,11 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
 BRUI = shared(
     "BRUI",
     "numbers",
-    Help(
-        en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
-        "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
-        "a list of integers. A run repeated gives the same values; a last integer skips terms.",
-        syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
-        "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
-    ),
+    en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
+    "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
+    "a list of integers. A run repeated gives the same values; a last integer skips terms.",
+    syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
+    "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
     full_name="BRUIT",
 )
 _NOISE = key("noise", "BLAN", optional=False, en="white noise")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from datetime import datetime
 from typing import Any
 
-from ssilang.language.registry import Help, choice, flag, key, many, operator, opt, said, shared
+from ssilang.language.registry import choice, flag, key, many, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
@@ -29,16 +29,14 @@ def _clocks(session: Session) -> dict[str, tuple[float, float]]:
 TEMP = shared(
     "TEMP",
     "session",
-    Help(
-        en="Prints the time passed since TEMP was called last. 'ZERO' starts the count again; "
-        "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO. 'IMPR' 'APPE' "
-        "prints how often each operator ran since ZERO. 'NOEC' gives a table: in 'TEMPS_HORLOGE' "
-        "and 'TEMPS_CPU' the milliseconds since the run began ('INITIAL') and since the last call "
-        "('DERNIER_APPEL'), in 'APPELS' how often each operator ran, a list of one number. "
-        "Phrases of numbers alone run no operator.",
-        syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
-        "TAB1 = TEMP 'NOEC' ;",
-    ),
+    en="Prints the time passed since TEMP was called last. 'ZERO' starts the count again; "
+    "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO. 'IMPR' 'APPE' "
+    "prints how often each operator ran since ZERO. 'NOEC' gives a table: in 'TEMPS_HORLOGE' "
+    "and 'TEMPS_CPU' the milliseconds since the run began ('INITIAL') and since the last call "
+    "('DERNIER_APPEL'), in 'APPELS' how often each operator ran, a list of one number. "
+    "Phrases of numbers alone run no operator.",
+    syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
+    "TAB1 = TEMP 'NOEC' ;",
     full_name="TEMPS",
 )
 _REST = many("rest", "*", "TEXTE", en="changes nothing")
@@ -126,12 +124,10 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
     choice("part", ("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
     opt("seconds", "FLOTTANT", range=NOT_NEGATIVE),
     family="session",
-    help=Help(
-        en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "
-        "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
-        syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
-        "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
-    ),
+    en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "
+    "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
+    syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
+    "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
 )
 def date(call: Call, letters: bool, part: str | None, seconds: float | None) -> Any:
     """Tell the date."""

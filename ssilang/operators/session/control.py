@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import Help, flag, many, named, operator, opt
+from ssilang.language.registry import ANY, many, named, operator, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ANNULE
+from ssilang.language.values import ANNULE, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 
 
@@ -19,10 +20,8 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
     gives=(),
     family="control",
     full_name="QUITTER",
-    help=Help(
-        en="Leaves the named loop (an outer one too) or the running procedure.",
-        syntax="QUIT NOM1 ;",
-    ),
+    en="Leaves the named loop (an outer one too) or the running procedure.",
+    syntax="QUIT NOM1 ;",
 )
 def quitter(session: Session, name: str) -> NoReturn:
     """Leave a loop or a procedure."""
@@ -37,39 +36,80 @@ def quitter(session: Session, name: str) -> NoReturn:
     gives=(),
     family="control",
     full_name="ITERER",
-    help=Help(en="Goes on with the next turn of the named loop.", syntax="ITER NOM1 ;"),
+    en="Goes on with the next turn of the named loop.",
+    syntax="ITER NOM1 ;",
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
 
 
-@operator(
+ASSI = shared(
     "ASSI",
-    flag("every", "TOUS", en="not available"),
+    "control",
+    full_name="ASSISTANT",
+    en="Has an assistant carry out the phrase that follows: here one process does all, so the "
+    "phrase simply runs.",
+    syntax="OBJ1 ... = ASSI N1 PHRASE ;",
+)
+
+
+@ASSI.form(
+    said("TOUS"),
+    gives=ANY,
+    by_hand="the phrase is run once for each object of the tables in it",
+    syntax="TAB2 ... = ASSI 'TOUS' PHRASE ;",
+    en="TOUS: the phrase runs for each index of the tables ESCLAVE in it, with their objects at "
+    "that index in their place; results are tables ESCLAVE.",
+)
+def assi_all(call: Call, word: str) -> tuple[Table, ...] | None:
+    """Run the phrase for all objects of its tables."""
+    phrase = list(call.operands)
+    del call.operands[:]
+    tables = [o.value for o in phrase if isinstance(o.value, Table) and o.value.subtype == _SLAVE]
+    if not tables:
+        raise call.error("operators.session.no-slave-table")
+    indices = _indices(tables[0])
+    if any(len(_indices(t)) != len(indices) or not all(map(t.has, indices)) for t in tables):
+        raise call.error("operators.session.slave-indices")
+    made: tuple[Table, ...] | None = None
+    for index in indices:
+        operands = [
+            replace(o, value=o.value.get(index)) if any(o.value is t for t in tables) else o
+            for o in phrase
+        ]
+        results = call.session.evaluator.reduced(operands, call.span)
+        if made is None:
+            made = tuple(Table(_SLAVE) for _ in results)
+        if len(results) != len(made):
+            raise call.error("operators.session.slave-results", index=index)
+        for table, value in zip(made, results, strict=True):
+            table.set(index, value)
+    return made or None
+
+
+_SLAVE = "ESCLAVE"
+
+
+def _indices(table: Table) -> list[Any]:
+    """Indices of the objects of a table ESCLAVE."""
+    return [i for i, _ in table.items() if i != "SOUSTYPE"]
+
+
+@ASSI.form(
     opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
     gives=(),
-    family="control",
-    full_name="ASSISTANT",
-    help=Help(
-        en="Has an assistant carry out the phrase that follows: here one process does all, so the "
-        "phrase simply runs.",
-        syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-    ),
 )
-def assi(call: Call, every: bool, number: int | None) -> None:
+def assi(number: int | None) -> None:
     """The phrase goes on."""
-    if every:
-        raise call.error("operators.session.all-assistants")
 
 
 @operator(
     "FIN",
     gives=(),
     family="control",
-    help=Help(
-        en="Ends the run; with a name, ends the block that REPE opened.", syntax="FIN ; FIN NOM1 ;"
-    ),
+    en="Ends the run; with a name, ends the block that REPE opened.",
+    syntax="FIN ; FIN NOM1 ;",
 )
 def fin() -> NoReturn:
     """End the run."""
@@ -81,10 +121,8 @@ def fin() -> NoReturn:
     many("text", "*", "TEXTE", en="whatever is said"),
     family="control",
     full_name="COMMENTAIRE",
-    help=Help(
-        en="A comment up to the end of the statement; a line with * in column 1 is one too.",
-        syntax="COMM ... ;",
-    ),
+    en="A comment up to the end of the statement; a line with * in column 1 is one too.",
+    syntax="COMM ... ;",
 )
 def comm(text: tuple[Any, ...]) -> None:
     """Swallow the statement."""
@@ -111,11 +149,9 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
     "ARGU",
     family="control",
     full_name="ARGUMENT",
-    help=Help(
-        en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
-        "optional; without type any object is taken.",
-        syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
-    ),
+    en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
+    "optional; without type any object is taken.",
+    syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
     reads_itself="its items are names and types, with * or / between",
 )
 def argu(call: Call) -> None:
@@ -144,10 +180,8 @@ def argu(call: Call) -> None:
     many("results", en="results, in order"),
     family="control",
     full_name="RESPRO",
-    help=Help(
-        en="Inside a procedure: gives results, delivered before those of FINP.",
-        syntax="RESP OBJ1 OBJ2 ... ;",
-    ),
+    en="Inside a procedure: gives results, delivered before those of FINP.",
+    syntax="RESP OBJ1 OBJ2 ... ;",
 )
 def resp(session: Session, results: tuple[Any, ...]) -> None:
     """Queue results."""

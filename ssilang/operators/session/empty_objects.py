@@ -15,7 +15,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import ANY, Help, flag, many, operator, opt
+from ssilang.language.registry import ANY, flag, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
@@ -106,11 +106,9 @@ def _group(call: Call) -> list[Any] | None:
     many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",
-    help=Help(
-        en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
-        "indices of a list); of an object that is not a word: whether it is empty.",
-        syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
-    ),
+    en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
+    "indices of a list); of an object that is not a word: whether it is empty.",
+    syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
     reads_itself="types, sub-types and numbers are joined by / and *",
 )
 def vide(call: Call) -> Any:

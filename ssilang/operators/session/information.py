@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.language.registry import OPERATORS, Help, arg, operator, opt, shared
+from ssilang.language.registry import OPERATORS, arg, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.run.session import Session
@@ -21,11 +21,9 @@ from ssilang.operators.vocabulary.pages import help_text, near_name
     arg("said", "MOT", en="operator, procedure or word"),
     family="session",
     full_name="INFORMATION",
-    help=Help(
-        en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
-        "element, a parameter, a component or an option; of another word, what help knows of it.",
-        syntax="INFO NAME1 ;",
-    ),
+    en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
+    "element, a parameter, a component or an option; of another word, what help knows of it.",
+    syntax="INFO NAME1 ;",
 )
 def info(call: Call, said: str) -> None:
     """Print the page of the word that follows."""
@@ -41,9 +39,8 @@ def info(call: Call, said: str) -> None:
     opt("said", "MOT", en="changes nothing"),
     family="session",
     full_name="NOTICE",
-    help=Help(
-        en="Prints the list of all operators and procedures, a line each.", syntax="NOTI (MOT1) ;"
-    ),
+    en="Prints the list of all operators and procedures, a line each.",
+    syntax="NOTI (MOT1) ;",
 )
 def noti(session: Session, said: str | None) -> None:
     """Print the overview; the word that may follow chooses nothing here."""
@@ -54,11 +51,9 @@ def noti(session: Session, said: str | None) -> None:
     "AIDE",
     arg("said", "MOT", en="text looked for"),
     family="session",
-    help=Help(
-        en="List of the operators and procedures whose help contains a text; the list is printed "
-        "if it is not empty.",
-        syntax="LISMO1 = AIDE MOT1 ;",
-    ),
+    en="List of the operators and procedures whose help contains a text; the list is printed "
+    "if it is not empty.",
+    syntax="LISMO1 = AIDE MOT1 ;",
 )
 def aide(session: Session, said: str) -> ListMots:
     """Search the help in both languages, whatever the case."""
@@ -78,11 +73,9 @@ def aide(session: Session, said: str) -> ListMots:
 SOUC = shared(
     "SOUC",
     "session",
-    Help(
-        en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
-        "that level (it only grows; 0 lowers it).",
-        syntax="LOG1 = SOUC ; SOUC N1 ;",
-    ),
+    en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
+    "that level (it only grows; 0 lowers it).",
+    syntax="LOG1 = SOUC ; SOUC N1 ;",
     full_name="SOUCI",
 )
 

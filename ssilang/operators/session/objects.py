@@ -11,7 +11,7 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import ANY, Help, arg, flag, lead, many, named, operator, opt, shared
+from ssilang.language.registry import ANY, arg, flag, lead, many, named, operator, opt, shared
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.run.session import Session
@@ -34,7 +34,8 @@ from ssilang.operators.lists.search import equal_items
     arg("value", "*", "TEXTE", en="any object"),
     family="objects",
     terminal=True,
-    help=Help(en="The type of an object, as a word of 8 characters.", syntax="MOT1 = TYPE OBJ1 ;"),
+    en="The type of an object, as a word of 8 characters.",
+    syntax="MOT1 = TYPE OBJ1 ;",
 )
 def type_word(value: Any) -> Mot:
     """Name the type."""
@@ -49,15 +50,13 @@ def type_word(value: Any) -> Mot:
     ),
     family="objects",
     full_name="EXISTE",
-    help=Help(
-        en="Whether a name holds an object (a missing optional argument does not), a table has an "
-        "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
-        "model a zone; behind * whether the object is of a type, or the name that of a file.",
-        syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
-        "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
-        "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
-        "LOG1 = EXIS NOM1 * TYP1 ; LOG1 = EXIS MOT1 * 'FICHIER' ;",
-    ),
+    en="Whether a name holds an object (a missing optional argument does not), a table has an "
+    "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
+    "model a zone; behind * whether the object is of a type, or the name that of a file.",
+    syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
+    "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
+    "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
+    "LOG1 = EXIS NOM1 * TYP1 ; LOG1 = EXIS MOT1 * 'FICHIER' ;",
     gives="LOGIQUE",
     reads_itself="its first operand may be a name without object, its second any index of a table",
 )
@@ -171,17 +170,24 @@ def _in_model(call: Call, model: Model) -> bool:
     return False
 
 
+def _in_solution(call: Call, solution: Any) -> bool:
+    word = str(call.required("MOT")).rstrip().upper()
+    return word == "CONT" and all(m.has(Mot("CONTRAINTE_MODALE")) for m in solution.modes)
+
+
 _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
     "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
     "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
     "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
+    "SOLUTION": _in_solution,
 }  # fmt: skip
 
 
 OUBL = shared(
     "OUBL",
     "objects",
-    Help(en="Forgets a name, or an index of a table.", syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;"),
+    en="Forgets a name, or an index of a table.",
+    syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
     full_name="OUBLIER",
 )
 
@@ -204,10 +210,8 @@ def _forget_name(session: Session, name: str) -> None:
     many("objects", "*", "TEXTE", en="objects no longer used"),
     family="objects",
     full_name="DETRUIRE",
-    help=Help(
-        en="Does nothing: memory is freed when no name holds an object any more.",
-        syntax="DETR OBJ1 ;",
-    ),
+    en="Does nothing: memory is freed when no name holds an object any more.",
+    syntax="DETR OBJ1 ;",
 )
 def detr(objects: tuple[Any, ...]) -> None:
     """Accept and ignore."""
@@ -219,7 +223,8 @@ def detr(objects: tuple[Any, ...]) -> None:
     many("ignored", "*", "TEXTE", en="changes nothing"),
     family="objects",
     full_name="MENAGE",
-    help=Help(en="Frees memory that no object uses any more.", syntax="MENA ('OBLI') (N1) ;"),
+    en="Frees memory that no object uses any more.",
+    syntax="MENA ('OBLI') (N1) ;",
 )
 def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
@@ -235,10 +240,8 @@ def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     lead("value", "*", "TEXTE", en="object that gets it"),
     family="objects",
     full_name="NOMMER",
-    help=Help(
-        en="Gives an object a name that is written or computed: the content of a word counts.",
-        syntax="NOMM NOM1 OBJ1 ;",
-    ),
+    en="Gives an object a name that is written or computed: the content of a word counts.",
+    syntax="NOMM NOM1 OBJ1 ;",
 )
 def nomm(call: Call, name: Any, value: Any) -> None:
     """Assign to a computed name."""
@@ -260,11 +263,9 @@ def nomm(call: Call, name: Any, value: Any) -> None:
     gives=ANY,
     family="objects",
     full_name="OBJET",
-    help=Help(
-        en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
-        "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
-        syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
-    ),
+    en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
+    "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
+    syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
     reads_itself="the constructor reads its arguments itself",
 )
 def obje(call: Call) -> tuple[Any, ...]:
@@ -282,7 +283,8 @@ def obje(call: Call) -> tuple[Any, ...]:
     arg("method", "PROCEDUR", en="what it does"),
     family="objects",
     full_name="METHODE",
-    help=Help(en="Gives an object a method under a name.", syntax="OBJ1%METHODE NOM1 METH1 ;"),
+    en="Gives an object a method under a name.",
+    syntax="OBJ1%METHODE NOM1 METH1 ;",
 )
 def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None:
     """Attach a method."""
@@ -297,7 +299,8 @@ def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None
     many("objects", "OBJET", en="heir, unless it is the present object, and whose methods it gets"),
     family="objects",
     full_name="HERITE",
-    help=Help(en="Gives an object all the methods of another one.", syntax="OBJ1%HERITE OBJ2 ;"),
+    en="Gives an object all the methods of another one.",
+    syntax="OBJ1%HERITE OBJ2 ;",
 )
 def heri(call: Call, objects: tuple[Objet, ...]) -> None:
     """Inherit methods."""

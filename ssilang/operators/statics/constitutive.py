@@ -19,7 +19,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
-from ssilang.language.registry import Help, arg, flag, key, many, operator, opt, said
+from ssilang.language.registry import arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
@@ -97,13 +97,11 @@ _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
     *_TWO_STATES,
     family="stress",
     full_name="COMPORTEMENT",
-    help=Help(
-        en="The constitutive laws of a model over a step: from the state at the start (stresses, "
-        "internal variables, inelastic strains, strains, parameters, joined by ET) and at the end "
-        "(strains, parameters), one field with the stresses, internal variables and inelastic "
-        "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
-        syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
-    ),
+    en="The constitutive laws of a model over a step: from the state at the start (stresses, "
+    "internal variables, inelastic strains, strains, parameters, joined by ET) and at the end "
+    "(strains, parameters), one field with the stresses, internal variables and inelastic "
+    "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
+    syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
 )
 def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
     """Integrate the laws."""
@@ -173,13 +171,11 @@ for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
         *_FLOW,
         family="stress",
         full_name=_full,
-        help=Help(
-            en="The constitutive laws over a step of strain: from stresses and internal variables "
-            "at the start, the step of strain and the parameters, in this order, the stresses and "
-            "internal variables at the end and the step of inelastic strain. Joints take the step "
-            "of jump; their open points start from the largest opening.",
-            syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
-        ),
+        en="The constitutive laws over a step of strain: from stresses and internal variables "
+        "at the start, the step of strain and the parameters, in this order, the stresses and "
+        "internal variables at the end and the step of inelastic strain. Joints take the step "
+        "of jump; their open points start from the largest opening.",
+        syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
     )(_flow)
 
 
@@ -273,15 +269,13 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
     *_STATE,
     _SYMMETRIC,
     family="matrix",
-    help=Help(
-        en="Tangent stiffness of a model at a state given by stresses, internal variables and "
-        "parameters, in this order: elastic inside the surfaces, elastoplastic at the points "
-        "within 'PREC' (1.E-3, a share of the stress) of them; of joints by their state. 'SYME' "
-        "keeps the symmetric part. 'PERT': the stiffness of a step between two states as COMP "
-        "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
-        syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
-        "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
-    ),
+    en="Tangent stiffness of a model at a state given by stresses, internal variables and "
+    "parameters, in this order: elastic inside the surfaces, elastoplastic at the points "
+    "within 'PREC' (1.E-3, a share of the stress) of them; of joints by their state. 'SYME' "
+    "keeps the symmetric part. 'PERT': the stiffness of a step between two states as COMP "
+    "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
+    syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
+    "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
 )
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     """Tangent stiffness."""
@@ -345,11 +339,9 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
     *_STATE,
     family="stress",
     full_name="HOTANGE",
-    help=Help(
-        en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
-        "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
-        syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
-    ),
+    en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
+    "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
+    syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
 )
 def hota(call: Call, **state: Any) -> CellField:
     """Tangent Hooke matrices."""
@@ -363,12 +355,10 @@ def hota(call: Call, **state: Any) -> CellField:
     *_STATE,
     family="stress",
     full_name="CRITERE",
-    help=Help(
-        en="Yield criterion of stresses with internal variables and parameters, in this order: "
-        "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
-        "Drucker-Prager laws, joints.",
-        syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
-    ),
+    en="Yield criterion of stresses with internal variables and parameters, in this order: "
+    "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
+    "Drucker-Prager laws, joints.",
+    syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
 )
 def crit(call: Call, **state: Any) -> CellField:
     """Yield criterion."""
@@ -389,12 +379,10 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
     "MOTA",
     *_STATE,
     family="stress",
-    help=Help(
-        en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
-        "the hardening slope where a point has yielded and stands on the surface (to a precision, "
-        "1.E-3), Young's modulus elsewhere.",
-        syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
-    ),
+    en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
+    "the hardening slope where a point has yielded and stands on the surface (to a precision, "
+    "1.E-3), Young's modulus elsewhere.",
+    syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
 )
 def mota(call: Call, **state: Any) -> CellField:
     """Tangent moduli."""

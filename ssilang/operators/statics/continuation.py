@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.plasticity.arc_length import ArcTrace
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.modal.continuation import continue_harmonics
 
@@ -126,10 +126,8 @@ def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
     "ZCON",
     arg("table", "TABLE", en="table of CONTINU"),
     family="modal",
-    help=Help(
-        en="Continuation of the table of CONTINU, which is the procedure to call.",
-        syntax="ZCON TAB1 ;",
-    ),
+    en="Continuation of the table of CONTINU, which is the procedure to call.",
+    syntax="ZCON TAB1 ;",
 )
 def zcon(call: Call, table: Table) -> None:
     """Harmonic balance where 'HBM' says so, else loads on a structure."""

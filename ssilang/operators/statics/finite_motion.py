@@ -28,7 +28,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import Help, arg, choice, many, operator
+from ssilang.language.registry import arg, choice, many, operator
 from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.statics.stresses import (
@@ -65,12 +65,10 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
     ),
     family="stress",
     full_name="POLAIRE",
-    help=Help(
-        en="Polar decomposition F = R U of a field of gradients: F itself ('GEOM', the default) "
-        "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
-        "stretch; both are fields of gradients.",
-        syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
-    ),
+    en="Polar decomposition F = R U of a field of gradients: F itself ('GEOM', the default) "
+    "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
+    "stretch; both are fields of gradients.",
+    syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
 )
 def pola(
     call: Call, model: Model, fields: tuple[CellField, ...], what: str
@@ -120,12 +118,10 @@ def _carried(
     "PICA",
     *_CARRIED,
     family="stress",
-    help=Help(
-        en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
-        "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
-        "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
-        syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-    ),
+    en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
+    "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
+    "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
+    syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
 )
 def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the reference to the present configuration."""
@@ -136,12 +132,10 @@ def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellFie
     "CAPI",
     *_CARRIED,
     family="stress",
-    help=Help(
-        en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
-        "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
-        "one that follows the matter; 'UTIL' changes nothing.",
-        syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-    ),
+    en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
+    "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
+    "one that follows the matter; 'UTIL' changes nothing.",
+    syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
 )
 def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the present to the reference configuration."""
@@ -158,12 +152,10 @@ _STRESS_AND_GRADIENT = many(
     MODEL,
     _STRESS_AND_GRADIENT,
     family="stress",
-    help=Help(
-        en="Trace of the product of a field of stresses and a field of gradients, in continuous "
-        "elements; in bars, beams and flat shells that of the forces along the line or surface "
-        "(EFFX; N11 N22 N12), per length or surface.",
-        syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
-    ),
+    en="Trace of the product of a field of stresses and a field of gradients, in continuous "
+    "elements; in bars, beams and flat shells that of the forces along the line or surface "
+    "(EFFX; N11 N22 N12), per length or surface.",
+    syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
 )
 def work_of(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Work of stresses on gradients."""
@@ -200,13 +192,11 @@ def _stress_and_gradient(
     _STRESS_AND_GRADIENT,
     family="stress",
     full_name="FOFISS",
-    help=Help(
-        en="Nodal forces of stresses S on the gradients of a displacement u: their work in v is "
-        "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
-        "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
-        "N11 N22 N12).",
-        syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
-    ),
+    en="Nodal forces of stresses S on the gradients of a displacement u: their work in v is "
+    "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
+    "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
+    "N11 N22 N12).",
+    syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
 )
 def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     """Forces of stresses on gradients."""
@@ -228,10 +218,8 @@ def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     "TAGR",
     arg("gradient", "MCHAML", en="gradients"),
     family="stress",
-    help=Help(
-        en="Transposed field of gradients: UX,Y and UY,X change places.",
-        syntax="GRAD1 = TAGR GRAD2 ;",
-    ),
+    en="Transposed field of gradients: UX,Y and UY,X change places.",
+    syntax="GRAD1 = TAGR GRAD2 ;",
 )
 def tagr(call: Call, gradient: CellField) -> CellField:
     """Transpose gradients."""

@@ -17,7 +17,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.progress import ProgressLine
@@ -33,10 +33,8 @@ _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
     "ZFRE",
     arg("table", "TABLE", en="table of PASAPAS"),
     family="statics",
-    help=Help(
-        en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
-        syntax="ZFRE TAB1 ;",
-    ),
+    en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
+    syntax="ZFRE TAB1 ;",
 )
 def zfre(call: Call, table: Table) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""

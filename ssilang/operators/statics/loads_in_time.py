@@ -13,7 +13,6 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import (
     Chosen,
-    Help,
     arg,
     by,
     choice,
@@ -61,14 +60,12 @@ _PATH = group(  # behind the name, which may be this word
     _PATH,
     family="loads",
     full_name="CHARGEMENT",
-    help=Help(
-        en="Loading: a field times a curve in time (constant without curve), or a field at each "
-        "of listed times (a table of times and a table of fields, indexed 0 1 2 ...), under a name "
-        "of 4 characters such as MECA (forces), DIMP (imposed displacements), T, PRES. Loadings "
-        "join by ET.",
-        syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
-        "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
-    ),
+    en="Loading: a field times a curve in time (constant without curve), or a field at each "
+    "of listed times (a table of times and a table of fields, indexed 0 1 2 ...), under a name "
+    "of 4 characters such as MECA (forces), DIMP (imposed displacements), T, PRES. Loadings "
+    "join by ET.",
+    syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
+    "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
 )
 def char(
     call: Call,
@@ -235,11 +232,9 @@ _TIME = arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
     family="loads",
     full_name="TIRER",
     gives="|".join(_HELD),
-    help=Help(
-        en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
-        "names ('TABL').",
-        syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
-    ),
+    en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
+    "names ('TABL').",
+    syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
 )
 def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
     """Evaluate a loading."""

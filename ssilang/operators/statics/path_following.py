@@ -13,7 +13,7 @@ from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
@@ -325,10 +325,8 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     arg("unit", "CHPOINT", en="step by the load", unit="m"),
     arg("asked", "FLOTTANT", en="strain asked for", range=ANY_NUMBER),
     family="statics",
-    help=Help(
-        en="Equation of strains behind PILOINDI, which is the procedure to call.",
-        syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
-    ),
+    en="Equation of strains behind PILOINDI, which is the procedure to call.",
+    syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
 )
 def zpil(
     call: Call,

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.linear_motion import tied, unjoined_bodies
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
-from ssilang.language.registry import ANY, Help, Like, arg, flag, key, many, operator, opt, said
+from ssilang.language.registry import ANY, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
@@ -83,8 +83,16 @@ def _reso(
         if count := imposed_outside(load, known):
             call.warn("operators.statics.imposed-elsewhere", count=count)
     solutions = tuple(solve(matrix, loads, options))
+    for load, solution in zip(loads, solutions, strict=True):
+        if _is_anywhere(load) and not _is_anywhere(solution):
+            call.warn("operators.statics.nothing-moves")
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def _is_anywhere(field: NodeField) -> bool:
+    """Whether a field has other values than zeros, multipliers left out."""
+    return any(p.values.any() for n, p in field.components.items() if n != "LX")
 
 
 def _report_solver(call: Call, matrix: Matrix, options: SolveOptions) -> None:
@@ -159,20 +167,18 @@ RESO = operator(
     family="solve",
     full_name="RESO",
     gives=Like("loads"),
-    help=Help(
-        "Solves K u = F with the conditions in the matrix: equalities exactly, 'MINI' and 'MAXI' "
-        "by active sets. Forces FX, FY, MZ ... and imposed values of DEPI add up in the second "
-        "member; the solution holds UX, UY, RZ ... and the multipliers LX (K u + C^T LX = F). One "
-        "solution for each second member; a LISTCHPO gives a LISTCHPO. Free motions that the "
-        "loads drive are an error that names them. 'NOID' leaves that part of the loads out, "
-        "'SOUC' too with a warning; 'NOUNIL' takes unilateral conditions for equalities; 'STAB' "
-        "adds to the diagonal what makes the matrix positive; 'ELIM' 0 keeps all conditions in a "
-        "saddle point; 'ENSE' also gives the number of free motions and the nodes that pin them.",
-        "CHPO1 (CHPO2 ...) = RESO RIG1 CHPO3 (CHPO4 ...) ('NOID') ('NOUNIL') ('STAB') ('SOUC') "
-        "('ELIM' N1) ;\n"
-        "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
-        "LCHPO2 = RESO RIG1 LCHPO1 ;\n(TAB2 =) RESO RIG1 TAB1 ;  (LIAISONS_STATIQUES)",
-    ),
+    en="Solves K u = F with the conditions in the matrix: equalities exactly, 'MINI' and 'MAXI' "
+    "by active sets. Forces FX, FY, MZ ... and imposed values of DEPI add up in the second "
+    "member; the solution holds UX, UY, RZ ... and the multipliers LX (K u + C^T LX = F). One "
+    "solution for each second member; a LISTCHPO gives a LISTCHPO. Free motions that the "
+    "loads drive are an error that names them. 'NOID' leaves that part of the loads out, "
+    "'SOUC' too with a warning; 'NOUNIL' takes unilateral conditions for equalities; 'STAB' "
+    "adds to the diagonal what makes the matrix positive; 'ELIM' 0 keeps all conditions in a "
+    "saddle point; 'ENSE' also gives the number of free motions and the nodes that pin them.",
+    syntax="CHPO1 (CHPO2 ...) = RESO RIG1 CHPO3 (CHPO4 ...) ('NOID') ('NOUNIL') ('STAB') ('SOUC') "
+    "('ELIM' N1) ;\n"
+    "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
+    "LCHPO2 = RESO RIG1 LCHPO1 ;\n(TAB2 =) RESO RIG1 TAB1 ;  (LIAISONS_STATIQUES)",
 )(_reso)
 
 
@@ -269,14 +275,12 @@ operator(
     family="solve",
     full_name="REACTION",
     gives=Like("solution"),
-    help=Help(
-        "Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
-        "RESO, DYNAMIC or PASAPAS with its multipliers. All conditions of RIG1 count and add up "
-        "at the nodes that they share, such as the master of a rigid body: the force of one BLOQ "
-        "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
-        "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
-        "CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
-    ),
+    en="Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
+    "RESO, DYNAMIC or PASAPAS with its multipliers. All conditions of RIG1 count and add up "
+    "at the nodes that they share, such as the master of a rigid body: the force of one BLOQ "
+    "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
+    "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
+    syntax="CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
 )(_reac)
 
 
@@ -289,9 +293,7 @@ operator(
     _MATRIX,
     family="solve",
     full_name="DIAGNEG",
-    help=Help(
-        "Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
-        "zero if it is stable.",
-        "N1 = DIAG RIG1 ;",
-    ),
+    en="Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
+    "zero if it is stable.",
+    syntax="N1 = DIAG RIG1 ;",
 )(_diag)

@@ -9,7 +9,6 @@ from ssilang.kernel.mesh.combine import gathered
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.registry import (
     ANY,
-    Help,
     arg,
     flag,
     main,
@@ -30,11 +29,9 @@ from ssilang.operators.numbers.arithmetic import rule
 TABL = shared(
     "TABL",
     "tables",
-    Help(
-        en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
-        "table, under a further name.",
-        syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
-    ),
+    en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
+    "table, under a further name.",
+    syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
     full_name="TABLE",
 )
 
@@ -52,11 +49,9 @@ def _new(subtype: str) -> Table:
 INDE = shared(
     "INDE",
     "tables",
-    Help(
-        en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
-        "of the named objects of that type, by name.",
-        syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
-    ),
+    en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
+    "of the named objects of that type, by name.",
+    syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
     full_name="INDEX",
 )
 
@@ -160,7 +155,8 @@ for _kind in ("ENTIER", "FLOTTANT"):
     arg("table", "TABLE", en="table"),
     arg("index", en="index to remove"),
     family="tables",
-    help=Help(en="Removes an index from a table, in place.", syntax="OTER TAB1 OBJ1 ;"),
+    en="Removes an index from a table, in place.",
+    syntax="OTER TAB1 OBJ1 ;",
 )
 def oter(call: Call, table: Table, index: Any) -> None:
     """Forget an index."""
@@ -174,11 +170,9 @@ def oter(call: Call, table: Table, index: Any) -> None:
     arg("table", "TABLE", en="objects at 1, 2 ..."),
     gives=ANY,
     family="objects",
-    help=Help(
-        en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
-        "...: PART makes such tables. A mesh gets the cells in the order of the table.",
-        syntax="OBJ2 = ETG TAB1 ;",
-    ),
+    en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
+    "...: PART makes such tables. A mesh gets the cells in the order of the table.",
+    syntax="OBJ2 = ETG TAB1 ;",
 )
 def etg(call: Call, table: Table) -> Any:
     """Union of a table's objects."""

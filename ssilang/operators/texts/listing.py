@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, arg, flag, key, lead, many, named, shared
+from ssilang.language.registry import arg, flag, key, lead, many, named, shared
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.text.printer import print_items
@@ -310,13 +310,11 @@ def _all_names(session: Session, kind: str) -> str:
 LIST = shared(
     "LIST",
     "output",
-    Help(
-        en="Prints what an object holds ('RESUME': less); without object, the names in use; "
-        "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
-        "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
-        "behind a procedure: the line, or the first and the last line.",
-        syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
-    ),
+    en="Prints what an object holds ('RESUME': less); without object, the names in use; "
+    "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
+    "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
+    "behind a procedure: the line, or the first and the last line.",
+    syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
     full_name="LISTE",
     terminal=True,
 )

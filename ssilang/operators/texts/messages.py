@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ssilang.language.registry import Help, arg, choice, key, many, operator, opt, shared
+from ssilang.language.registry import arg, choice, key, many, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
@@ -20,10 +20,8 @@ from ssilang.operators.workspace import workspace
     *TEXT,
     family="output",
     full_name="MESSAGE",
-    help=Help(
-        en="Prints words and numbers on one line, written as CHAI writes them.",
-        syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-    ),
+    en="Prints words and numbers on one line, written as CHAI writes them.",
+    syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
     reads_itself=TEXT_IS_FREE,
 )
 def mess(call: Call) -> None:
@@ -78,12 +76,10 @@ def _flat(values: Sequence[Any]) -> str:
 ERRE = shared(
     "ERRE",
     "output",
-    Help(
-        en="Reports an error and stops the run: a text, or the number of a message with the "
-        "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
-        "goes on.",
-        syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-    ),
+    en="Reports an error and stops the run: a text, or the number of a message with the "
+    "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
+    "goes on.",
+    syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
     full_name="ERREUR",
 )
 
@@ -143,7 +139,8 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
     choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
-    help=Help(en="Prints blank lines ('PAGE': one).", syntax="SAUT (N1) 'LIGN' | 'PAGE' ;"),
+    en="Prints blank lines ('PAGE': one).",
+    syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
 )
 def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
@@ -156,10 +153,8 @@ def saut(call: Call, count: int, what: str | None) -> None:
     *TEXT,
     family="output",
     full_name="TITRE",
-    help=Help(
-        en="Sets the title of the pictures and curves made from now on.",
-        syntax="TITR OBJ1 (OBJ2 ...) ;",
-    ),
+    en="Sets the title of the pictures and curves made from now on.",
+    syntax="TITR OBJ1 (OBJ2 ...) ;",
     reads_itself=TEXT_IS_FREE,
 )
 def titr(call: Call) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ssilang.language.registry import Help, Like, arg, key, main, many, operator, opt, said
+from ssilang.language.registry import Like, arg, key, main, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListEnti,
@@ -144,13 +144,11 @@ def filling(values: Sequence[Any]) -> dict[str, object]:
     family="words",
     full_name="CHAINE",
     terminal=True,
-    help=Help(
-        en="Joins words and numbers into one word, without blanks between. Reals are written by "
-        "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too by an I format. "
-        "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
-        "end of what is written already.",
-        syntax="MOT1 = CHAI ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-    ),
+    en="Joins words and numbers into one word, without blanks between. Reals are written by "
+    "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too by an I format. "
+    "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
+    "end of what is written already.",
+    syntax="MOT1 = CHAI ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
     reads_itself=TEXT_IS_FREE,
 )
 def chai(call: Call) -> Mot:
@@ -164,10 +162,8 @@ def chai(call: Call) -> Mot:
     gives="MOT|PROCEDUR",
     family="words",
     terminal=True,
-    help=Help(
-        en="A word, also when it is the name of an operator or a procedure.",
-        syntax="MOT1 = MOT MOT2 ;",
-    ),
+    en="A word, also when it is the name of an operator or a procedure.",
+    syntax="MOT1 = MOT MOT2 ;",
 )
 def mot(text: Mot | Procedure) -> Any:
     """Give a word back; a bare name of a procedure stays a procedure."""

@@ -60,9 +60,10 @@ def test_number_of_levels_and_levels_by_hand() -> None:
     assert np.allclose(choose_levels(values, None, np.array([0.0, 2.0])).bounds, [-1, 0, 2, 3])
 
 
-def test_colours_of_both_signs_meet_at_white() -> None:
-    levels = choose_levels(np.array([-1.0, 1.0]), 20)
-    blue, middle, red = levels.rgba(np.array([-0.99, 0.01, 0.99]))
+@pytest.mark.parametrize("size", [1.0, 2e-6, 3e7])
+def test_colours_of_both_signs_meet_at_white(size: float) -> None:
+    levels = choose_levels(size * np.array([-1.0, 1.0]), 20)
+    blue, middle, red = levels.rgba(size * np.array([-0.99, 0.01, 0.99]))
     assert blue[2] > blue[0] + 0.2
     assert red[0] > red[2] + 0.2
     assert middle[:3].min() > 0.9

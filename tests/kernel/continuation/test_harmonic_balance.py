@@ -1,5 +1,7 @@
 """Harmonic balance against closed forms, time integration and constant coefficients."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -52,6 +54,20 @@ def test_one_harmonic_is_the_closed_form_of_duffings_response():
         k = 1 + 0.75 * CUBIC * a**2 - s**2
         slope = (k**2 + (DAMPING * s) ** 2) + k * 1.5 * CUBIC * a**2
         assert slope == pytest.approx(0.0, abs=1e-5)
+
+
+def test_an_unbalance_drives_by_the_square_of_the_frequency():
+    """Balance is that of a load w^2 times as large; its derivative is that of differences."""
+    system = replace(duffing(2), unbalance=True)
+    Q = np.linspace(-0.4, 0.3, 5)
+    for w in (0.5, 1.0, 1.7):
+        rest, _, by_w = system.at(Q, w)
+        plain, _, _ = duffing(2).at(Q, w)
+        load = system.load.ravel()
+        np.testing.assert_allclose(rest, plain + load - w * w * load, atol=1e-14)
+        ends = [system.at(Q, w + s * 1e-6)[0] for s in (1.0, -1.0)]
+        np.testing.assert_allclose(by_w, (ends[0] - ends[1]) / 2e-6, atol=1e-8)
+        assert system.force(w) == pytest.approx(LOAD * w * w)
 
 
 def test_several_harmonics_are_the_motion_that_time_integration_settles_on():

@@ -163,20 +163,22 @@ def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() ->
 
 
 def test_a_track_goes_on_from_what_it_held() -> None:
-    problem = problem_of(strip(4))
+    problem = problem_of(strip(4, left=10.0, bench=strip(8)))
     wanted = np.ones(2, bool)
     first, again = footing_track(problem, wanted), footing_track(problem, wanted)
     assert isinstance(first, FootingTrack)
     assert isinstance(again, FootingTrack)
-    loads = turned(problem, lift=-0.001, about_y=0.0, about_z=0.001)
     first.instants.append(np.array([0.5]))
-    first.kept[0].append(loads)
+    for number in range(2):
+        parts = (np.array([10.0 * number + i]) for i in range(len(Loads._fields)))
+        first.kept[number].append(Loads(*parts))
     again.restore([np.array(x) for x in first.content()])
     assert again.times.tolist() == [0.5]
-    for mine, other in zip(again.found(0), first.found(0), strict=True):
-        np.testing.assert_array_equal(mine, other)
+    for number in range(2):
+        for mine, other in zip(again.found(number), first.found(number), strict=True):
+            np.testing.assert_array_equal(mine, other)
     empty = footing_track(problem, wanted)
     assert isinstance(empty, FootingTrack)
     again.restore(empty.content())
     assert len(again.times) == 0
-    assert again.kept == [[]]
+    assert again.kept == [[], []]

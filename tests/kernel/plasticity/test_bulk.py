@@ -14,6 +14,7 @@ from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.plasticity.run import BulkRun, step_bulk_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, LOST, STORED
 
 TUBE = """
 OPTI DIME 2 ELEM QUA8 MODE AXIS ;
@@ -272,3 +273,48 @@ def test_a_beam_pushed_at_one_node_reaches_its_plastic_moment_in_long_steps(tmp_
     # M_p / L; the clamped edge is held across too: at most 2 / sqrt 3 more
     plastic = 2.5e8 * 0.2**2 / 4 / 2.0
     assert plastic < -force < 2 / 3**0.5 * plastic
+
+
+LAWS = {
+    "PARFAIT": "SIGY 1.",
+    "ISOTROPE": "ECRO (EVOL MANU (PROG 0. 1.) (PROG 1. 51.))",
+    "CINEMATIQUE": "SIGY 1. H 40.",
+    "DRUCKER_PARFAIT": "LTR 1. LCS 4.",
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("kind", ["QUA4", "TRI3", "QUA8"])
+def test_work_of_loads_and_of_supports_is_stored_and_lost(kind: str, law: str) -> None:
+    """A tied plate is pushed while its side moves: work from instants alone, in fine steps."""
+    text = f"""
+    OPTI DIME 2 ELEM {kind} MODE PLAN DEFO ;
+    S = (DROI 3 (0 0) (3 0)) TRAN 2 (0.4 1.5) ;
+    M = MODE S MECANIQUE ELASTIQUE PLASTIQUE {law} ; A = MATE M YOUN 1.E3 NU .3 {LAWS[law]} ;
+    L1 = COTE 1 S ; L3 = COTE 3 S ; P1 = L3 POIN INIT ; P2 = L3 POIN FINA ;
+    B = BLOQ UX UY L1 ; H = BLOQ UY L3 ; R = RELA UX P1 - UX P2 ;
+    B = B ET H ET R ; D = DEPI H 0.008 ; F = FORC FX 0.2 ((COTE 2 S) POIN 'PROC' (3.2 0.75)) ;
+    C = (CHAR DIMP D (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 1. -.3))) ET
+    (CHAR MECA F (EVOL MANU (PROG 0. 0.5 2.) (PROG 0. 1.4 -1.))) ;
+    """
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    zones, support = plastic_zones(at(result, "M")), at(result, "B")
+    stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
+    times = np.linspace(0.0, 2.0, 121)
+    p = make_problem(Inputs(stiffness, times, load=at(result, "C")))
+    bulk = bulk_of(zones, at(result, "A"), p.numbering)
+    run = BulkRun(p, bulk, bulk.unloaded())
+    run.observers = [recorder := Recorder(len(times))]
+    energies = step_bulk_statics(run).energies
+    u, pushed = recorder.of("u"), recorder.of("reaction")
+    F = p.loading.at(times) @ p.loading.forces.T
+    step, force = np.diff(u, axis=0), F + pushed
+    work = np.cumsum(0.5 * np.vecdot(step, force[1:] + force[:-1]))
+    assert np.ptp(u @ p.constraints.C.toarray().T, axis=0).max() > 5e-3  # supports did move
+    size = np.abs(work).max()
+    np.testing.assert_allclose(energies[-len(work) :, EXTERNAL], work, atol=1e-8 * size)
+    kept = energies[:, [ELASTIC, STORED, LOST]].sum(axis=1)[-len(work) :]
+    np.testing.assert_allclose(kept, work, atol=0.02 * size)
+    assert energies[-1, LOST] > 0.05 * size
+    assert (np.diff(energies[:, LOST]) >= -1e-3 * size).all()

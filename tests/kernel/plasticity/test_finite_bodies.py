@@ -85,3 +85,27 @@ def test_a_long_cantilever_follows_the_elastica():
     assert result.exit_code == 0, result.message
     assert result.session.root.find("Y") == pytest.approx(-0.4935 * 40, rel=3e-3)
     assert result.session.root.find("X") == pytest.approx(-0.1606 * 40, rel=6e-3)
+
+
+@pytest.mark.parametrize("kind", ["QUA4", "TRI6"])
+def test_a_cycle_of_large_displacements_gives_the_work_back(kind):
+    """Pushed aside by a support and a force along curves of their own, in fine steps, and back."""
+    result = run_text(f"""
+    OPTI DIME 2 MODE PLAN DEFO ELEM {kind} ;
+    S = (DROI 2 (0. 0.) (1. 0.)) TRAN 3 (0.2 2.) ; M = MODE S MECANIQUE ELASTIQUE ;
+    A = MATE M 'YOUN' 50. 'NU' 0.2 ; H = BLOQ 'UX' (COTE 3 S) ;
+    T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;
+    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' (COTE 1 S)) ET H ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
+    T . 'CHARGEMENT' =
+    (CHAR 'DIMP' (DEPI H 0.9) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ET
+    (CHAR 'MECA' (FORC 'FY' 3. (COTE 3 S)) (EVOL 'MANU' (PROG 0. 0.5 2.) (PROG 0. 1. 0.))) ;
+    T . 'TEMPS_CALCULES' = PROG 0. PAS 0.01 2. ; PASAPAS T ;
+    """)
+    assert result.exit_code == 0, result.message
+    energies = result.session.root.find("T").get("ENERGIES")
+    stored, lost, work = (energies.get(n).values for n in ("ELASTIQUE", "DISSIPEE", "EXTERIEURE"))
+    size = stored.max()
+    assert size > 0.5
+    np.testing.assert_allclose(stored, work, atol=1e-3 * size)
+    np.testing.assert_allclose(lost, 0.0, atol=1e-3 * size)
+    assert abs(stored[-1]) < 1e-9 * size

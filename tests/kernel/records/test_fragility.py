@@ -133,6 +133,15 @@ def test_runs_of_one_record_count_as_one_record():
     assert held["alone"] / 300 < 0.85  # what it is for
 
 
+def test_few_records_give_no_errors():
+    x, y = np.tile([1.0, 2.0, 3.0, 4.0], 2), np.array([0.0, 1, 0, 1, 0, 0, 1, 1])
+    which = np.repeat([7, 3], 4)
+    found, one = (of_exceedances(x, y, np.ones(8), r) for r in (which, None))
+    assert (found.median, found.dispersion) == (one.median, one.dispersion)
+    assert np.isnan([found.median_error, found.dispersion_error, *found.bounds()]).all()
+    assert np.isnan(of_cloud(x, x * (1 + 0.1 * y), 2.0, records=which).median_error)
+
+
 def test_a_cloud_of_a_known_law_has_its_fragility():
     """ln D = ln 2 + 1.5 ln x + e, with e made to have no mean, no trend and a variance of 0.3^2."""
     rng = np.random.default_rng(4)

@@ -6,20 +6,26 @@ step says that the step is right, whatever way led to it.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg as la
-from hypothesis import given, settings
-from references.awkward import PUSH, problems
+from hypothesis import Phase, given, settings
+from references.awkward import LINES, PUSH, problems
 from references.recorder import Recorder
 
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.stepping import choose, effective
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.run_many import integrate_together
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
 
+# steps are many and problems small as they are: nothing is gained by making them smaller
+BRIEF = settings(max_examples=8, derandomize=True, phases=(Phase.explicit, Phase.generate))
 LARGE: dict = {}
 STILL = {"tied": False, "moving": False}
 LOOPS = {
@@ -32,13 +38,18 @@ LOOPS = {
 }
 
 
+def forced(patch, rule):
+    """A loop for all problems; those of large ones take them for large."""
+    patch.setattr(choose, "RULES", choose.only(rule))
+    if LOOPS[rule] == LARGE:
+        patch.setattr(effective, "SMALL", 0)
+        patch.setattr(problem_module, "SMALL", 0)
+
+
 def run(awkward, rule):
-    """A problem, its history and instants; large problems' loops take it for large."""
+    """A problem, its history and instants."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(choose, "RULES", choose.only(rule))
-        if LOOPS[rule] == LARGE:
-            patch.setattr(effective, "SMALL", 0)
-            patch.setattr(problem_module, "SMALL", 0)
+        forced(patch, rule)
         problem = awkward.problem()
         recorder = Recorder(len(problem.times))
         history = integrate(problem, [recorder], full_newton=rule == "full Newton")
@@ -116,9 +127,58 @@ def check_steps(problem, history, instants):
 
 @pytest.mark.parametrize("loop", LOOPS)
 def test_steps_are_those_of_the_equations(loop):
-    @settings(max_examples=8, derandomize=True)
+    @settings(BRIEF)
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
         check_steps(*run(awkward, loop))
+
+    holds()
+
+
+def test_steps_of_motions_side_by_side_are_those_of_the_equations():
+    @settings(BRIEF, max_examples=4)
+    @given(problems(moving=False))
+    def holds(awkward):
+        with pytest.MonkeyPatch.context() as patch:
+            forced(patch, "dissection")
+            first = awkward.problem()
+            given = first.loading
+            alike = [first]
+            for factor in (0.6, -0.3, 1.2):  # the same curves of supports, other pushes
+                curves = [(x, factor * y) for x, y in given.curves[:1]] + [*given.curves[1:]]
+                alike.append(replace(first, loading=replace(given, curves=tuple(curves))))
+            recorders = [Recorder(len(first.times)) for _ in alike]
+            found = integrate_together(alike, [[r] for r in recorders])
+        for problem, history, recorder in zip(alike, found, recorders, strict=True):
+            assert history.together == len(alike)
+            check_steps(problem, history, recorder.snapshots)
+
+    holds()
+
+
+def test_conserving_steps_keep_the_energy_and_the_mean_velocity():
+    """To rounding with the laws that have a work of their own."""
+
+    @settings(BRIEF)
+    @given(problems(line_laws=LINES[:1]))
+    def holds(awkward):
+        problem = replace(awkward.problem(), scheme=Scheme(conserving=True))
+        recorder = Recorder(len(problem.times))
+        history = integrate(problem, [recorder])
+        assert history.loop == "conserving"
+        u, v = recorder.of("u"), recorder.of("v")
+        mean = np.diff(problem.times)[:, None] * (v[1:] + v[:-1]) / 2
+        near(np.diff(u, axis=0), mean, np.abs(u).max())
+        K, M, C = problem.K, problem.M, problem.C
+        energy = np.abs(history.energies).max()
+        near(history.energies[:, KINETIC], 0.5 * np.vecdot(v, v @ M.toarray()), energy)
+        near(history.energies[:, ELASTIC], 0.5 * np.vecdot(u, u @ K.toarray()), energy)
+        rate = np.diff(u, axis=0) / np.diff(problem.times)[:, None]
+        damped = np.vecdot(np.diff(u, axis=0), rate @ C.toarray())
+        near(np.diff(history.energies[:, DAMPED]), damped, energy)
+        near(history.imbalance, 0.0, energy)
+        rows = problem.constraints.C.toarray()
+        factors = np.stack([np.interp(problem.times, x, y) for x, y in problem.loading.curves])
+        near(u[1:] @ rows.T, (problem.loading.imposed @ factors).T[1:], np.abs(u).max())
 
     holds()

@@ -11,7 +11,6 @@ from ssilang.language.registry import (
     OPERATORS,
     Chosen,
     Form,
-    Help,
     Like,
     When,
     arg,
@@ -39,7 +38,7 @@ from ssilang.language.values import ListEnti, ListMots, ListReel
 @pytest.fixture
 def declare():
     """Makes an operator ZZZZ for one test; what its forms were given is printed."""
-    made = shared("ZZZZ", "test", Help(""))
+    made = shared("ZZZZ", "test", "")
 
     def add(*entries, **options):
         def show(**values):

@@ -9,7 +9,6 @@ import pytest
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import (
     OPERATORS,
-    Help,
     arg,
     each,
     either,
@@ -23,7 +22,7 @@ from ssilang.language.run.forms_ran import FormsRan
 
 @pytest.fixture
 def declared():
-    made = shared("ZTRY", "test", Help(""))
+    made = shared("ZTRY", "test", "")
 
     @made.form(
         select("how", {"ONCE": (), "DEEP": (select("in", {"LEFT": (), "RIGH": ()}),)}, False)

@@ -129,6 +129,32 @@ def _by_label(mesh: Mesh, label: IntArray) -> list[Mesh]:
     return [Mesh(mesh.nodes, tuple(parts[number])) for number in np.argsort(first)]
 
 
+def by_neighbours(block: CellBlock) -> CellBlock:
+    """Cells in the order in which one comes from the first to all, from side to side.
+
+    Each part of the mesh begins with its first cell.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import breadth_first_order
+
+    n = len(block)
+    cells, corners = _sides(Mesh(block.nodes, (block,)))
+    which, counts = np.unique(corners, axis=0, return_inverse=True, return_counts=True)[1:]
+    which = which.reshape(-1)
+    pairs = [_pairs(cells, which, counts, m)[0] for m in np.unique(counts[counts > 1])]
+    first, second = np.concatenate([np.empty((0, 2), dtype=np.int64), *pairs]).T
+    links = coo_array((np.ones(len(first)), (first, second)), shape=(n, n)).tocsr()
+    found = np.zeros(n, dtype=bool)
+    order: list[IntArray] = []
+    while not found.all():
+        start = int(np.argmin(found))
+        met = breadth_first_order(links, start, directed=False)[0]
+        order.append(met.astype(np.int64))
+        found[order[-1]] = True
+    places = np.concatenate(order) if order else np.empty(0, dtype=np.int64)
+    return CellBlock.make(block.nodes, block.cell_type, block.raw[places], block.colours[places])
+
+
 def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:
     """Cells (m,) and sorted corners (m, 4), filled with -1, of all their sides."""
     owners, corners = [], []

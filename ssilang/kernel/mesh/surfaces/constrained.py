@@ -95,14 +95,25 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     return inside
 
 
-def refined_triangles(mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int = 0) -> Mesh:
+def refined_triangles(
+    mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int = 0, limit: int | None = None
+) -> Mesh:
     """A plane mesh of TRI3 with points added inside until its triangles have the wanted sizes.
 
     Parameters
     ----------
     ids, sizes : array (n,)
         Nodes of the mesh and the sizes wanted there; all nodes are kept.
+    limit : int, optional
+        Most nodes of the result: the sizes grow alike until it is kept.
+
+    Raises
+    ------
+    MeshError
+        If the mesh has more nodes than that already.
     """
+    if limit is not None and limit < len(ids):
+        raise MeshError("kernel.mesh.limit-below-nodes", limit=limit, n_nodes=len(ids))
     border = contour(mesh)
     chart = plane_chart(*contour_chart_data(border))
     nodes = mesh.nodes
@@ -112,8 +123,13 @@ def refined_triangles(mesh: Mesh, ids: IntArray, sizes: FloatArray, colour: int 
     number = np.zeros(int(every.max()) + 1, dtype=np.int64)
     number[every] = np.arange(len(every))
     flat = chart.flatten(nodes.coordinates[every].copy())
-    field = SizeField(chart.flatten(nodes.coordinates[ids].copy()), sizes)
+    at = chart.flatten(nodes.coordinates[ids].copy())
+    field = SizeField(at, sizes)
     points, triangles = fill_contour(flat, number[edge], field, squares=False)
+    while limit is not None and len(points) > limit:
+        sizes = sizes * max(1.1, np.sqrt(len(points) / limit))
+        field = SizeField(at, sizes)
+        points, triangles = fill_contour(flat, number[edge], field, squares=False)
     fresh = points[len(every) :]
     made = nodes.add(chart.lift(fresh), field(fresh)) if len(fresh) else fresh[:, 0].astype(int)
     table = np.concatenate([every, made])

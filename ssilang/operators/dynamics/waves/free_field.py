@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Table
 from ssilang.operators.tables.entries import Entries
@@ -29,14 +29,12 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
     "ZCOL",
     arg("table", "TABLE", en="layers, motion and depths"),
     family="dynamics",
-    help=Help(
-        en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
-        "layers from the top (lists EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), Rayleigh "
-        "damping right at F1 and F2, cut-off FC, acceleration GAMMAO at depth CONTROLE (0.; below "
-        "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
-        "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
-        syntax="TAB2 = ZCOL TAB1 ;",
-    ),
+    en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
+    "layers from the top (lists EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), Rayleigh "
+    "damping right at F1 and F2, cut-off FC, acceleration GAMMAO at depth CONTROLE (0.; below "
+    "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
+    "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
+    syntax="TAB2 = ZCOL TAB1 ;",
 )
 def zcol(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back curves."""

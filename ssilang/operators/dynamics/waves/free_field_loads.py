@@ -9,7 +9,7 @@ import numpy as np
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.tables.entries import Entries
@@ -26,11 +26,9 @@ _MOTION = ("DEPL", "VITE", "ACCE")
     "ZDRM",
     arg("table", "TABLE", en="table of @DRM"),
     family="dynamics",
-    help=Help(
-        en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
-        "it takes.",
-        syntax="CHAR1 = ZDRM TAB1 ;",
-    ),
+    en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
+    "it takes.",
+    syntax="CHAR1 = ZDRM TAB1 ;",
 )
 def zdrm(call: Call, table: Table) -> Load:
     """Forces at the layer."""
@@ -51,11 +49,9 @@ def zdrm(call: Call, table: Table) -> Load:
     "ZBOR",
     arg("table", "TABLE", en="table of @BORDS"),
     family="dynamics",
-    help=Help(
-        en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
-        "whose table it takes.",
-        syntax="CHAR1 = ZBOR TAB1 ;",
-    ),
+    en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
+    "whose table it takes.",
+    syntax="CHAR1 = ZBOR TAB1 ;",
 )
 def zbor(call: Call, table: Table) -> Load:
     """Forces at the edges."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.tables.entries import Entries
@@ -35,11 +35,8 @@ _IMPOSSIBLE = 0.1
     "ZBAS",
     arg("table", "TABLE", en="table of @PASSAGE"),
     family="dynamics",
-    help=Help(
-        en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it "
-        "takes.",
-        syntax="TAB2 = ZBAS TAB1 ;",
-    ),
+    en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it takes.",
+    syntax="TAB2 = ZBAS TAB1 ;",
 )
 def zbas(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back curves over the frequency and the base's record."""

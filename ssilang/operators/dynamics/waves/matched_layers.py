@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.tables.entries import Entries
@@ -15,10 +15,8 @@ FEWEST = 4
     "ZPML",
     arg("table", "TABLE", en="table of @PML"),
     family="dynamics",
-    help=Help(
-        en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
-        syntax="TAB2 = ZPML TAB1 ;",
-    ),
+    en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
+    syntax="TAB2 = ZPML TAB1 ;",
 )
 def zpml(call: Call, table: Table) -> Table:
     """Read the table, hand back three matrices."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Help, arg, operator
+from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.operators.tables.entries import Entries
@@ -28,10 +28,8 @@ DRIFT = 0.02
     "ZOPL",
     arg("table", "TABLE", en="table of @ONDE"),
     family="dynamics",
-    help=Help(
-        en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
-        syntax="TAB2 = ZOPL TAB1 ;",
-    ),
+    en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
+    syntax="TAB2 = ZOPL TAB1 ;",
 )
 def zopl(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back instants."""

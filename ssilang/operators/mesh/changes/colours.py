@@ -10,7 +10,7 @@ from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.mesh.combine import recolour
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Chosen, Help, arg, either, group, main, operator
+from ssilang.language.registry import Chosen, arg, either, group, main, operator
 from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.terms import between
 from ssilang.operators.dispatch import COUL
@@ -28,12 +28,10 @@ _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cel
     "AFCO",
     arg("mesh", "MAILLAGE", en="mesh"),
     family="mesh",
-    help=Help(
-        en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
-        "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
-        "QUA9, white the others.",
-        syntax="GEO1 = AFCO GEO2 ;",
-    ),
+    en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
+    "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
+    "QUA9, white the others.",
+    syntax="GEO1 = AFCO GEO2 ;",
 )
 def afco(mesh: Mesh) -> Mesh:
     """Colour each block by its type of cell."""

@@ -8,7 +8,8 @@ from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.changes.cut_open import cut_open
 from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.language.registry import arg, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
@@ -25,24 +26,26 @@ def _ids(item: Mesh | Point) -> IntArray:
     DISTANCE,
     family="mesh",
     full_name="ELIMINATION",
-    help=Help(
-        en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
-        "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
-        "the other.",
-        syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
-    ),
+    en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
+    "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
+    "the other.",
+    syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
 )
 def elim(
-    session: Session, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
+    call: Call, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
 ) -> Mesh | Point:
     """Merge close nodes; gives the first object back."""
-    ws = workspace(session)
+    ws = workspace(call.session)
     ids = _ids(first)
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
     if second is None:
         merge_close(ws.nodes, ids, near)
     else:
-        merge_between(ws.nodes, ids, _ids(second), near)
+        others = _ids(second)
+        apart = not np.isin(ids, others).any()
+        merge_between(ws.nodes, ids, others, near)
+        if apart and not np.isin(_ids(first), _ids(second)).any():
+            call.warn("operators.mesh.nothing-merged", distance=near)
     return first
 
 
@@ -52,11 +55,9 @@ def elim(
     flag("check", "VERI", en="warn of what is left"),
     family="mesh",
     full_name="REGENERER",
-    help=Help(
-        en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
-        "by PRI6 ... 'VERI' warns when some are left.",
-        syntax="GEO1 = REGE GEO2 ('VERI') ;",
-    ),
+    en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
+    "by PRI6 ... 'VERI' warns when some are left.",
+    syntax="GEO1 = REGE GEO2 ('VERI') ;",
 )
 def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     """Replace degenerate cells."""
@@ -73,11 +74,9 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     arg("line", "MAILLAGE", en="line of its edges"),
     family="mesh",
     full_name="DEDOUBLER",
-    help=Help(
-        en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
-        "tip inside the surface. Gives the new surface and the line on the new nodes.",
-        syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
-    ),
+    en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
+    "tip inside the surface. Gives the new surface and the line on the new nodes.",
+    syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
 )
 def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
     """Double the nodes of a line."""

@@ -8,7 +8,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Help, arg, flag, many, operator
+from ssilang.language.registry import arg, flag, many, operator
 from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.workspace import workspace
@@ -39,11 +39,9 @@ _EN = (
     _PART,
     family="mesh",
     full_name="RACCORD",
-    help=Help(
-        en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
-        "first line sees the joint on the right.",
-        syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
-    ),
+    en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
+    "first line sees the joint on the right.",
+    syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
 )
 def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between lines."""
@@ -60,12 +58,10 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
     _PART,
     family="mesh",
     full_name="LIAISON",
-    help=Help(
-        en="Surface of joint cells (LIA3, LIA4, LIA6, LIA8) between two surfaces. "
-        + _EN
-        + "The normal of the first surface goes from the second to the first (opening).",
-        syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
-    ),
+    en="Surface of joint cells (LIA3, LIA4, LIA6, LIA8) between two surfaces. "
+    + _EN
+    + "The normal of the first surface goes from the second to the first (opening).",
+    syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
 )
 def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between surfaces."""
@@ -79,11 +75,9 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
     arg("mesh", "MAILLAGE", en="surfaces or volumes"),
     DISTANCE,
     family="mesh",
-    help=Help(
-        en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
-        "of coincident edges of surfaces, or faces of volumes, within a distance.",
-        syntax="GEO2 = GENJ GEO1 FLOT1 ;",
-    ),
+    en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
+    "of coincident edges of surfaces, or faces of volumes, within a distance.",
+    syntax="GEO2 = GENJ GEO1 FLOT1 ;",
 )
 def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     """Joints between the touching parts of a mesh."""
@@ -98,11 +92,9 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     flag("keep", "NOOP", en="accepted, without effect"),
     family="mesh",
     full_name="TASSER",
-    help=Help(
-        en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
-        "nodes in the order of these numbers, as POI1.",
-        syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
-    ),
+    en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
+    "nodes in the order of these numbers, as POI1.",
+    syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
 )
 def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:
     """The nodes by number, which stay as they are."""

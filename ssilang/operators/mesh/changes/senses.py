@@ -15,7 +15,8 @@ from ssilang.kernel.mesh.orientation import (
     orient_towards,
     reversed_line,
 )
-from ssilang.language.registry import Help, arg, choice, main, operator, opt
+from ssilang.kernel.mesh.queries.partition import by_neighbours
+from ssilang.language.registry import arg, choice, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.workspace import workspace
@@ -42,13 +43,11 @@ def inverted(mesh: Mesh) -> Mesh:
     opt("target", "POINT", en="direction, or point"),
     family="mesh",
     full_name="ORIENTER",
-    help=Help(
-        en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
-        "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
-        "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
-        "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
-        syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
-    ),
+    en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
+    "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
+    "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
+    "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
+    syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
     """Orient cells."""
@@ -64,10 +63,8 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     arg("mesh", "MAILLAGE", en="lines or surfaces"),
     family="mesh",
     full_name="VERSENS",
-    help=Help(
-        en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
-        syntax="GEO2 = VERS GEO1 ;",
-    ),
+    en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
+    syntax="GEO2 = VERS GEO1 ;",
 )
 def vers(mesh: Mesh) -> Mesh:
     """Check the sense of description."""
@@ -75,9 +72,10 @@ def vers(mesh: Mesh) -> Mesh:
 
 
 @ORDO.form(
-    main("mesh", "MAILLAGE", en="lines or points"),
+    main("mesh", "MAILLAGE", en="mesh"),
     syntax="MAIL2 = ORDO MAIL1 ;",
-    en="Of a mesh: lines put end to end, points by distance from the first one.",
+    en="Of a mesh: lines put end to end, points by distance from the first one, other cells from "
+    "neighbour to neighbour.",
 )
 def ordered(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""
@@ -89,8 +87,10 @@ def _ordered_block(block: CellBlock) -> CellBlock:
         at = block.coordinates[:, 0]
         order = np.argsort(np.linalg.norm(at - at[0], axis=1), kind="stable")
         return CellBlock.make(block.nodes, "POI1", block.raw[order], block.colours[order])
-    if block.kind.dimension > 1 or block.kind.joint:
+    if block.kind.joint:
         return block
+    if block.kind.dimension > 1:
+        return by_neighbours(block)
     return chained(Mesh(block.nodes, (_in_one_sense(block),))).blocks[0]
 
 

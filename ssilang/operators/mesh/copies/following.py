@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.changes.follow import followed
 from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import ANY, Help, Like, arg, flag, many, operator, said
+from ssilang.language.registry import ANY, Like, arg, flag, many, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
@@ -36,17 +36,15 @@ _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="object
     _EVEN,
     family="mesh",
     full_name="DEDUIRE",
-    help=Help(
-        en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
-        "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
-        "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
-        "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
-        "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
-        "by the angle.",
-        syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
-        "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
-        "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
-    ),
+    en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
+    "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
+    "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
+    "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
+    "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
+    "by the angle.",
+    syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
+    "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
+    "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
 )
 def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
     """Copy a mesh that follows its master nodes."""

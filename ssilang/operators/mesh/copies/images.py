@@ -27,7 +27,7 @@ from ssilang.kernel.mesh.changes.transform import (
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.surfaces.facets import facet_shape
-from ssilang.language.registry import Argument, Chosen, Help, Like, arg, many, operator, said
+from ssilang.language.registry import Argument, Chosen, Like, arg, many, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
@@ -211,13 +211,11 @@ _SHIFTED = (
     *_SHIFTED,
     gives=Like("objects"),
     family="mesh",
-    help=Help(
-        en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
-        "UZ); nodes that several objects share are copied once. As many results as objects. A "
-        "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
-        "as points do that are made.",
-        syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
-    ),
+    en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
+    "UZ); nodes that several objects share are copied once. As many results as objects. A "
+    "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
+    "as points do that are made.",
+    syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
 )
 def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
     """Copy and move."""
@@ -230,12 +228,10 @@ def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
     gives=Like("objects"),
     family="mesh",
     full_name="MOINS",
-    help=Help(
-        en="Copies of objects moved against a vector or a field of displacements; between two "
-        "meshes of the same structure, the field of displacements that takes the second to the "
-        "first.",
-        syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
-    ),
+    en="Copies of objects moved against a vector or a field of displacements; between two "
+    "meshes of the same structure, the field of displacements that takes the second to the "
+    "first.",
+    syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
 )
 def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
     """Copy and move backwards."""
@@ -267,11 +263,9 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
     when=IN_PLANE,
     family="mesh",
     full_name="TOURNER",
-    help=Help(
-        en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
-        "Vectors in nodal fields and stresses and strains in cell fields turn too.",
-        syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
-    ),
+    en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
+    "Vectors in nodal fields and stresses and strains in cell fields turn too.",
+    syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
 )
 def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
     """Copy and turn about a point."""
@@ -308,10 +302,8 @@ def _turned(
     gives=Like("objects"),
     family="mesh",
     full_name="SYMETRIE",
-    help=Help(
-        en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
-        syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
-    ),
+    en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
+    syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
 )
 def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
     """Copy and mirror about a point."""
@@ -342,10 +334,8 @@ def mirrored_about_plane(
     gives=Like("objects"),
     family="mesh",
     full_name="HOMOTHETIE",
-    help=Help(
-        en="Copies of objects scaled by a ratio about a point.",
-        syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
-    ),
+    en="Copies of objects scaled by a ratio about a point.",
+    syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
 )
 def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
     """Copy and scale."""
@@ -361,11 +351,9 @@ def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tupl
     gives=Like("objects"),
     family="mesh",
     full_name="AFFINITE",
-    help=Help(
-        en="Copies of objects stretched by a ratio along the direction of two points, the first of "
-        "which stays in place.",
-        syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
-    ),
+    en="Copies of objects stretched by a ratio along the direction of two points, the first of "
+    "which stays in place.",
+    syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
 )
 def affi(
     call: Call, objects: Sequence[Any], ratio: float, fixed: Point, towards: Point
@@ -381,13 +369,11 @@ def affi(
     gives=Like("objects"),
     family="mesh",
     full_name="PROJETER",
-    help=Help(
-        en="Copies of objects projected along a vector ('CYLI', the default) or from a point "
-        "('CONI') on a plane, sphere, cylinder, cone or torus; in 2D on a line or a circle.",
-        syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
-        "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
-        "'DROI' P1 P2 | 'CERC' C1 P1 ;",
-    ),
+    en="Copies of objects projected along a vector ('CYLI', the default) or from a point "
+    "('CONI') on a plane, sphere, cylinder, cone or torus; in 2D on a line or a circle.",
+    syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
+    "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
+    "'DROI' P1 P2 | 'CERC' C1 P1 ;",
 )
 def proj(
     call: Call, rays: tuple[str, Point], surface: Chosen, objects: Sequence[Any]

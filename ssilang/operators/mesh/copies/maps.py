@@ -87,7 +87,7 @@ RAYS = (
 )
 """A projection that says how its rays go."""
 
-VECTOR = (arg("vector", "POINT", en="direction"), _SURFACE)
+VECTOR = (arg("vector", "POINT", en="direction", usual=NOT_ZERO), _SURFACE)
 """A projection along a vector."""
 
 

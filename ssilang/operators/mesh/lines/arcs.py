@@ -20,7 +20,7 @@ from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, choice, flag, operator, opt, said
+from ssilang.language.registry import arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.mesh.lines.ends import (
@@ -59,14 +59,12 @@ from ssilang.operators.workspace import workspace
     family="mesh",
     full_name="CERCLE",
     aliases=("C",),
-    help=Help(
-        en="Circular arc: around a centre (the shorter arc, the default), through three points "
-        "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
-        "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
-        syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-        "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-        "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
-    ),
+    en="Circular arc: around a centre (the shorter arc, the default), through three points "
+    "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
+    "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
+    syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
+    "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
+    "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
 )
 def cerc(
     call: Call,
@@ -123,10 +121,8 @@ def turned_point(
     END,
     SIZES,
     family="mesh",
-    help=Help(
-        en="Circular arc through three points. " + SIZES_EN,
-        syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
-    ),
+    en="Circular arc through three points. " + SIZES_EN,
+    syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
 )
 def cer3(
     call: Call,
@@ -148,11 +144,9 @@ def cer3(
     END,
     SIZES,
     family="mesh",
-    help=Help(
-        en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
-        "the circle and are tangent to it. " + SIZES_EN,
-        syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-    ),
+    en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
+    "the circle and are tangent to it. " + SIZES_EN,
+    syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
 )
 def parc(
     call: Call,
@@ -192,11 +186,9 @@ def parc(
     flag("double", "DOUBLE", en="two arcs: not available"),
     family="mesh",
     full_name="CONGE",
-    help=Help(
-        en="Rounds the corner between two lines, the second following the first, by an arc of a "
-        "given radius. Gives the first line cut short, the arc and the second line cut short.",
-        syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
-    ),
+    en="Rounds the corner between two lines, the second following the first, by an arc of a "
+    "given radius. Gives the first line cut short, the arc and the second line cut short.",
+    syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
 )
 def cong(
     call: Call,

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
@@ -20,10 +21,11 @@ from ssilang.kernel.mesh.lines.lines import (
     mesh_curve,
 )
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.language.registry import arg, key, many, opt
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
+from ssilang.language.vocabulary.terms import NOT_ZERO, POSITIVE, between
 from ssilang.operators.workspace import Workspace, workspace
 
 SIZES_EN = (
@@ -39,7 +41,7 @@ COUNT = opt(
     en="number of elements, graded by the mesh sizes if negative; without it these decide",
     range=NOT_ZERO,
 )
-ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree", range=ANY_NUMBER)
+ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree", usual=between(-360.0, 360.0))
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
@@ -53,6 +55,7 @@ END = opt(
     "end", "POINT", "MAILLAGE", en="end, or a line to reach; without it the line START is closed"
 )
 
+FLAT = 1e-12  # size of a cell that has none, beside that of its mesh
 AXIS = many("axis", "POINT", at_least=1, en="centre, or in space two points of the axis")
 
 
@@ -143,6 +146,37 @@ def positions(ws: Workspace, *nodes: int) -> list[FloatArray]:
     return [ws.nodes.coordinates[n].copy() for n in nodes]
 
 
+def warn_of_flat_cells(call: Call, made: Mesh) -> None:
+    """Warn of new cells without length or area, and of quadrangles whose sides cross.
+
+    One cell without length may be a spring or a joint between points.
+    """
+    sizes = np.concatenate([cell_measures(b) for b in made.blocks])
+    extent = float(np.ptp(made.nodes.coordinates[made.sorted_node_ids], axis=0).max(initial=0.0))
+    flat = int((np.abs(sizes) <= FLAT * extent**made.dimension).sum())
+    if flat > 1:
+        call.warn("operators.mesh.cells-without-size", count=flat, of=len(sizes))
+    crossed = sum(
+        int(_crossed(b).sum())
+        for b in made.blocks
+        if len(b.kind.corners) == 4 and b.kind.dimension == 2
+    )
+    if crossed:
+        call.warn("operators.mesh.cells-that-cross", count=crossed, of=len(sizes))
+
+
+def _crossed(block: CellBlock) -> NDArray[np.bool_]:
+    """Quadrangles (n,) whose halves, along either diagonal, lie on opposite sides."""
+    x = block.coordinates[:, list(block.kind.corners)]
+    products = []
+    for y in (x, np.roll(x, -1, axis=1)):
+        across = y[:, 2] - y[:, 0]
+        one, other = np.cross(y[:, 1] - y[:, 0], across), np.cross(across, y[:, 3] - y[:, 0])
+        products.append((one * other).sum(axis=1))
+    crossed: NDArray[np.bool_] = (products[0] < 0.0) & (products[1] < 0.0)
+    return crossed
+
+
 def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) -> Mesh:
     """The line along a curve between the ends, joined to the lines on either side."""
     ws = workspace(call.session)
@@ -150,6 +184,7 @@ def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) ->
     parts = subdivide(length, *cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end)), cuts.count)
     quadratic = chosen_family(ws).quadratic
     line = mesh_curve(ws.nodes, curve, ends.start, ends.end, parts, quadratic, ws.colour)
+    warn_of_flat_cells(call, line)
     pieces = [m for m in (ends.before, line, ends.after) if m is not None]
     return union(*pieces, as_given=True)
 
@@ -198,4 +233,5 @@ def drawn_from(
     line = mesh_curve(
         ws.nodes, curve, first, first if closed else None, parts, quadratic, ws.colour
     )
+    warn_of_flat_cells(call, line)
     return line if before is None else union(before, line, as_given=True)

@@ -11,10 +11,10 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
 from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, choice, many, operator, opt, said
+from ssilang.language.registry import arg, choice, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
@@ -43,10 +43,8 @@ from ssilang.operators.workspace import workspace
     family="mesh",
     full_name="DROIT",
     aliases=("D",),
-    help=Help(
-        en="Straight line between two points. " + SIZES_EN,
-        syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-    ),
+    en="Straight line between two points. " + SIZES_EN,
+    syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
 )
 def droi(
     call: Call,
@@ -73,13 +71,11 @@ def droi(
     SIZES,
     family="mesh",
     full_name="LIGNE",
-    help=Help(
-        en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
-        "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
-        + SIZES_EN,
-        syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
-        "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
-    ),
+    en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
+    "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
+    + SIZES_EN,
+    syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
+    "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
 )
 def lign(
     call: Call,
@@ -113,7 +109,7 @@ def lign(
     said("TRAN"),
     COUNT,
     START,
-    arg("vector", "POINT", en="vector to the end"),
+    arg("vector", "POINT", en="vector to the end", usual=NOT_ZERO),
     SIZES,
 )
 def segment(
@@ -142,11 +138,9 @@ def segment(
     many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
     family="mesh",
     full_name="QUELCONQUE",
-    help=Help(
-        en="Broken line through points, in order: given one by one, as a mesh of points, or by "
-        "lists of coordinates. With SEG3 every other point is the middle of an element.",
-        syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
-    ),
+    en="Broken line through points, in order: given one by one, as a mesh of points, or by "
+    "lists of coordinates. With SEG3 every other point is the middle of an element.",
+    syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
 )
 def quel(
     call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]

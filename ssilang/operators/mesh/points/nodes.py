@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Help, arg, operator, said
+from ssilang.language.registry import arg, operator, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.terms import POSITIVE
@@ -19,10 +19,8 @@ from ssilang.operators.workspace import workspace
     arg("point", "POINT", en="point"),
     family="mesh",
     full_name="NOEUD",
-    help=Help(
-        en="The point with a node number, or the node number of a point.",
-        syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
-    ),
+    en="The point with a node number, or the node number of a point.",
+    syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
 )
 def noeu(point: Point) -> int:
     """The number of a point's node."""
@@ -44,10 +42,8 @@ def numbered(session: Session, call: Call, number: int) -> Point:
     arg("second", "POINT", en="point that it becomes"),
     family="mesh",
     full_name="CONFONDRE",
-    help=Help(
-        en="Makes the first point the same node as the second, wherever it is.",
-        syntax="CONF POIN1 POIN2 ;",
-    ),
+    en="Makes the first point the same node as the second, wherever it is.",
+    syntax="CONF POIN1 POIN2 ;",
 )
 def conf(first: Point, second: Point) -> None:
     """Merge two points."""
@@ -60,10 +56,8 @@ def conf(first: Point, second: Point) -> None:
     arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
     full_name="BARYCENTRE",
-    help=Help(
-        en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
-        syntax="POIN1 = BARY GEO1 ('ELEM') ;",
-    ),
+    en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
+    syntax="POIN1 = BARY GEO1 ('ELEM') ;",
 )
 def bary(session: Session, mesh: Mesh | Point) -> Point:
     """Mean position of the nodes."""

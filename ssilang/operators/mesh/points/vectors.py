@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Help, arg, main, operator, opt
+from ssilang.language.registry import arg, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
@@ -73,10 +73,8 @@ def quarter_turn(first: Point) -> Point:
     opt("third", "POINT", en="vector, in space"),
     family="mesh",
     full_name="PMIXTE",
-    help=Help(
-        en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
-        syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
-    ),
+    en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
+    syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
 )
 def pmix(session: Session, call: Call, first: Point, second: Point, third: Point | None) -> float:
     """Mixed product."""
@@ -92,7 +90,8 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
     "NORM",
     arg("vector", "POINT", en="vector"),
     family="mesh",
-    help=Help(en="Length of a point as a vector.", syntax="FLOT1 = NORM VEC1 ;"),
+    en="Length of a point as a vector.",
+    syntax="FLOT1 = NORM VEC1 ;",
 )
 def norm(vector: Point) -> float:
     """Length of a vector."""

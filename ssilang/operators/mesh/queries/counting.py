@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.queries.measure import (
     node_sizes,
     total_measure,
 )
-from ssilang.language.registry import Help, arg, choice, operator, opt, said
+from ssilang.language.registry import arg, choice, operator, opt, said
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, ListMots
 from ssilang.messages.message import Teller
@@ -26,10 +26,8 @@ from ssilang.operators.dispatch import listing
     arg("mesh", "MAILLAGE", en="mesh"),
     opt("types", "LISTMOTS", en="types of cells", kind="element"),
     family="mesh",
-    help=Help(
-        en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
-        syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
-    ),
+    en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
+    syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
 )
 def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     """Count cells, or cells by type."""
@@ -43,7 +41,8 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     "NBNO",
     arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
-    help=Help(en="Number of nodes of a mesh.", syntax="N1 = NBNO GEO1 ;"),
+    en="Number of nodes of a mesh.",
+    syntax="N1 = NBNO GEO1 ;",
 )
 def nbno(mesh: Mesh | Point) -> int:
     """Count nodes."""
@@ -58,11 +57,9 @@ def nbno(mesh: Mesh | Point) -> int:
     ),
     family="mesh",
     full_name="MESURE",
-    help=Help(
-        en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
-        "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
-        syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
-    ),
+    en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
+    "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
+    syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
 )
 def mesu(mesh: Mesh, what: str | None) -> float:
     """Measure a mesh."""
@@ -124,11 +121,9 @@ def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
     arg("small", "MAILLAGE", en="mesh"),
     arg("large", "MAILLAGE", en="mesh that may hold it"),
     family="mesh",
-    help=Help(
-        en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
-        "nodes of the first belong to the second.",
-        syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
-    ),
+    en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
+    "nodes of the first belong to the second.",
+    syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
 )
 def refe(small: Mesh, large: Mesh) -> bool:
     """Whether a mesh is within another one."""

@@ -13,7 +13,7 @@ from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
 from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
-from ssilang.language.registry import Help, arg, flag, key, operator, opt, said
+from ssilang.language.registry import arg, flag, key, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListReel
@@ -39,19 +39,17 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
     arg("mesh", "MAILLAGE", en="cells"),
     family="mesh",
     full_name="INDICATEUR",
-    help=Help(
-        en="Field in cells of indicators of their shape. 'PLAN' of quadrangles: 100 for a plane "
-        "one, less by the angle between its two normals (0 at 180 degrees). 'ASPE' of TRI3 and "
-        "TET4: longest edge over shortest height, 1 for an equilateral cell. 'SKEW' of TRI3 and "
-        "TET4: share of the measure of the equilateral cell in the same circumscribed sphere that "
-        "is lacking, 0 to 1. 'TOPO': quality of TRI3 or TET4, 0 for a cell without measure to 1 "
-        "for an equilateral one, of edges of the length wanted where METR1 gives it: a number (the "
-        "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
-        "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
-        "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
-        syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
-        "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
-    ),
+    en="Field in cells of indicators of their shape. 'PLAN' of quadrangles: 100 for a plane "
+    "one, less by the angle between its two normals (0 at 180 degrees). 'ASPE' of TRI3 and "
+    "TET4: longest edge over shortest height, 1 for an equilateral cell. 'SKEW' of TRI3 and "
+    "TET4: share of the measure of the equilateral cell in the same circumscribed sphere that "
+    "is lacking, 0 to 1. 'TOPO': quality of TRI3 or TET4, 0 for a cell without measure to 1 "
+    "for an equilateral one, of edges of the length wanted where METR1 gives it: a number (the "
+    "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
+    "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
+    "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
+    syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
+    "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
 )
 def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
     """Shape of cells."""
@@ -133,12 +131,10 @@ _CHECKS = (
     "VERM",
     arg("mesh", "MAILLAGE", en="mesh"),
     family="mesh",
-    help=Help(
-        en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
-        "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
-        "names MESH1 MESH2 ..., NODE1 ...",
-        syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
-    ),
+    en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
+    "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
+    "names MESH1 MESH2 ..., NODE1 ...",
+    syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
 )
 def verm(session: Session, mesh: Mesh) -> None:
     """Check a mesh."""

@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.combine import (
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
-from ssilang.language.registry import Help, arg, choice, flag, operator, opt
+from ssilang.language.registry import arg, choice, flag, operator, opt
 from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
@@ -26,11 +26,9 @@ from ssilang.operators.workspace import workspace
     arg("mesh", "MAILLAGE", en="closed line or closed surface"),
     opt("tolerance", "FLOTTANT", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
-    help=Help(
-        en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
-        "(3D); of a surface in 2D the contour is taken.",
-        syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
-    ),
+    en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
+    "(3D); of a surface in 2D the contour is taken.",
+    syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
 )
 def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) -> bool:
     """Whether a point is inside."""
@@ -63,13 +61,11 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
     ),
     family="mesh",
     full_name="INCLUS",
-    help=Help(
-        en="Cells of a mesh that lie inside a closed plane line ('LARG', the default: nodes on the "
-        "line count; 'STRI': they do not; 'BARY': by the cells' centres), or with 'VOLU' inside "
-        "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
-        "allows an empty result.",
-        syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
-    ),
+    en="Cells of a mesh that lie inside a closed plane line ('LARG', the default: nodes on the "
+    "line count; 'STRI': they do not; 'BARY': by the cells' centres), or with 'VOLU' inside "
+    "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
+    "allows an empty result.",
+    syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
 )
 def incl(
     volume: bool, mesh: Mesh, outer: Mesh, how: str | None, allowed: bool, margin: float | None

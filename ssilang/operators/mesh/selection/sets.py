@@ -18,7 +18,7 @@ from ssilang.kernel.mesh.combine import (
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
-from ssilang.language.registry import Help, arg, flag, main, operator, opt, said
+from ssilang.language.registry import arg, flag, main, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
 from ssilang.operators.mesh.tolerance import DISTANCE
@@ -103,12 +103,10 @@ _NONE = np.empty(0, dtype=np.int64)
     opt("second", "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"),
     family="mesh",
     full_name="VISAVIS",
-    help=Help(
-        en="Nodes of a mesh that have a node of a second one at their place, and these nodes, as "
-        "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
-        "same within the distance given, else within a tenth of the density in force.",
-        syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
-    ),
+    en="Nodes of a mesh that have a node of a second one at their place, and these nodes, as "
+    "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
+    "same within the distance given, else within a tenth of the density in force.",
+    syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
 )
 def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -> tuple[Mesh, Mesh]:
     """Pairs of nodes."""

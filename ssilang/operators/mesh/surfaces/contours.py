@@ -27,7 +27,6 @@ from ssilang.kernel.mesh.surfaces.polynomial_surface import (
 from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
 from ssilang.language.registry import (
     Chosen,
-    Help,
     arg,
     flag,
     key,
@@ -97,14 +96,12 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
     ),
     family="mesh",
     full_name="SURFACE",
-    help=Help(
-        en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
-        "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
-        "some triangles, and (POLY) polygons with some triangles; with an element of lines it is "
-        "triangles. A nodal field of one component gives the mesh sizes to respect.",
-        syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
-        "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
-    ),
+    en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
+    "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
+    "some triangles, and (POLY) polygons with some triangles; with an element of lines it is "
+    "triangles. A nodal field of one component gives the mesh sizes to respect.",
+    syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
+    "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
 )
 def surf(
     session: Session,
@@ -141,13 +138,11 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
     select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN),
     family="mesh",
     full_name="DALLER",
-    help=Help(
-        en="Surface on four lines that form a contour: a grid when opposite sides have the same "
-        "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
-        "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
-        syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
-        "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
-    ),
+    en="Surface on four lines that form a contour: a grid when opposite sides have the same "
+    "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
+    "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
+    syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
+    "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
 )
 def dall(
     session: Session, side1: Mesh, side2: Mesh, side3: Mesh, side4: Mesh, shape: Chosen | None

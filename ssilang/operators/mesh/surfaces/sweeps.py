@@ -22,9 +22,8 @@ from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import reversed_line
-from ssilang.language.registry import Help, arg, operator, opt
+from ssilang.language.registry import arg, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.terms import NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
@@ -36,6 +35,7 @@ from ssilang.operators.mesh.lines.ends import (
     chosen_family,
     count_and_angle,
     cuts_of,
+    warn_of_flat_cells,
 )
 from ssilang.operators.workspace import workspace
 
@@ -84,7 +84,9 @@ def _swept(
     path = path_of(line)
     layers = layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
     surface = chosen_family(workspace(call.session)).need_surface()
-    return grown(mesh, sweep_line(line, path, layers, surface))
+    made = sweep_line(line, path, layers, surface)
+    warn_of_flat_cells(call, made)
+    return grown(mesh, made)
 
 
 @operator(
@@ -92,13 +94,11 @@ def _swept(
     _SWEPT,
     LAYERS,
     SIZES,
-    arg("vector", "POINT", en="vector", unit="m"),
+    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
     family="mesh",
     full_name="TRANSLATION",
-    help=Help(
-        en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
-        syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
-    ),
+    en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
+    syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
 )
 def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
     """Sweep a line along a vector."""
@@ -116,11 +116,9 @@ def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point
     AXIS,
     family="mesh",
     full_name="ROTATION",
-    help=Help(
-        en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
-        "(3D). " + _LAYERS_EN,
-        syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
-    ),
+    en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
+    "(3D). " + _LAYERS_EN,
+    syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
 )
 def rota(
     call: Call,
@@ -153,12 +151,10 @@ def turning(
     arg("goal", "MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
     family="mesh",
     full_name="REGLER",
-    help=Help(
-        en="Ruled surface between two lines with the same cells, described in the same sense. "
-        + _LAYERS_EN
-        + " If the second is a surface its side 1 is reached.",
-        syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
-    ),
+    en="Ruled surface between two lines with the same cells, described in the same sense. "
+    + _LAYERS_EN
+    + " If the second is a surface its side 1 is reached.",
+    syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
 )
 def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
     """Sweep a line to another one."""
@@ -204,14 +200,14 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
     arg("way", "MAILLAGE", en="line along which it goes"),
     family="mesh",
     full_name="GENERATRICE",
-    help=Help(
-        en="Surface swept by a line moved parallel to itself along another line, one layer for "
-        "each of its cells.",
-        syntax="SURF1 = LIG1 GENE LIG2 ;",
-    ),
+    en="Surface swept by a line moved parallel to itself along another line, one layer for "
+    "each of its cells.",
+    syntax="SURF1 = LIG1 GENE LIG2 ;",
 )
-def gene(session: Session, line: Mesh, way: Mesh) -> Mesh:
+def gene(call: Call, line: Mesh, way: Mesh) -> Mesh:
     """Sweep a line along another line."""
     path, layers = generator_path(way)
-    surface = chosen_family(workspace(session)).need_surface()
-    return sweep_line(line, path, layers, surface)
+    surface = chosen_family(workspace(call.session)).need_surface()
+    made = sweep_line(line, path, layers, surface)
+    warn_of_flat_cells(call, made)
+    return made

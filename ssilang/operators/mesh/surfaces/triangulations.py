@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -10,6 +12,8 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
+from ssilang.kernel.mesh.queries.quality import quality_in_metric
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
 from ssilang.kernel.mesh.surfaces.constrained import (
     delaunay_mesh,
@@ -17,15 +21,16 @@ from ssilang.kernel.mesh.surfaces.constrained import (
     refined_triangles,
     triangulated_with_lines,
 )
-from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
+from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data, fill_surface
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
-from ssilang.language.registry import Help, arg, flag, operator, opt
+from ssilang.kernel.mesh.volumes.volume import fill_volume
+from ssilang.language.registry import arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.workspace import workspace
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.operators.workspace import Workspace, workspace
 
 
 @operator(
@@ -35,19 +40,22 @@ from ssilang.operators.workspace import workspace
     opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     full_name="TRIANGULATION",
-    help=Help(
-        en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
-        "refines them); lines that end inside, lie free there or cut the domain in parts are "
-        "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
-        "points: TRI3 in 2D, TET4 in 3D.",
-        syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
-    ),
+    en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
+    "refines them); lines that end inside, lie free there or cut the domain in parts are "
+    "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
+    "points: TRI3 in 2D, TET4 in 3D.",
+    syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
 )
 def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     """Triangulate a contour or points."""
     ws = workspace(session)
     if mesh.dimension == 0:
         return delaunay_mesh(mesh, ws.dimension, ws.colour)
+    return _of_given_points(mesh, ws)
+
+
+def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
+    """Triangles inside lines, whose points alone are their corners."""
     if not is_closed(mesh):
         return triangulated_with_lines(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
@@ -59,6 +67,53 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     return Mesh.of(mesh.nodes, "TRI3", ids[table], ws.colour)
 
 
+@tria.form(
+    said("TOPO"),
+    arg("boundary", "MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
+    choice("points", ("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
+    opt("parameters", "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"),
+    syntax="MAIL1 = TRIA 'TOPO' MAIL2 ('AJNO' | 'NOAJ') (TAB1) ;",
+    en="TOPO: triangles inside lines, tetrahedra inside a surface, with new points inside for the "
+    "size of the boundary ('NOAJ', in the plane: without). The boundary is kept. The table gets "
+    "the mesh, by how much it misses the volume, the number of its flat cells, and the least, "
+    "mean and largest quality (INDI 'TOPO').",
+)
+def tria_topo(
+    call: Call, session: Session, boundary: Mesh, points: str, parameters: Table | None
+) -> Mesh:
+    """Fill a boundary with simplices."""
+    ws = workspace(session)
+    plane = boundary.dimension == 1
+    if not plane and points == "NOAJ":
+        raise call.error("operators.mesh.volume-needs-points", boundary)
+    if not plane:
+        made = fill_volume(boundary, ws.colour)
+    elif points == "NOAJ":
+        made = _of_given_points(boundary, ws)
+    else:
+        chart = plane_chart(*contour_chart_data(boundary))
+        made = fill_surface(boundary, chart, "TRI3", ws.colour)
+    if parameters is not None:
+        wanted = enclosed_area(boundary) if plane else enclosed_volume(boundary)
+        (block,) = made.blocks
+        measures, quality = cell_measures(block), quality_in_metric(block.coordinates, None)
+        told: dict[str, Any] = {
+            "curtopo": made,
+            "dvol": float(measures.sum()) - abs(wanted),
+            "nnul": int((measures <= _FLAT * measures.mean()).sum()),
+            "miq": float(quality.min()),
+            "moq": float(quality.mean()),
+            "maq": float(quality.max()),
+        }
+        for name, value in told.items():
+            parameters.set(Mot(name), value)
+    return made
+
+
+_FLAT = 1e-11
+"""Share of the mean cell below which one counts as flat."""
+
+
 @operator(
     "RAFT",
     arg("mesh", "MAILLAGE", en="plane triangles"),
@@ -68,13 +123,11 @@ def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
         en="mesh sizes wanted; without it the densities of the nodes",
         unit="m",
     ),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
-    help=Help(
-        en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
-        "nodes) by new points inside; the contour is kept.",
-        syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
-    ),
+    en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
+    "nodes) by new points inside; the contour is kept.",
+    syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
 )
 def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
     """Refine triangles."""
@@ -85,7 +138,7 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
     if not (wanted > 0).all():
         raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour)
+    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator(
@@ -94,12 +147,10 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
     family="mesh",
     full_name="COUTURE",
-    help=Help(
-        en="Triangles between two lines described in the same sense, whatever their numbers of "
-        "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
-        "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
-        syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
-    ),
+    en="Triangles between two lines described in the same sense, whatever their numbers of "
+    "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
+    "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
+    syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
 )
 def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     """Stitch lines together, or join cells to a point."""
@@ -115,14 +166,12 @@ def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     opt("weights", "CHPOINT", en="weights of the points", unit="m"),
     family="mesh",
     full_name="VORONOI",
-    help=Help(
-        en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
-        "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
-        "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
-        "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
-        "numbers, 'VOIS', the points of the cells beside it.",
-        syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
-    ),
+    en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
+    "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
+    "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
+    "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
+    "numbers, 'VOIS', the points of the cells beside it.",
+    syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
 )
 def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
     """Cells, edges and neighbours."""

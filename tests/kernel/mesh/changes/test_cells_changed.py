@@ -118,6 +118,24 @@ def test_orientation_repairs_cells_turned_inside_out() -> None:
     assert (signed_volumes(orient(spoilt, 3).single_block()) > 0).all()
 
 
+def test_orientation_leaves_cells_of_less_than_the_space() -> None:
+    nodes = NodeTable()
+    nodes.add(np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]]))
+    cells = {"TRI3": [[0, 2, 1], [0, 2, 3]], "SEG2": [[1, 0], [2, 3]]}
+    parts = [Mesh.of(nodes, kind, np.array(ids)) for kind, ids in cells.items()]
+    mixed = union(*parts, as_given=True)
+    for dimension, turned in ((1, "SEG2"), (2, "TRI3"), (3, "")):
+        found = {b.cell_type: b.connectivity.tolist() for b in orient(mixed, dimension).blocks}
+        wanted = {"TRI3": [[0, 1, 2], [0, 2, 3]], "SEG2": [[0, 1], [3, 2]]}
+        for kind, given in cells.items():
+            same = sorted(map(sorted, found[kind])) == sorted(map(sorted, given))
+            assert same
+            if kind != turned:
+                assert found[kind] == given
+        if turned == "SEG2":
+            assert found[turned] == wanted[turned]
+
+
 def test_opposed_neighbours_are_found() -> None:
     base = line(NodeTable(), [0, 0], [1, 0], 2)
     plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=1), "QUA4")

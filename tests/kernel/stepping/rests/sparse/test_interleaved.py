@@ -8,7 +8,6 @@ import scipy.sparse as sparse
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.stepping import effective
-from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
 from ssilang.kernel.stepping.rests.sparse import interleaved as interleaved_loop
 from ssilang.kernel.stepping.run import integrate
@@ -68,20 +67,10 @@ def test_laws_of_the_joint(joint, words, damping):
     assert (openings < 0.0).any()
 
 
-@pytest.mark.parametrize("scheme", [hht(0.1), generalised_alpha(0.6), newmark(0.3025, 0.6)])
-@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
-def test_schemes(scheme, damping):
-    assert_same(soil_block(steps=100, size=SIZE, scheme=scheme, damping=damping))
-
-
 def test_damping_that_is_a_diagonal_matrix():
     problem = soil_block(steps=60, size=SIZE)
     lumped = sparse.diags_array(problem.M.sum(axis=1)).tocsr()
     assert_same(replace(problem, M=lumped, C=0.8 * lumped))
-
-
-def test_dashpots():
-    assert_same(soil_block(steps=100, size=SIZE, extra_damping=0.01))
 
 
 def test_without_joints():
@@ -105,15 +94,6 @@ def test_a_body_without_mass_that_joints_alone_hold():
     e = effective.effective_of(light, effective.effective_matrix(light, dt), dt, 1.0)
     assert e.R.any()
     assert_same(light)
-
-
-@pytest.mark.parametrize("scheme", [newmark(0.25, 0.5), hht(0.1), generalised_alpha(0.6)])
-@pytest.mark.parametrize("damping", [None, (0.5, 2e-3)])
-def test_moving_supports(scheme, damping):
-    problem = soil_block(steps=100, size=SIZE, moving=True, scheme=scheme, damping=damping)
-    problem.loading.imposed[::2, 0] = 0.0  # two patterns: the weight's curve and the shaking
-    assert np.ptp(problem.loading.at(problem.times)[:, 1]) > 0.0
-    assert_same(problem)
 
 
 def test_supports_of_the_joints_themselves_move():

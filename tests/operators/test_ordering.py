@@ -1,0 +1,80 @@
+"""ORDO with its keywords first, of tables and of meshes."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+from ssilang.cli.run import run_text
+
+LISTS = "L = PROG 3. -1. 2. ; E = LECT 30 10 20 ; C = PROG 5. 1. 2. 1. 5. 3. 2. 2. 9. ; "
+
+
+def found(text: str, name: str):
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    return result.session.root.find(name)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "values"),
+    [
+        ("'DECR' L", [3, 2, -1]),
+        ("'ABSO' 'DECR' L", [3, 2, -1]),
+        ("L 'ABSO'", [-1, 2, 3]),
+        ("'UNIQ' 0.5 (L ET 2.2)", [-1, 2, 3]),
+        ("'CROI' E", [10, 20, 30]),
+    ],
+)
+def test_keywords_stand_before_the_lists_or_behind(phrase, values):
+    assert list(found(f"{LISTS} X = ORDO {phrase} ;", "X").values) == values
+
+
+@pytest.mark.parametrize(
+    "phrase", ["'COUT' C L E", "L E 'COUT' C", "'COUT' C 'HONG' L E", "L 'COUT' C 'COMP' E"]
+)
+def test_the_least_cost_is_that_of_all_permutations(phrase):
+    text = f"{LISTS} X A B = ORDO {phrase} ;"
+    costs, rows = np.array([[5, 1, 2], [1, 5, 3], [2, 2, 9.0]]), [0, 1, 2]
+    totals = {p: costs[rows, list(p)].sum() for p in itertools.permutations(rows)}
+    best = min(totals, key=totals.__getitem__)
+    assert found(text, "X") == totals[best]
+    assert list(found(text, "A").values) == [np.array([3.0, -1.0, 2.0])[i] for i in best]
+    assert list(found(text, "B").values) == [np.array([30, 10, 20])[i] for i in best]
+
+
+@pytest.mark.parametrize("phrase", ["T E 'DECR'", "'DECR' T E"])
+def test_a_list_beside_the_table_sorts_those_of_its_length(phrase):
+    text = f"{LISTS} T = TABL ; T . 'A' = L ; T . 1 = MOTS 'x' 'y' 'z' ; T . 2 = PROG 8. 7. ; "
+    text += f"X = ORDO {phrase} ; A = X . 'A' ; B = X . 1 ; D = X . 2 ;"
+    assert list(found(text, "A").values) == [3, 2, -1]
+    assert [str(w) for w in found(text, "B").values] == ["x", "z", "y"]
+    assert list(found(text, "D").values) == [8, 7]
+
+
+@pytest.mark.parametrize(("kind", "size"), [("QUA4", (4, 3)), ("TRI3", (3, 2))])
+def test_each_cell_of_an_ordered_surface_has_a_neighbour_before_it(kind, size):
+    text = (
+        f"OPTI DIME 2 ELEM {kind} ; S = (DROI {size[0]} (0. 0.) (3. 0.)) TRAN {size[1]} (0. 1.) ; "
+        "N = NBEL S ; A = S ELEM 1 ; REPE B (N - 1) ; A = (S ELEM (&B + 1)) ET A ; FIN B ; "
+        "X = ORDO A ; OPTI ELEM QUA4 ; T = (DROI 1 (9. 9.) (10. 9.)) TRAN 1 (0. 1.) ; "
+    )
+    (block,) = found(text, "X").blocks
+    (before,) = found(text, "A").blocks
+    assert sorted(map(tuple, block.raw.tolist())) == sorted(map(tuple, before.raw.tolist()))
+    assert block.raw[0].tolist() == before.raw[0].tolist()
+    seen: set[int] = set(block.raw[0].tolist())
+    for cell in block.raw[1:].tolist():
+        assert len(seen & {*cell}) >= 2
+        seen |= {*cell}
+
+
+def test_parts_of_a_surface_follow_each_other():
+    text = (
+        "OPTI DIME 2 ELEM QUA4 ; A = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
+        "B = A PLUS (9. 0.) ; M = (A ELEM 1) ET (B ELEM 1) ET (A ELEM 2) ET (B ELEM 2) ; "
+        "X = ORDO M ; Y = MAXI (COOR 1 ((X ELEM 1) ET (X ELEM 2))) ;"
+    )
+    assert found(text, "Y") == 2.0
