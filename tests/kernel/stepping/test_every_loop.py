@@ -30,8 +30,7 @@ LARGE: dict = {}
 STILL = {"tied": False, "moving": False}
 LOOPS = {
     "springs": {"damping": "Rayleigh", "point_laws": PUSH, "line_laws": (), **STILL},
-    "modes": {"damping": "Rayleigh", "moving": False},
-    "still supports": {"moving": False},
+    "modes": {"moving": False},
     "dense": {"steps": 60},
     "dissection": LARGE,
     "condensed": LARGE,
