@@ -288,6 +288,10 @@ class Callers:
         self.uses: dict[tuple[str, str], set[str]] = {}  # 'module.name' for what is imported
         self.words: dict[tuple[str, str], set[str]] = {}
         self.spans: dict[str, list[tuple[int, int, str]]] = {}
+        self.library = {
+            path.stem: set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
+            for path in (ROOT / "stdlib").glob("*.ssi")
+        }  # procedures written in the language
         for path in sorted((ROOT / "ssilang").rglob("*.py")):
             module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
             tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -316,8 +320,11 @@ class Callers:
         found, known, weight = {module: 1.0}, set(at), 1.0
         for _ in range(4):
             for key in at:
-                for name in {key[1], key[0]} | self.words[key]:
+                words = self.words[key]
+                for name in {key[1], key[0]} | words:
                     found.setdefault(name, weight)
+                for name in (p for p, said in self.library.items() if said & words):
+                    found.setdefault(name, 0.4 * weight)
             ways = {f"{m}.{n}" for m, n in at}
             at = {key for key, used in self.uses.items() if key not in known and used & ways}
             known, weight = known | at, 0.4 * weight

@@ -63,16 +63,41 @@ def test_released_string_swings_with_the_period_of_its_energy():
     assert root.find("Z") == pytest.approx(2.2)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_pressure_in_a_ring_of_bars_goes_on_with_its_sides(sign):
+    root = run(
+        f"""
+        OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P1 = 2. 0. ; P2 = 0. 2. ; O = 0. 0. ;
+        L = CERC 4 P1 O P2 ; M = MODE L MECANIQUE BARR ; A = MATE M 'YOUN' 1.E3 'NU' 0. 'SECT' 1. ;
+        SI ({sign} < 0.) ; L = INVE L ; FINSI ; MP = MODE L 'CHARGEMENT' 'PRESSION' ;
+        T = TABL ; T . 'MODELE' = M ET MP ; T . 'CARACTERISTIQUES' = A ;
+        T . 'BLOCAGES_MECANIQUES' = (BLOQ 'UY' P1) ET (BLOQ 'UX' P2) ;
+        T . 'GRANDS_DEPLACEMENTS' = VRAI ; E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 200.) ;
+        T . 'CHARGEMENT' = CHAR 'PRES' (PRES MP 'PRES' ({sign} * -1.)) E ;
+        T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.25 1. ; PASAPAS T ;
+        U = T . 'DEPLACEMENTS' . 4 ; R = 2. + (EXTR U P1 'UX') ; N = MAXI (T . 'CONTRAINTES' . 4) ;
+        K = MINI (T . 'CONTRAINTES' . 4) ; R2 = 2. + (EXTR U P2 'UY') ;
+        """
+    )
+    radius = root.find("R")
+    assert radius > 2.5
+    assert root.find("R2") == pytest.approx(radius)
+    # each node: p l cos(pi/N) outwards against 2 N sin(pi/N), l = 2 r sin(pi/N) as it is now
+    half = np.pi / 16
+    assert root.find("N") == pytest.approx(200.0 * radius * np.cos(half), rel=1e-6)
+    assert root.find("K") == pytest.approx(root.find("N"), rel=1e-6)
+
+
 def test_plates_are_refused_by_name():
     result = run_text(
-        "OPTI DIME 3 ELEM TRI3 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;"
-        "M = MODE S MECANIQUE DKT ; A = MATE M 'YOUN' 1.E4 'NU' 0. 'EPAI' 0.1 ;"
+        "OPTI DIME 3 ELEM QUA4 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;"
+        "M = MODE S MECANIQUE COQ4 ; A = MATE M 'YOUN' 1.E4 'NU' 0. 'EPAI' 0.1 ;"
         "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;"
         "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' L ;"
         "T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;"
     )
     assert result.exit_code == 1
-    assert "finite displacements are not built for DKT" in result.message
+    assert "finite displacements are not built for COQ4" in result.message
 
 
 YIELDING = (

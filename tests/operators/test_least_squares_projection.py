@@ -57,8 +57,8 @@ def test_the_integral_of_a_rough_field_is_kept_as_points_grow():
         ("P = PROI M2 C 'MINI' 0 ;", "count > 0"),
         ("P = PROI R C 'MINI' ;", "on a model"),
         (
-            "B = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; P = PROI B C 'MINI' ;",
-            "does not fill its space",
+            "B = MODE (L POIN 1) 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' ; P = PROI B C 'MINI' ;",
+            "has no extent",
         ),
     ],
 )

@@ -44,14 +44,22 @@ def numeric(name: str, values: Values) -> Values:
 
 
 def applied(
-    field: CellField, function: Callable[[Any], Any], names: Iterable[str] | None = None
+    field: CellField,
+    function: Callable[[Any], Any],
+    names: Iterable[str] | None = None,
+    objects: bool = False,
 ) -> CellField:
-    """The field of a function `array -> array` of the values (of components `names` only)."""
+    """The field of a function `array -> array` of the values (of components `names` only).
+
+    Components of objects are refused, unless the function takes them.
+    """
     wanted = None if names is None else set(names)
     blocks = []
     for block in field.blocks:
         made = {
-            k: np.asarray(function(numeric(k, v))) if wanted is None or k in wanted else v
+            k: np.asarray(function(v if objects else numeric(k, v)))
+            if wanted is None or k in wanted
+            else v
             for k, v in block.components.items()
         }
         blocks.append(rebuilt(block, made))
@@ -112,10 +120,15 @@ def _added_block(
 
 
 def _of_objects(name: str, sign: str, a: Values, b: Values, objects: ObjectRule | None) -> Values:
-    """Objects (or an object and a number) combined point by point; equal pairs once."""
+    """Objects (or an object and a number) combined point by point."""
     if objects is None:
         raise FieldError("kernel.fields.component-holds-objects-not", name=name)
-    wide = np.broadcast_shapes(a.shape, b.shape)
+    return of_objects(sign, a, b, objects)
+
+
+def of_objects(sign: str, a: Any, b: Any, objects: ObjectRule) -> Values:
+    """Objects (or objects and numbers) combined point by point; equal pairs once."""
+    wide = np.broadcast_shapes(np.shape(a), np.shape(b))
     x, y = np.broadcast_to(a, wide).ravel(), np.broadcast_to(b, wide).ravel()
     made = np.empty(x.size, dtype=object)
     known: dict[tuple[object, object], object] = {}

@@ -27,13 +27,15 @@ from ssilang.kernel.modal.modes import eigenvalue
 
 UNKNOWN = {"MODAL": "ALFA", "STATIQUE": "BETA"}
 """Unknown of each kind of point."""
+LINK = "LIAI"
+"""Element of links (MODE 'LIAISON')."""
 
 for _name in UNKNOWN:
     register_element(
         ElementKind(_name, "POI1", "shape", tuple(Mode), {"RIGIDITE": 1}, default=False)
     )
 
-register_element(ElementKind("LIAI", "POI1", "link", tuple(Mode), {"RIGIDITE": 1}, default=False))
+register_element(ElementKind(LINK, "POI1", "link", tuple(Mode), {"RIGIDITE": 1}, default=False))
 
 
 class _ShapeFamily(StrainlessFamily):

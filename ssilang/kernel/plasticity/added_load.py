@@ -60,6 +60,8 @@ class LoadedBulk(Bulk):
         Small difference of time.
     pattern : csr array (n, n)
         Where unknowns meet.
+    said : str
+        What is said of the load.
     seen : set of int
         Unknowns that have been loaded so far.
     """
@@ -69,6 +71,7 @@ class LoadedBulk(Bulk):
     shifts: FloatArray = field(default_factory=lambda: np.zeros(0))
     instant: float = SHIFT
     pattern: sp.csr_array | None = None
+    said: str = ""
     seen: set[int] = field(default_factory=set)
 
     @property
@@ -79,7 +82,7 @@ class LoadedBulk(Bulk):
     @property
     def words(self) -> str:
         """What is said of them."""
-        return ", ".join(w for w in (self.bodies.words, "loads by a procedure") if w)
+        return ", ".join(w for w in (self.bodies.words, self.said) if w)
 
     @property
     def searched(self) -> bool:
@@ -207,7 +210,12 @@ def _by_owner(owner: IntArray) -> Callable[[FloatArray], tuple[IntArray, IntArra
 
 
 def loaded_bulk(
-    bodies: Bulk, law: LoadLaw, shifts: FloatArray, instant: float, pattern: sp.csr_array
+    bodies: Bulk,
+    law: LoadLaw,
+    shifts: FloatArray,
+    instant: float,
+    pattern: sp.csr_array,
+    said: str,
 ) -> LoadedBulk:
     """Bodies and the load that a function gives them."""
-    return LoadedBulk((), (), bodies.size, {}, bodies, law, shifts, instant, pattern)
+    return LoadedBulk((), (), bodies.size, {}, bodies, law, shifts, instant, pattern, said)

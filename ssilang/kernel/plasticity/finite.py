@@ -31,6 +31,7 @@ from ssilang.kernel.matrices.assembly import Numbering, block_indices
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
 from ssilang.kernel.plasticity.finite_beam import CARRIED, FiniteBeam, finite_beam, is_plane_beam
 from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, is_space_beam
+from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 
@@ -281,6 +282,8 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return finite_space_beam(zone, material, weights.shape[1])
     if is_plane_shell(zone):
         return finite_plane_shell(zone, material, weights.shape[1])
+    if is_facet_shell(zone):
+        return finite_plate(zone, material, weights.shape[1])
     moduli = _moduli(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))

@@ -46,7 +46,8 @@ def is_space_beam(zone: Zone) -> bool:
 # --- rotations: arrays (n, 3) and (n, 3, 3), analytic in their entries ---------------------------
 
 
-def _skew(v: Array) -> Array:
+def skew(v: Array) -> Array:
+    """Matrices of the products `v x`."""
     out = np.zeros((*v.shape, 3), dtype=v.dtype)
     out[:, 0, 1], out[:, 0, 2], out[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
     return out - np.swapaxes(out, 1, 2)
@@ -69,18 +70,18 @@ def _shares(v: Array) -> tuple[Array, Array, Array]:
 def rotation(v: Array) -> Array:
     """Rotation matrices of rotation vectors."""
     first, second, _ = _shares(v)
-    S = _skew(v)
+    S = skew(v)
     return np.asarray(np.eye(3) + first * S + second * (S @ S))
 
 
 def spin_of(v: Array) -> Array:
     """What a change of the rotation vector is as a turn about the fixed axes."""
     _, second, third = _shares(v)
-    S = _skew(v)
+    S = skew(v)
     return np.asarray(np.eye(3) + second * S + third * (S @ S))
 
 
-def _vector_of(R: Array) -> Array:
+def vector_of(R: Array) -> Array:
     """Rotation vectors of rotations by less than a quarter turn."""
     axial = 0.5 * np.stack(
         [R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], axis=1
@@ -137,7 +138,7 @@ class FiniteSpaceBeam:
         z = z / np.sqrt((z * z).sum(axis=1))[:, None]
         frame = np.stack([x, np.cross(z, x), z], axis=1)
         own = [frame @ R @ np.swapaxes(self.axes, 1, 2) for R in turns]
-        small = [_vector_of(R) for R in own]
+        small = [vector_of(R) for R in own]
         d = np.concatenate([stretch[:, None], *small], axis=1)
         return d, self._variations(u, frame, length, seconds, mean, small)
 

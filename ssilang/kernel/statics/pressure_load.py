@@ -27,30 +27,37 @@ def with_pressures(load: Load | None, sides: Sequence[Zone], moving: bool = Fals
     ----------
     sides : zones of the formulation CHARGEMENT
     moving : bool
-        Whether the sides turn as they move: pressures then follow, which no constant field does.
+        Whether the sides turn as they move: pressures then follow, and are left out here.
 
     Raises
     ------
     FieldError
-        If there are no such sides, or the pressures would follow them.
+        If there are no such sides.
     """
     if load is None or all(p.name.strip() != PRESSURE for p in load.parts):
         return load
     if not sides:
         raise FieldError("kernel.statics.pressure-without-sides")
     if moving:
-        raise FieldError("kernel.statics.pressure-follows")
+        kept = tuple(p for p in load.parts if p.name.strip() != PRESSURE)
+        return Load(kept) if kept else None
     return Load(tuple(_forces(p, sides) if p.name.strip() == PRESSURE else p for p in load.parts))
+
+
+def pressures(load: Load | None) -> tuple[LoadPart, ...]:
+    """Parts of a loading that are pressures."""
+    return () if load is None else tuple(p for p in load.parts if p.name.strip() == PRESSURE)
 
 
 def _forces(part: LoadPart, sides: Sequence[Zone]) -> LoadPart:
     """One loading with forces for pressures."""
-    steps = tuple((t, _along_normals(f, sides)) for t, f in part.steps)
-    space = None if part.space is None else _along_normals(part.space, sides)
+    steps = tuple((t, along_normals(f, sides)) for t, f in part.steps)
+    space = None if part.space is None else along_normals(part.space, sides)
     return replace(part, name="MECA", space=space, steps=steps)
 
 
-def _along_normals(field: NodeField | CellField, sides: Sequence[Zone]) -> NodeField:
+def along_normals(field: object, sides: Sequence[Zone]) -> NodeField:
+    """Forces of a field of pressure on sides, along their normals where they stand."""
     if not isinstance(field, CellField):
         raise FieldError("kernel.statics.pressure-is-no-field-in-cells")
     forces = [pressure_vectors(z, field) for z in sides]

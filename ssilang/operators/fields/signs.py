@@ -230,7 +230,16 @@ def _cell_number(
 ) -> CellField:
     chosen = call.read("LISTMOTS") if sign in "+-" else None
     names = None if chosen is None else names_of(chosen.value)
-    return cell_algebra.applied(field, lambda x: _with_number(sign, x, float(number), left), names)
+
+    value = float(number)
+
+    def made(values: Any) -> Any:
+        if values.dtype != object:
+            return _with_number(sign, values, value, left)
+        a, b = (value, values) if left else (values, value)
+        return cell_algebra.of_objects(sign, a, b, _of_objects)
+
+    return cell_algebra.applied(field, made, names, objects=True)
 
 
 def _number_cell(call: Call, sign: str, number: float, field: CellField) -> CellField:

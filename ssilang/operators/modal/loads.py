@@ -65,13 +65,13 @@ def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) 
 )
 def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
     """Stresses of modes."""
-    made, found = _with_stresses(present(call, model), joined(material), table)
+    made, found = with_stresses(present(call, model), joined(material), table)
     if not found:
         raise call.error("operators.modal.no-mode-no-shape", table)
     return made
 
 
-def _with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
+def with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
     """The table, and those in it, copied with the stresses; and how many were computed."""
     made, found = copied(table), 0
     for shape, entry in (("DEFORMEE_MODALE", "CONTRAINTE_MODALE"), ("DEFORMEE", "CONTRAINTE")):
@@ -82,7 +82,7 @@ def _with_stresses(model: Model, material: CellField, table: Table) -> tuple[Tab
             return made, 1
     for index, value in table.items():
         if isinstance(value, Table):
-            inner, count = _with_stresses(model, material, value)
+            inner, count = with_stresses(model, material, value)
             found += count
             if count:
                 made.set(index, inner)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.complex_modes import ComplexMode, complex_modes
 from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
-from ssilang.language.registry import Chosen, arg, flag, key, many, operator, opt, select
+from ssilang.language.registry import Chosen, arg, by, flag, key, many, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
@@ -53,9 +54,24 @@ def _vibr(
     matrices: tuple[Matrix, ...],
     signed: bool,
     **_: bool,
+) -> Table | Solution:
+    made = _modes(call, method, lowest, highest, matrices, signed)
+    if not solution:
+        return made
+    modes = made.get(Mot("MODES"))
+    assert isinstance(modes, Table)
+    return Solution(tuple(m for _, m in modes.items() if isinstance(m, Table)))
+
+
+def _modes(
+    call: Call,
+    method: Chosen,
+    lowest: int,
+    highest: int,
+    matrices: tuple[Matrix, ...],
+    signed: bool,
 ) -> Table:
-    if solution:
-        raise call.error("operators.modal.solution-out-of-scope", word="SOLU")
+    """The table BASE_MODALE that is asked for."""
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
@@ -141,7 +157,19 @@ def filled(subtype: str, items: dict[Any, Any]) -> Table:
     return table
 
 
-def _directions(values: Sequence[float]) -> Table:
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Modes, each a table as those of a table BASE_DE_MODES."""
+
+    modes: tuple[Table, ...]
+
+    @property
+    def table(self) -> Table:
+        """They as a table BASE_DE_MODES."""
+        return filled("BASE_DE_MODES", dict(enumerate(self.modes, start=1)))
+
+
+def directions(values: Sequence[float]) -> Table:
     return filled("DEPLACEMENTS_GENERALISES", {i + 1: float(v) for i, v in enumerate(values)})
 
 
@@ -149,7 +177,7 @@ def _real_entry(mode: Mode, signed: bool) -> dict[str, Any]:
     return {
         "FREQUENCE": mode.frequency if signed else abs(mode.frequency),
         "MASSE_GENERALISEE": mode.mass,
-        "DEPLACEMENTS_GENERALISES": _directions(mode.along),
+        "DEPLACEMENTS_GENERALISES": directions(mode.along),
         "DEFORMEE_MODALE": mode.shape,
     }
 
@@ -159,11 +187,11 @@ def _complex_entry(mode: ComplexMode) -> dict[str, Any]:
         "FREQUENCE_REELLE": mode.frequency.real,
         "MASSE_GENERALISEE_REELLE": mode.mass.real,
         "DEFORMEE_MODALE_REELLE": mode.real,
-        "DEPLACEMENTS_GENERALISES_REELS": _directions([a.real for a in mode.along]),
+        "DEPLACEMENTS_GENERALISES_REELS": directions([a.real for a in mode.along]),
         "FREQUENCE_IMAGINAIRE": mode.frequency.imag,
         "MASSE_GENERALISEE_IMAGINAIRE": mode.mass.imag,
         "DEFORMEE_MODALE_IMAGINAIRE": mode.imaginary,
-        "DEPLACEMENTS_GENERALISES_IMAGINAIRES": _directions([a.imag for a in mode.along]),
+        "DEPLACEMENTS_GENERALISES_IMAGINAIRES": directions([a.imag for a in mode.along]),
     }
 
 
@@ -181,7 +209,7 @@ def modal_table(
 
 operator(
     "VIBR",
-    flag("solution", "SOLU", en="an object: not available"),
+    flag("solution", "SOLU", en="an object SOLUTION in place of a table"),
     select(
         "method",
         {
@@ -230,6 +258,7 @@ operator(
     ),
     family="modal",
     full_name="VIBRATION",
+    gives=by("solution", {True: "SOLUTION"}, "TABLE"),
     en="Natural modes, [K - (2 pi f)^2 M] x = 0, of frequencies near the given ones (PROC: for "
     "each frequency of a list, so many; SIMU, IRAM: so many near one) or in an interval "
     "(INTE; BASS or HAUT keeps so many from one end). Table BASE_MODALE: . 'MODES' . i holds "
@@ -240,5 +269,5 @@ operator(
     syntax="TAB1 = VIBR 'PROCHE' LREEL1 (LENTI1) RIG1 MASS1 (LOG1) ;\n"
     "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
     "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"
-    "TAB1 = VIBR 'IRAM' F1 N1 RIG1 MASS1 (AMO1) ('LM') ;",
+    "TAB1 = VIBR 'IRAM' F1 N1 RIG1 MASS1 (AMO1) ('LM') ;\nSOL1 = VIBR ... 'SOLU' ;",
 )(_vibr)

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
@@ -232,7 +234,7 @@ def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh)
     if any(b.cell_type != "POI1" for b in mesh.blocks):
         raise call.error("operators.models.link-on-points", mesh)
     mode = workspace(call.session).mode
-    return Model(tuple(Zone(b, "LIAISON", words, "LIAI", mode) for b in mesh.blocks))
+    return Model(tuple(Zone(b, "LIAISON", words, shape_models.LINK, mode) for b in mesh.blocks))
 
 
 @MODE.form(
@@ -295,7 +297,9 @@ def _wish(
 def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[CellBlock, ...]]:
     """The mesh that elements stand on, and the cells that tie hanging nodes."""
     if isinstance(mesh, Point):
-        raise call.error("operators.models.no-element-on-a-point", mesh)
+        if not {"IMPEDANCE", *shape_models.UNKNOWN} & {*wish.laws}:
+            raise call.error("operators.models.no-element-on-a-point", mesh)
+        mesh = Mesh.of(mesh.nodes, "POI1", np.array([[mesh.node]]))
     if not mesh.blocks:
         raise call.error("operators.models.mesh-empty", mesh)
     if not wish.formulation and not wish.laws:
@@ -353,7 +357,7 @@ def read_word(call: Call, word: str, wish: Wish) -> None:
     element = said if said in GENERIC_ELEMENTS else said[:4]
     if said in OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
         raise _unknown(call, said)
-    if element in ELEMENTS or element in GENERIC_ELEMENTS:
+    if (element in ELEMENTS and element != shape_models.LINK) or element in GENERIC_ELEMENTS:
         wish.elements.append(element)
     elif (law := full_word(said, LAW_WORDS)) is not None:
         wish.laws.append(law)

@@ -170,10 +170,16 @@ def _in_model(call: Call, model: Model) -> bool:
     return False
 
 
+def _in_solution(call: Call, solution: Any) -> bool:
+    word = str(call.required("MOT")).rstrip().upper()
+    return word == "CONT" and all(m.has(Mot("CONTRAINTE_MODALE")) for m in solution.modes)
+
+
 _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
     "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
     "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
     "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
+    "SOLUTION": _in_solution,
 }  # fmt: skip
 
 

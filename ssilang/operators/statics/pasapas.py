@@ -17,7 +17,7 @@ from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
-from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
+from ssilang.kernel.statics.pressure_load import loaded_sides, pressures, with_pressures
 from ssilang.kernel.statics.thermal_load import check_strains, split_strains
 from ssilang.kernel.stepping.times import nearest
 from ssilang.language.registry import arg, operator
@@ -45,7 +45,7 @@ from ssilang.operators.statics.bodies import (
     warn_of_strains,
 )
 from ssilang.operators.statics.initial_stress import linear_blocks, offset_load, stress_offsets
-from ssilang.operators.statics.pasapas_charmeca import loaded_bodies
+from ssilang.operators.statics.pasapas_charmeca import loaded_bodies, pressure_law, procedure_law
 from ssilang.operators.statics.pasapas_contact import sides_of
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
@@ -144,8 +144,13 @@ def _stretch(
     inputs, stresses = _inputs(given, start, times, dynamic)
     finite = finite_zones(given)
     bodies = finite_bodies(given, finite, start) if finite else plastic_bodies(given, start)
+    load: Load | None = given.get("CHARGEMENT")
+    follows = load if finite and pressures(load) else None
+    if follows is not None:
+        law = pressure_law(follows, loaded_sides(given.get("MODELE")))
+        bodies = loaded_bodies(law, "pressures that follow", bodies)
     if work.flag("PROCEDURE_CHARMECA"):
-        bodies = loaded_bodies(work, bodies)
+        bodies = loaded_bodies(procedure_law(work), "loads by a procedure", bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_of_connections(work, inputs)
@@ -191,7 +196,7 @@ def _stretch(
         record.save(history)
     if finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
-    added = work.flag("PROCEDURE_CHARMECA")
+    added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
     return state_table(reached.values)
 

@@ -1,8 +1,8 @@
-"""CHARMECA in PASAPAS: loads that a procedure of the script finds where the bodies are."""
+"""Loads of PASAPAS that depend on where bodies are: of CHARMECA, pressures on sides that turn."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -10,14 +10,18 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
-from ssilang.kernel.plasticity.added_load import SHIFT, Added, loaded_bulk
+from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.statics.pressure_load import along_normals, pressures
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
+from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -84,20 +88,48 @@ def _moved(field: NodeField, moves: bool) -> Iterator[None]:
         nodes.coordinates[: len(kept)] = kept
 
 
-def loaded_bodies(entries: Entries, bodies: Bodies | None) -> Bodies:
-    """Bodies, if there are any, under the load of CHARMECA."""
+class FollowingPressure:
+    """Pressures of a loading on sides that stand where the bodies have taken them."""
+
+    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: Problem) -> None:
+        self.parts, self.sides = pressures(load), sides
+        self.numbering = problem.numbering
+
+    def __call__(self, time: float, u: FloatArray) -> Added:
+        """The load at a time, for a displacement."""
+        total = np.zeros(self.numbering.size)
+        with _moved(vector_to_field(u, self.numbering), True):
+            for part in self.parts:
+                total += field_to_vector(
+                    along_normals(part_at(part, time), self.sides), self.numbering
+                )
+        return Added(total)
+
+
+def procedure_law(entries: Entries) -> Callable[[Problem], LoadLaw]:
+    """The load of CHARMECA, once the problem is numbered."""
+    moves = entries.flag("GRANDS_DEPLACEMENTS")
+    return lambda problem: LoadByProcedure(entries, problem, moves)
+
+
+def pressure_law(load: Load, sides: tuple[Zone, ...]) -> Callable[[Problem], LoadLaw]:
+    """Pressures that follow their sides, once the problem is numbered."""
+    return lambda problem: FollowingPressure(load, sides, problem)
+
+
+def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodies | None) -> Bodies:
+    """Bodies, if there are any, under a load that depends on where they are."""
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         from ssilang.kernel.plasticity.following import no_bodies
 
         start: tuple[Bulk, State] = (no_bodies(problem), ())
         bulk, state = start if bodies is None else bodies(problem, inputs)
-        law = LoadByProcedure(entries, problem, entries.flag("GRANDS_DEPLACEMENTS"))
         first = float(problem.times[0])
         still = bulk.respond(state, np.zeros(bulk.size), first).tangent
         pattern = _by_nodes(problem, abs(problem.K) + abs(still))
-        span = float(np.ptp(problem.times))
-        loaded = loaded_bulk(bulk, law, _shifts(problem), SHIFT * span, pattern)
+        instant = SHIFT * float(np.ptp(problem.times))
+        loaded = loaded_bulk(bulk, law_of(problem), _shifts(problem), instant, pattern, said)
         return loaded, loaded.begin(state, problem.u, first)
 
     return make

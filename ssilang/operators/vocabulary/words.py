@@ -254,7 +254,7 @@ def elements_with(component: str) -> list[str]:
 def elements_on(cells: Collection[str], mode: Mode) -> list[str]:
     """Elements with a stiffness that stand on some cells under a hypothesis."""
     kinds = [k for k in ELEMENTS.values() if k.cell_type in cells and mode in k.modes]
-    return [k.name for k in kinds if k.family in FAMILIES]
+    return [k.name for k in kinds if k.family in FAMILIES and k.family != "link"]
 
 
 def cells_of(element: str) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ def test_tangent_of_a_load_on_neighbours(n):
     half = sp.csr_array((np.ones(2 * n), (rows, columns)), shape=(n, n))
     pattern = sp.csr_array((half + half.T) > 0)
     u = rng.uniform(1, 2, n)
-    bulk = loaded_bulk(Bulk((), (), n), law, np.full(n, 1e-6), 1e-6, pattern)
+    bulk = loaded_bulk(Bulk((), (), n), law, np.full(n, 1e-6), 1e-6, pattern, "")
     answer = bulk.respond(bulk.begin((), u, 2.0), np.zeros(n), 2.0)
     exact = np.zeros((n, n))
     exact[np.arange(n), np.arange(n)] = -2 * size * u[after]

@@ -6,11 +6,13 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.results.frames import points_of
-from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
-from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.elements.shapes.reference import (
+    REFERENCE_CELLS,
+    shape_functions,
+    shape_gradients,
+)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model
@@ -106,13 +108,13 @@ def by_least_squares(
     Raises
     ------
     FieldError
-        For cells that are no continuous elements, or too few points.
+        For points and joints, or too few points.
     """
     blocks = []
     for zone in model.zones:
-        if not is_solid(zone):
-            raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
         kind = zone.cells.kind
+        if kind.joint or not kind.dimension:
+            raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
         rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
         if len(rule) < kind.n_nodes:
             raise FieldError(
@@ -122,12 +124,15 @@ def by_least_squares(
                 name=kind.name,
             )
         at = zone.cells.coordinates
-        geometry = cell_geometry(kind.name, at[..., : zone.mode.dimension], rule)
-        x = np.einsum("pk,ckd->cpd", geometry.shapes, at)
-        round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
-        weights = geometry.volumes * x[..., 0] if round_axis else geometry.volumes
-        weighted = weights[:, :, None] * geometry.shapes
-        squares = np.einsum("cpk,pl->ckl", weighted, geometry.shapes)
+        shapes = shape_functions(kind.name, rule.points)
+        along = np.einsum("pka,ckd->cpad", shape_gradients(kind.name, rule.points), at)
+        # area of a shell's cell as well as volume of a body's
+        weights = np.sqrt(np.linalg.det(along @ np.swapaxes(along, 2, 3))) * rule.weights
+        x = np.einsum("pk,ckd->cpd", shapes, at)
+        if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER):
+            weights = weights * x[..., 0]
+        weighted = weights[:, :, None] * shapes
+        squares = np.einsum("cpk,pl->ckl", weighted, shapes)
         components = {}
         for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
             flat = np.zeros(x.shape[0] * x.shape[1])

@@ -148,7 +148,8 @@ def by_neighbours(block: CellBlock) -> CellBlock:
     order: list[IntArray] = []
     while not found.all():
         start = int(np.argmin(found))
-        order.append(breadth_first_order(links, start, directed=False)[0])
+        met = breadth_first_order(links, start, directed=False)[0]
+        order.append(met.astype(np.int64))
         found[order[-1]] = True
     places = np.concatenate(order) if order else np.empty(0, dtype=np.int64)
     return CellBlock.make(block.nodes, block.cell_type, block.raw[places], block.colours[places])

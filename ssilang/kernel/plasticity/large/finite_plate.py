@@ -1,0 +1,160 @@
+"""Flat triangular shells in finite displacements: frames that turn with the cells, small strains.
+
+The first axis of a cell's present frame is its first side, the third its normal; displacements and
+rotations against that frame go through the stiffness at rest (Rankin and Brogan 1986; Nour-Omid and
+Rankin 1991). The rotations RX RY RZ of a node are the components of one rotation vector, from the
+mesh at rest, as those of beams in space.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.families import _moduli, family_of, stiffness
+from ssilang.kernel.elements.family import per_cell
+from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.plasticity.finite_space_beam import (
+    STEP,
+    Array,
+    rotation,
+    skew,
+    spin_of,
+    vector_of,
+)
+
+
+def is_facet_shell(zone: Zone) -> bool:
+    """Whether a zone is one of flat triangular shells (DKT, COQ3)."""
+    return ELEMENTS[zone.element].family == "plate" and zone.mode is Mode.THREE_DIMENSIONAL
+
+
+@dataclass(frozen=True, eq=False)
+class FinitePlate:
+    """Flat triangular shells.
+
+    Attributes
+    ----------
+    ends : array (n, 3, 3)
+        Corners at rest.
+    axes : array (n, 3, 3)
+        Axes at rest, as rows.
+    stiffness : array (n, 18, 18)
+        In these axes.
+    seen : array (n, n_stresses, n_points, 18)
+        Stresses for one unit of each displacement in these axes.
+    held : array (n, 18, n_stresses, n_points)
+        Forces that stresses make.
+    initial : array (n, n_stresses, n_points)
+        Stresses without displacement.
+    """
+
+    zone: Zone
+    ends: FloatArray
+    axes: FloatArray
+    stiffness: FloatArray
+    seen: FloatArray
+    held: FloatArray
+    initial: FloatArray
+
+    def _measured(self, u: Array) -> tuple[Array, Array]:
+        """Displacements and turns against the frame (n, 18), and for one of each unknown."""
+        moved = u.reshape(len(u), 3, 2, 3)
+        now = self.ends + moved[:, :, 0]
+        first, second = now[:, 1] - now[:, 0], now[:, 2] - now[:, 0]
+        normal = np.cross(first, second)
+        x, z = (v / np.sqrt((v * v).sum(axis=1))[:, None] for v in (first, normal))
+        frame = np.stack([x, np.cross(z, x), z], axis=1)
+        stands = np.einsum("cij,ckj->cki", frame, now - now[:, :1])
+        rest = np.einsum("cij,ckj->cki", self.axes, self.ends - self.ends[:, :1])
+        turns = [rotation(moved[:, k, 1]) for k in range(3)]
+        small = [vector_of(frame @ R @ np.swapaxes(self.axes, 1, 2)) for R in turns]
+        d = np.stack([stands - rest, np.stack(small, axis=1)], axis=2).reshape(u.shape)
+        return d, self._variations(moved, frame, stands, small)
+
+    def _variations(self, moved: Array, frame: Array, stands: Array, small: list[Array]) -> Array:
+        n = len(moved)
+        G = np.zeros((n, 3, 18), dtype=frame.dtype)  # turn of the frame, in its own axes
+        across, along, high = stands[:, 1, 0], stands[:, 2, 0], stands[:, 2, 1]
+        G[:, 2, 1], G[:, 2, 7] = -1 / across, 1 / across
+        G[:, 1, 2], G[:, 1, 8] = 1 / across, -1 / across
+        G[:, 0, 14] = 1 / high
+        G[:, 0, 8] = -along / across / high
+        G[:, 0, 2] = (along / across - 1) / high
+        B = np.zeros((n, 18, 18), dtype=frame.dtype)
+        T = np.zeros((n, 18, 18), dtype=frame.dtype)
+        for k in range(3):
+            place, turn = slice(6 * k, 6 * k + 3), slice(6 * k + 3, 6 * k + 6)
+            T[:, place, place] = frame
+            T[:, turn, turn] = frame @ spin_of(moved[:, k, 1])
+            B[:, place, place] += np.eye(3)
+            B[:, place, 0:3] -= np.eye(3)
+            B[:, place] += skew(stands[:, k]) @ G
+            spin = -G
+            spin[:, :, turn] = spin[:, :, turn] + np.eye(3)
+            B[:, turn] = np.linalg.solve(spin_of(small[k]), spin)
+        return B @ T
+
+    def _balanced(self, u: Array) -> Array:
+        d, B = self._measured(u)
+        inner = np.einsum("cij,cj->ci", self.stiffness, d)
+        inner = inner + np.einsum("cisp,csp->ci", self.held, self.initial)
+        return np.asarray(np.einsum("cij,ci->cj", B, inner))
+
+    def small(self, u: FloatArray) -> FloatArray:
+        """Displacements and turns against the present frame (n, 18)."""
+        return np.asarray(self._measured(u)[0], dtype=float)
+
+    def forces(self, u: FloatArray) -> FloatArray:
+        """Internal forces."""
+        return np.asarray(self._balanced(u), dtype=float)
+
+    def tangent(self, u: FloatArray) -> FloatArray:
+        """Their derivative, exact to rounding: a step along the imaginary axis."""
+        K = np.empty((len(u), 18, 18))
+        for k in range(18):
+            moved = u.astype(complex)
+            moved[:, k] += 1j * STEP
+            K[:, :, k] = self._balanced(moved).imag / STEP
+        return 0.5 * (K + np.swapaxes(K, 1, 2))
+
+    def stored(self, u: FloatArray) -> float:
+        """Elastic energy."""
+        d = self.small(u)
+        elastic = 0.5 * np.einsum("ci,cij,cj->", d, self.stiffness, d)
+        return float(elastic + np.einsum("ci,cisp,csp->", d, self.held, self.initial))
+
+    def shown(self, u: FloatArray) -> FloatArray:
+        """Membrane forces and moments per length, in the axes of the present frame."""
+        return np.asarray(self.initial + np.einsum("cspi,ci->csp", self.seen, self.small(u)))
+
+    def stressed(self, given: FloatArray, u: FloatArray) -> FinitePlate:
+        """Initial stresses from present ones."""
+        elastic = np.einsum("cspi,ci->csp", self.seen, self.small(u))
+        return replace(self, initial=given - elastic)
+
+
+def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
+    """A zone of flat triangular shells without stress."""
+    parameters, family = zone_field(zone, material), family_of(zone)
+    whole = slice(0, len(zone.cells))
+    axes, _ = plate_frames(zone)
+    T = np.zeros((len(axes), 18, 18))
+    for k in range(0, 18, 3):
+        T[:, k : k + 3, k : k + 3] = axes
+    back = np.swapaxes(T, 1, 2)
+    operator = family.strain_operator(zone, parameters, "STRESSES", whole)
+    strains = np.einsum("cspm,cmi->cspi", operator.matrix, back)
+    D = per_cell(_moduli(zone, parameters, "STRESSES"), whole)
+    D = np.broadcast_to(D, (len(strains), points, *D.shape[2:]))
+    seen = np.einsum("cpst,ctpi->cspi", D, strains)
+    held = np.moveaxis(strains * operator.weights[:, None, :, None], 3, 1)
+    local = T @ stiffness(zone, material).values @ back
+    ends = zone.cells.nodes.coordinates[zone.cells.connectivity]
+    return FinitePlate(zone, ends, axes, local, seen, held, np.zeros(seen.shape[:3]))

@@ -1,0 +1,77 @@
+"""SOLUTION: modes by hand, joined, read, as a table, with stresses."""
+
+import pytest
+
+from ssilang.cli.run import run_text
+
+MODES = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (4. 0.) ;
+M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ; A = MATE M 'YOUN' 6. 'NU' 0. 'SECT' 1. 'RHO' 1. ;
+K = (RIGI M A) ET (BLOQ 'UX' (0. 0.)) ; U = NOMC 'UX' ((COOR 1 L) * 0.25) ;
+V = NOMC 'UX' (COOR 1 L) ; S = (MANU 'MODE' 'NUME' 7 1.5 2. 0.1 0.2 U) ET (MANU 'MODE' 3. 4. V) ;
+"""
+
+
+def run(script, tmp_path):
+    result = run_text(script, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    return result.session.root
+
+
+def test_modes_by_hand_are_read_by_place_and_number(tmp_path):
+    root = run(
+        MODES
+        + """
+        N = DIME S ; F1 = TIRE S 'FREQ' ; F2 = TIRE S 'FREQ' 'NUME' 7 ; F3 = TIRE S 'FREQ' 'CAS' 2 ;
+        M1 = TIRE S 'MGEN' 'RANG' 1 ; Q = TIRE S 'QY' 'RANG' 1 ; Z = TIRE S 'QZ' 'RANG' 1 ;
+        X = MAXI (TIRE S 'DEPL' 'RANG' 1) ; E0 = EXIS S 'CONT' ;
+        P = TIRE S 'POIN' 'RANG' 1 ; W = TIRE S 'POIN' 'RANG' 2 ; D = EGA (NOEU P) (NOEU W) ;
+        T = SIGS M A S ; E1 = EXIS T 'CONT' ; G1 = MAXI (TIRE T 'CONT' 'RANG' 1) ;
+        G2 = MAXI (TIRE T 'CONT') ; R = EXTR (RIGI S) 'DIAG' ; R1 = EXTR R P 'ALFA' ;
+        """,
+        tmp_path,
+    )
+    assert [root.find(n) for n in ("N", "F1", "F2", "F3", "M1", "Q", "Z", "X")] == [
+        2, 3.0, 1.5, 3.0, 2.0, 0.2, 0.0, 1.0,
+    ]  # fmt: skip
+    assert (root.find("E0"), root.find("E1"), root.find("D")) == (False, True, False)
+    assert root.find("G1") == pytest.approx(1.5)
+    assert root.find("G2") == pytest.approx(6.0)
+    assert root.find("R1") == pytest.approx(2.0 * (2.0 * 3.141592653589793 * 1.5) ** 2)
+
+
+def test_a_solution_of_vibr_is_the_table_of_vibr(tmp_path):
+    root = run(
+        MODES
+        + """
+        MA = MASS M A ; K = K ET (BLOQ 'UY' L) ; B = VIBR 'SIMU' 0.1 2 K MA ;
+        T = TRADUIRE (SIGS M A (VIBR 'SIMU' 0.1 2 K MA 'SOLU')) ;
+        F1 = T . 1 . 'FREQUENCE' ; F2 = B . 'MODES' . 1 . 'FREQUENCE' ;
+        U1 = T . 2 . 'DEFORMEE_MODALE' ; U2 = B . 'MODES' . 2 . 'DEFORMEE_MODALE' ;
+        S1 = MAXI (T . 2 . 'CONTRAINTE_MODALE') 'ABS' ; S2 = MAXI (SIGM M A U2) 'ABS' ;
+        Q1 = T . 2 . 'DEPLACEMENTS_GENERALISES' . 1 ;
+        Q2 = B . 'MODES' . 2 . 'DEPLACEMENTS_GENERALISES' . 1 ;
+        D = (MAXI (U1 - U2) 'ABS') ; E = (MAXI (U1 + U2) 'ABS') ;
+        N = DIME (VIBR 'SIMU' 0.1 2 K MA 'SOLU') ;
+        """,
+        tmp_path,
+    )
+    assert root.find("F1") == pytest.approx(root.find("F2"))
+    assert min(root.find("D"), root.find("E")) < 1e-9
+    assert root.find("S1") == pytest.approx(root.find("S2"))
+    assert abs(root.find("Q1")) == pytest.approx(abs(root.find("Q2")))
+    assert root.find("N") == 2
+
+
+@pytest.mark.parametrize(
+    ("said", "sentence"),
+    [
+        ("TIRE S 'FREQ' 'RANG' 3", "among 2"),
+        ("TIRE S 'CONT'", "FREQ"),
+        ("TIRE S 'FREQ' 'NUME' 3", "no such"),
+    ],
+)
+def test_what_a_solution_lacks_is_told(said, sentence, tmp_path):
+    result = run_text(MODES + f"X = {said} ;", output_directory=tmp_path)
+    assert result.exit_code == 1
+    assert sentence in result.message
