@@ -436,11 +436,6 @@ def _holds(table: Table, index: str) -> bool:
     return table.has(index) or any(isinstance(s, Table) and s.has(index) for s in steps)
 
 
-def _in_steps(table: Table, index: str) -> bool:
-    """Whether a table of steps (DYNAMIC) holds results at an index."""
-    return any(isinstance(v, Table) and type(i) is int and v.has(index) for i, v in table.items())
-
-
 def results_in_time(
     table: Table, index: str, unmade: bool = False
 ) -> tuple[Sequence[Any], FloatArray]:
