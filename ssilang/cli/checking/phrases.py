@@ -174,7 +174,7 @@ class PhraseReader:
         """The words of MODE go on to MATE: they say the law."""
         from ssilang.operators.models.foreseen import refuse_words
 
-        words = tuple(str(word) for word in values["said"])
+        words = tuple(str(word) for word in values.get("said", ()))  # not every form has them
         if ANY_WORD not in words:
             self._trial(call, lambda: refuse_words(call, words))
         if "mesh" in values and kind_word(call.operands[0].value) == "MMODEL":
