@@ -121,22 +121,28 @@ def of_exceedances(
         """What is lost of the likelihood, scores (n, 2), information (2, 2)."""
         eta, held = rows @ p, runs - exceeded
         up, down = (np.exp(norm.logpdf(eta) - log_ndtr(s * eta)) for s in (1.0, -1.0))
-        lost = -float(exceeded @ log_ndtr(eta) + held @ log_ndtr(-eta))
+        missed = -float(exceeded @ log_ndtr(eta) + held @ log_ndtr(-eta))
         weights = exceeded * up * (up + eta) + held * down * (down - eta)
         return (
-            lost,
+            missed,
             (exceeded * up - held * down)[:, None] * rows,
             rows.T @ (weights[:, None] * rows),
         )
 
     start = np.array([float(norm.ppf(passed / total)), 1.0])
 
+    def lost(p: FloatArray) -> float:
+        return terms(p)[0]
+
     def slope(p: FloatArray) -> FloatArray:
         return np.asarray(-terms(p)[1].sum(axis=0), float)
 
+    def curvature(p: FloatArray) -> FloatArray:
+        return terms(p)[2]
+
     found = minimize(
-        lambda p: terms(p)[0], start, jac=slope,
-        hess=lambda p: terms(p)[2], method="trust-exact", tol=1e-10 * total,
+        lost, start, jac=slope, hess=curvature,
+        method="trust-exact", tol=1e-10 * float(total),
     ).x  # fmt: skip
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
@@ -181,7 +187,6 @@ def of_cloud(
     FieldError
         For demands that have no logarithm, or do not move towards the limit with intensity.
     """
-    from scipy.linalg import block_diag
     from scipy.stats import linregress
 
     x = _logarithms(intensities, demands)
@@ -212,7 +217,9 @@ def of_cloud(
         return Fragility(median, capacity / abs(b), 0.0, 0.0, passed, n)
     rows = np.column_stack([np.ones(n), x])
     # unknowns: a, b, variance
-    information = block_diag(rows.T @ rows / variance, [[0.5 * (n - 2) / variance**2]])
+    information = np.zeros((3, 3))
+    information[:2, :2] = rows.T @ rows / variance
+    information[2, 2] = 0.5 * (n - 2) / variance**2
     scores = np.column_stack([rows * e[:, None], 0.5 * (e**2 - e @ e / n) / variance]) / variance
     spread = _covariance(information, scores, records)
     dispersion = float(np.sqrt(rest)) / abs(b)
