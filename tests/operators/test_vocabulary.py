@@ -13,6 +13,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
 from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.language import vocabulary
 from ssilang.language.registry import find_operator
@@ -34,7 +35,9 @@ _CHOICES = ("GAUSS", "LOBATTO", "INTEGRE", "CONS", "DPGE", "LIBRE", "LIE")
 _KNOWN = {
     "formulation": FORMULATIONS,
     "law": (
-        *LAW_WORDS, *METHODS, *_CHOICES, "UNILATERAL", "FROTTANT", "COULOMB", "FROCABLE", "PRESSION"
+        *LAW_WORDS, *METHODS, *_CHOICES, "UNILATERAL", "FROTTANT", "COULOMB", "FROCABLE",
+        "PRESSION",
+        *(word for words_of_link in LINKS for word in words_of_link),
     ),
     "element": (*ELEMENTS, *GENERIC_ELEMENTS),
     "parameter": words.known_parameters(),

@@ -7,7 +7,7 @@ MODE, MATE, OPTI and the checker ask here.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cache
 
@@ -31,7 +31,7 @@ from ssilang.kernel.materials.behaviours import (
     UNIAXIAL_LAWS,
 )
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.materials.parameters import Names, geometric_names, material_names
+from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -74,8 +74,10 @@ _USUAL = {
 _FORMULATION = {"contact": "CONTACT", "pressure": "CHARGEMENT", "link": "LIAISON"}
 
 
-def samples_of_element(element: str) -> Iterator[Zone]:
+def samples_of_element(element: str) -> Iterable[Zone]:
     """A zone of an element for each hypothesis that it has."""
+    if element == "LIAI":
+        return [sample(element, Mode.PLANE_STRAIN, words) for words in LINKS]
     return (sample(element, mode) for mode in ELEMENTS[element].modes)
 
 
@@ -169,7 +171,10 @@ def owners(name: str) -> tuple[tuple[Word, Quantity], ...]:
         found += [(law, word) for word in dict.fromkeys(meant)]
     for element in vocabulary.words("element"):
         for zone in samples_of_element(element.name) if element.name in ELEMENTS else ():
-            own = ELEMENTS[element.name].family == "joint"  # its laws have many parameters alike
+            own = ELEMENTS[element.name].family in (
+                "joint",
+                "link",
+            )  # its laws have many parameters alike
             if name in (*geometric_names(zone).all, *(law_names(zone).all if own else ())):
                 found.append((element, parameter(name, zone)))
                 break
