@@ -12,6 +12,8 @@ from ssilang.cli.sweeping.gathering import gathered, run_together
 from ssilang.cli.sweeping.pool import run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.worker import Task, run_task
+from ssilang.kernel.stepping import choose, effective
+from ssilang.kernel.stepping.problem import problem
 
 MODEL = """OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; AG = 1. ; CASE = 0 ;
 SI (CASE EGA 2) ; ERRE 'wrong from the start' ; FINSI ;
@@ -67,6 +69,14 @@ V1 = T2 . 81 . 'VARIABLES_INTERNES' ; LU = EXTR (EVOL 'TEMP' T2 'DEPL' 'RZ' PC) 
 @VERIFIE T1 'lost' (EXTR V1 'EPER' 1 1 1) 1.E6 1.E6 ;
 """
 FIGURES = ("highest", "lowest", "one", "instants", "work", "pressed", "lifted", "settled", "lost")
+
+
+@pytest.fixture(autouse=True)
+def _in_the_loop_of_large_models(monkeypatch):
+    """Which alone takes several motions; models that are small in tests would have another."""
+    monkeypatch.setattr(choose, "RULES", choose.only("dissection"))
+    monkeypatch.setattr(effective, "SMALL", 0)
+    monkeypatch.setattr(problem, "SMALL", 0)
 
 
 @pytest.fixture

@@ -218,13 +218,6 @@ def test_vibr_tells_of_a_mass_of_both_signs_and_refuses_one_that_is_negative(run
     assert "negative: -2" in refused(spring + "T = VIBR 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")
 
 
-def test_vibr_says_why_there_is_no_solution_object(refused):
-    spring = "OPTI DIME 2 ; P = 0. 0. ; K = APPU 'DEPL' 4. P ; G = MASS 'DEPL' 1. P ; "
-    told = refused(spring + "T = VIBR 'SOLU' 'SIMU' 1. 1 K G ;")
-    assert "out of ssilang's scope" in told
-    assert "BASE_MODALE" in told
-
-
 @pytest.mark.parametrize("asked", ["RIGI M A", "MASS M A", "EPSI M U", "INTG M C"])
 def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     told = refused(

@@ -183,7 +183,7 @@ def test_a_start_from_weight_is_kept():
         (("N = MODE (S DIFF I) MECANIQUE ELASTIQUE", "N = MODE (S DIFF I) MECANIQUE ELASTIQUE "
           "PLASTIQUE PARFAIT"), "PLASTIQUE PARFAIT"),
         (("MODE PLAN DEFO", "MODE PLAN CONT"), "plane strain"),
-        (("P = @PML T", "T . 'REFLEXION' = 2. ; P = @PML T"), "between 0 and 1"),
+        (("P = @PML T", "T . 'REFLEXION' = 2. ; P = @PML T"), "0 < REFLEXION < 1"),
     ],
 )  # fmt: skip
 def test_refusals(change, told):
