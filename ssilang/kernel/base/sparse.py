@@ -21,4 +21,12 @@ else:
 
     sp = _Deferred()
 
-__all__ = ["sp"]
+__all__ = ["for_products", "sp"]
+
+SMALL = 160
+"""Rows and columns below which a dense product takes less than scipy's own call of a sparse one."""
+
+
+def for_products(A: Any) -> Any:
+    """A sparse matrix that multiplies many vectors: a dense array where it is small."""
+    return A.toarray() if max(A.shape) <= SMALL else sp.csr_array(A)

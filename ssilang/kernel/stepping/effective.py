@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.sparse import for_products, sp
 from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import Ordering
@@ -66,9 +67,14 @@ class Effective:
 
     def solve(self, r: FloatArray) -> FloatArray:
         """Admissible motion (n,) or (n, k) under r, for `C du = 0`."""
-        c = self.constraints
-        found: FloatArray = c.T @ self.inverse.solve(c.V.T @ r)
+        to, back = self._conditions
+        found: FloatArray = back @ self.inverse.solve(to @ r)
         return found
+
+    @cached_property
+    def _conditions(self) -> tuple[Any, Any]:
+        """`V^T` and T, for products."""
+        return for_products(self.constraints.V.T), for_products(self.constraints.T)
 
     def imposed(self, dd: FloatArray) -> FloatArray:
         """Motion (n,) for `C du = dd` and no force."""

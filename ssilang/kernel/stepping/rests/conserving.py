@@ -23,7 +23,7 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.sparse.loop import end_of_step, support_work
+from ssilang.kernel.stepping.rests.sparse.loop import end_of_step, products_of, support_work
 from ssilang.kernel.stepping.state import (
     DAMPED,
     ELASTIC,
@@ -48,6 +48,7 @@ class ConservingLoop:
 
     def __init__(self, problem: Problem, motion: Motion, effective: Effective) -> None:
         self.problem, self.motion, self.effective = problem, motion, effective
+        self._by = products_of(problem)
         joints = problem.interface
         if joints is not None:
             self._end = new_trial(motion.w.shape, joints.size)
@@ -92,8 +93,8 @@ class ConservingLoop:
         loads, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
         for k in range(len(recorder.row)):
             mean_load = 0.5 * (loads[k] + loads[k + 1])
-            r = 2 * mean_load - 2 * (p.K @ m.u) + (4 / dt) * (p.M @ m.v)
-            dd = imposed[k + 1] - p.constraints.C @ m.u
+            r = 2 * mean_load - 2 * (self._by.K @ m.u) + (4 / dt) * (self._by.M @ m.v)
+            dd = imposed[k + 1] - self._by.D @ m.u
             if self._contact is None:
                 du, turns, residual = self._increment(r, dd)
             else:
@@ -118,7 +119,7 @@ class ConservingLoop:
             du = du + e.imposed(dd)
         if joints is None:
             return du, 1, 0.0
-        y0 = joints.J @ du
+        y0 = self._by.J @ du
         y = y0.copy()
         size, h = self._residual(joints, y, y0)
         scale = max(np.abs(y0).max(), np.abs(self.motion.delta).max(), 1e-300)
@@ -143,7 +144,7 @@ class ConservingLoop:
         du = e.solve(r)
         if dd.any():
             du = du + e.imposed(dd)
-        y0 = joints.J @ du if joints is not None else np.zeros(0)
+        y0 = self._by.J @ du if joints is not None else np.zeros(0)
         gap = rows.gaps(m.u, factors[0])
         change = rows.G @ du - rows.imposed @ (factors[1] - factors[0])
         found = contact.solve(self, y0, gap, change)
@@ -180,17 +181,19 @@ class ConservingLoop:
         self, du: FloatArray, dd: FloatArray, mean_load: FloatArray, factors: FloatArray
     ) -> None:
         p, m, dt, joints = self.problem, self.motion, self.effective.dt, self.problem.interface
+        by = self._by
         v0, middle = m.v.copy(), m.u + 0.5 * du
         m.u[:] += du
         m.v[:] = 2 * du / dt - v0
         m.a[:] = (m.v - v0) / dt
-        m.reaction[:] = p.M @ m.a + p.K @ middle - mean_load
+        m.reaction[:] = by.M @ m.a + by.K @ middle - mean_load
         if p.C.nnz:
-            m.reaction[:] += p.C @ du / dt
-            m.energies[DAMPED] += du @ (p.C @ du) / dt
+            damping = by.C @ du / dt
+            m.reaction[:] += damping
+            m.energies[DAMPED] += du @ damping
         if joints is not None:
-            m.reaction[:] += joints.J.T @ self._end.f
-            m.delta[:] = joints.J @ m.u
+            m.reaction[:] += by.Jt @ self._end.f
+            m.delta[:] = by.J @ m.u
             end = self._end
             m.w[:, :], m.t[:, :], m.state[:, :] = end.w, end.t, end.state
             interface_forces(joints.points, m.t, m.f)
@@ -201,8 +204,8 @@ class ConservingLoop:
         m.energies[EXTERNAL] += support_work(
             p, m.reaction, m.contact, du, dd, factors[1] - factors[0]
         )
-        m.energies[KINETIC] = 0.5 * m.v @ (p.M @ m.v)
-        m.energies[ELASTIC] = 0.5 * m.u @ (p.K @ m.u)
+        m.energies[KINETIC] = 0.5 * m.v @ (by.M @ m.v)
+        m.energies[ELASTIC] = 0.5 * m.u @ (by.K @ m.u)
         if p.contact is not None and p.contact_options.method == "PENALITE":
             m.energies[ELASTIC] += p.contact.penalty_energy(
                 p.contact.gaps(m.u, factors[1]), p.contact_options.coefficient

@@ -6,12 +6,12 @@ Same steps as the compiled loops, which tests hold against this one.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.sparse import for_products
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import accept, interface_energies
@@ -72,6 +72,7 @@ class CondensedSolver:
         self._newton: Workspace | None = None
         if (joints := problem.interface) is not None:
             self._newton = workspace((joints.n_points, joints.dimension), joints.size)
+            self._J = for_products(joints.J)
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
@@ -81,7 +82,7 @@ class CondensedSolver:
         if self.interface is None or self._newton is None:
             return StepOutcome(du, 1, 0.0)
         trial = self._newton.trial
-        trial.y0[:] = self.interface.J @ du
+        trial.y0[:] = self._J @ du
         trial.y[:] = trial.y0
         now = motion.joints
         turns, residual = solve_interface(self.interface.points, self._condensed, now, self._newton)
@@ -118,6 +119,24 @@ def support_work(
     return work + float(dd @ problem.constraints.multipliers(rest)) if dd.any() else work
 
 
+class Products(NamedTuple):
+    """A problem's matrices by `for_products`; D are its conditions, Jt is J transposed."""
+
+    K: Any
+    M: Any
+    C: Any
+    D: Any
+    J: Any
+    Jt: Any
+
+
+def products_of(p: Problem) -> Products:
+    """Matrices of a problem for a loop of many steps; without joints no J."""
+    J = None if p.interface is None else p.interface.J
+    given = (p.K, p.M, p.C, p.constraints.C, J, None if J is None else J.T)
+    return Products(*(None if A is None else for_products(A) for A in given))
+
+
 @dataclass(eq=False)
 class SparseLoop:
     """Steps of one dt with a solver for each."""
@@ -127,9 +146,7 @@ class SparseLoop:
 
     def __post_init__(self) -> None:
         self._damped = self.problem.C.nnz > 0
-        self._J: sp.csr_array | None = None
-        if self.problem.interface is not None:
-            self._J = sp.csr_array(self.problem.interface.J.T)
+        self._by = products_of(self.problem)
 
     def run(
         self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
@@ -142,7 +159,7 @@ class SparseLoop:
         imposed = factors @ p.loading.imposed.T
         for k in range(len(r.row)):
             rest = self._predict(n, loads[k], loads[k + 1])
-            dd = imposed[k + 1] - p.constraints.C @ self.motion.u
+            dd = imposed[k + 1] - self._by.D @ self.motion.u
             pushed = self.motion.contact.copy()
             outcome = solver.solve(self.motion, rest, dd, self._gap(factors[k + 1]))
             if outcome.turns <= 0:
@@ -168,8 +185,9 @@ class SparseLoop:
     def _begin(self) -> None:
         """Products of the current state, that each step hands to the next."""
         p, m = self.problem, self.motion
-        self._Ku, self._Mv, self._Ma = p.K @ m.u, p.M @ m.v, p.M @ m.a
-        self._Cv = p.C @ m.v if self._damped else NOTHING
+        by = self._by
+        self._Ku, self._Mv, self._Ma = by.K @ m.u, by.M @ m.v, by.M @ m.a
+        self._Cv = by.C @ m.v if self._damped else NOTHING
         self._joints_lost = 0.0
         if p.contact is not None:
             self._joints_lost = self._of_joints()[1]
@@ -186,11 +204,11 @@ class SparseLoop:
         zero = np.zeros_like(load0)
         Cv, Ca = (self._Cv, zero) if self._damped else (zero, zero)
         if self._damped and n.c_a != 0.0:
-            Ca = self.problem.C @ self.motion.a
+            Ca = self._by.C @ self.motion.a
         r: FloatArray = from_past(n, self._Mv, self._Ma, Cv, Ca) - self._Ku
         r += n.end * load1 + n.start * load0
-        if self._J is not None:
-            r -= self._J @ self.motion.f
+        if self._by.Jt is not None:
+            r -= self._by.Jt @ self.motion.f
         return r
 
     def _advance(self, n: Newmark, du: FloatArray) -> None:
@@ -214,8 +232,8 @@ class SparseLoop:
         if self._damped:
             m.reaction[:] += self._Cv
             m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
-        if self._J is not None:
-            m.reaction[:] += self._J @ m.f
+        if self._by.Jt is not None:
+            m.reaction[:] += self._by.Jt @ m.f
         m.energies[EXTERNAL] += 0.5 * du @ (loads[0] + loads[1])
         m.energies[EXTERNAL] += support_work(
             p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]
