@@ -27,7 +27,7 @@ def belongs(bound: Range, value: float) -> bool:
     text = bound.text("x")
     if bound == ANY_NUMBER:
         return True
-    return math.isfinite(value) and (not text or eval(text, {"x": value}))
+    return math.isfinite(value) and (not text or eval(text.replace("|x|", "abs(x)"), {"x": value}))
 
 
 def tried(types, value):

@@ -123,9 +123,9 @@ class Range:
         return finite and above and below and (self.zero or value != 0)
 
     def text(self, name: str) -> str:
-        """As an inequality: 'NU > -1', '-1 < NU <= 0.5', 'N != 0'."""
+        """As an inequality: 'NU > -1', '-1 < NU <= 0.5', 'N != 0', '0 < |N| <= 10'."""
         if not self.zero:
-            return f"{name} != 0"
+            return f"0 < |{name}| <= {self.high:g}" if math.isfinite(self.high) else f"{name} != 0"
         bounded = math.isfinite(self.low), math.isfinite(self.high)
         left, right = "<" if self.open_low else "<=", "<" if self.open_high else "<="
         if all(bounded):
@@ -157,6 +157,8 @@ UNSAID = Range()
 ANY_NUMBER = Range(open_low=True, open_high=True)
 """Any number has sense: coordinates, forces, terms of lists; of NaN operators tell themselves."""
 NOT_ZERO = Range(zero=False)
+CELLS_ALONG = Range(-1e7, 1e7, zero=False)
+"""Elements of a line, layers of a body, graded if negative; more would not fit in memory."""
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
 RISING = Range(0.0, increasing=True)

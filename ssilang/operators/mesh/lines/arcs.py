@@ -22,7 +22,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.registry import arg, choice, flag, operator, opt, said
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import POSITIVE, between
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -177,10 +177,13 @@ def parc(
     return union(*parts, as_given=True)
 
 
+_CELLS = between(1, 1e7)
+
+
 @operator(
     "CONG",
     arg("first", "MAILLAGE", en="first line"),
-    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it", range=POSITIVE),
+    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it", range=_CELLS),
     opt("radius", "FLOTTANT", range=POSITIVE, en="radius", unit="m"),
     arg("second", "MAILLAGE", en="line that follows"),
     flag("double", "DOUBLE", en="two arcs: not available"),

@@ -25,7 +25,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.language.registry import arg, key, many, opt
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_ZERO, POSITIVE, between
+from ssilang.language.vocabulary.terms import CELLS_ALONG, POSITIVE, between
 from ssilang.operators.workspace import Workspace, workspace
 
 SIZES_EN = (
@@ -39,7 +39,7 @@ COUNT = opt(
     "count",
     "ENTIER",
     en="number of elements, graded by the mesh sizes if negative; without it these decide",
-    range=NOT_ZERO,
+    range=CELLS_ALONG,
 )
 ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree", usual=between(-360.0, 360.0))
 SIZES = key(

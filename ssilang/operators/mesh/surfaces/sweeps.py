@@ -24,7 +24,7 @@ from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.registry import arg, operator, opt
 from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_ZERO
+from ssilang.language.vocabulary.terms import CELLS_ALONG, NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -50,7 +50,7 @@ LAYERS = opt(
     "count",
     "ENTIER",
     en="number of layers, graded by the mesh sizes if negative; without it these decide",
-    range=NOT_ZERO,
+    range=CELLS_ALONG,
 )
 _SWEPT = arg("swept", "MAILLAGE", en="line, or surface whose side 3 is swept")
 
