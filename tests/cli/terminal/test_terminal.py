@@ -41,13 +41,15 @@ def test_typed_lines_completion_and_save(terminal, tmp_path):
 
 
 def test_ctrl_c_stops_what_runs_and_keeps_the_session(terminal):
-    terminal.type("A1 = 7 ; REPE B1 ; C1 = 1 ; FIN B1 ;\n")
+    terminal.type("A1 = 7 ; MESS 'begun' ; REPE B1 ; C1 = 1 ; FIN B1 ;\n")
+    terminal.wait_for("begun\r")  # a key before would end the line, and nothing would run
     terminal.press_until("\x03", "interrupted")
     terminal.type("OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 1. 0. ; L1 = DROI 100 P1 P2 ;\n")
     # in the middle of one long call of an operator, in compiled code
     terminal.type("S1 = L1 TRAN 3000 (0. 1.) ; MESS 'made' ; T1 = INVE S1 ;\n")
     terminal.wait_for("made\r")
-    terminal.type("REPE B2 ; T1 = T1 ET (S1 PLUS (1. 0.)) ; FIN B2 ;\n")
+    terminal.type("MESS 'again' ; REPE B2 ; T1 = T1 ET (S1 PLUS (1. 0.)) ; FIN B2 ;\n")
+    terminal.wait_for("again\r")
     terminal.press_until("\x03", "interrupted")
     terminal.type("MESS 'still' A1 ;\n")
     terminal.wait_for("still7")
