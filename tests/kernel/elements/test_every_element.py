@@ -58,7 +58,7 @@ class Two:
             x = corners + rng.uniform(-0.12, 0.12, corners.shape)
             x = shape_functions(linear, nodes) @ x
             x = np.column_stack([x, np.zeros((len(x), 3 - x.shape[1]))])
-            places.append(x + [far, 0.3 * far, 0.0])
+            places.append(x + np.array([far, 0.3 * far, 0.0]))
         self.x = np.concatenate(places) @ R.T
         flat = mode not in SPACED
         table = NodeTable()

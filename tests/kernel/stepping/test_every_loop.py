@@ -165,10 +165,9 @@ def test_steps_of_motions_side_by_side_are_those_of_the_equations():
     holds()
 
 
-def parts_of(patch, problem):
+def parts_of(patch):
     """What adapted steps are made of: a list that fills with (end, state) of accepted parts."""
-    parts, clock = [], problem.times[:1].copy()
-    run, step = SparseLoop.run, AdaptiveLoop._step
+    parts, run, step = [], SparseLoop.run, AdaptiveLoop._step
 
     def run_one(loop, solver, n, *given):
         outcome = run(loop, solver, n, *given)
@@ -197,7 +196,7 @@ def test_parts_of_adapted_steps_are_those_of_the_equations():
         problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
         recorder = Recorder(len(problem.times))
         with pytest.MonkeyPatch.context() as patch:
-            parts = parts_of(patch, problem)
+            parts = parts_of(patch)
             history = integrate(problem, [recorder])
         assert history.loop == "adaptive"
         instants = [recorder.snapshots[0], *(state for _, state in parts)]
