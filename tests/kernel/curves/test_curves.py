@@ -41,6 +41,8 @@ def test_real_curves_combine_where_both_are():
     product = algebra.combined(Curve((PART,)), Curve((near,)), "*", np.multiply)
     np.testing.assert_array_equal(product.parts[0].ordinates, Y * (Y + 1.0))
     np.testing.assert_array_equal(product.parts[0].abscissas, X)
+    same = algebra.combined(Curve((PART,)), Curve((near,)), "-", lambda a, b: a - 2 * b)
+    np.testing.assert_array_equal(same.parts[0].ordinates, Y - 2 * (Y + 1.0))
     one = Curve((PART,))
     refused(lambda: algebra.combined(two, one, "+", np.add), "objects-curves", n_parts=2,
             n_parts_2=1)  # fmt: skip
@@ -78,6 +80,8 @@ def test_complex_curves_combine_as_complex_numbers(kinds):
     for i in (0, 1):
         made = algebra.complex_values(*found.parts[2 * i : 2 * i + 2])
         np.testing.assert_allclose(made, values[i] * values[i + 2], rtol=1e-12)
+    named = algebra.combined(Curve(a.parts, "t", "COMPLEXE"), b, "-", np.subtract)
+    assert (named.title, named.kind) == ("t", "COMPLEXE")
     refused(lambda: algebra.combined(a, Curve((PART,) * 4), "+", np.add),
             "real-curve-complex-cannot")  # fmt: skip
     moved = Curve(tuple(CurvePart(X + 1, part.ordinates, kind=part.kind) for part in b.parts))
@@ -112,6 +116,8 @@ def test_primitives_and_samples():
     assert made.legend == "legend"
     at = np.array([-2.0, 0.0, 0.3, 3.0, 9.0])
     np.testing.assert_allclose(algebra.sampled(PART, at), np.interp(at, X, Y))
+    back = CurvePart(X[[0, 1, 3, 2]], Y[:4])
+    refused(lambda: algebra.sampled(back, at), "abscissas-must-increase-follows", x=0.9, x_2=2.2)
     for order in (slice(None), slice(None, None, -1)):
         found = algebra.interpolated(X[order], Y[order], at)
         np.testing.assert_allclose(found, np.interp(at, X, Y))
@@ -142,6 +148,9 @@ def test_splines_pass_through_their_points_with_the_ends_asked_for(ends):
             assert (second if wanted is None else first) == pytest.approx(wanted or 0.0, abs=2e-2)
         for knot in X[1:-1]:
             assert slopes(knot - h)[1] == pytest.approx(slopes(knot + h)[1], abs=2e-2)
+    assert algebra.spline(X[:2], Y[:2], np.array([0.0]), None, None) == pytest.approx(
+        np.interp(0.0, X, Y)
+    )
     refused(lambda: algebra.spline(X[:1], Y[:1], X, None, None), "spline-needs-two-points", n_x=1)
     refused(lambda: algebra.spline(X, Y[:3], X, None, None), "spline-many-abscissas-values", n_x=5,
             n_y=3)  # fmt: skip

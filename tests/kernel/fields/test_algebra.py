@@ -64,7 +64,7 @@ def test_sums_of_node_fields(table, seed):
     assert list(found.components) == ["UY", "UX", "RZ"]
     nothing = NodeField(table, {}, "")
     assert nodes.added(nothing, b).nature == nodes.added(b, nothing).nature == "DISCRET"
-    assert nodes.common_nature("", "DIFFUS") == ""
+    assert nodes.common_nature("", "DIFFUS") == nodes.common_nature("DISCRET", "") == ""
     same = nodes.added(a, nodes.applied(a, np.square), 2.0)
     assert_is(same, {k: v + 2 * v**2 for k, v in told(a).items()})
 
@@ -72,7 +72,8 @@ def test_sums_of_node_fields(table, seed):
 @SEEDS
 def test_products_of_node_fields(table, seed):
     rng = np.random.default_rng(seed)
-    a, s = drawn(table, rng, ("UY", "UX")), drawn(table, rng, ("SCAL",), "DISCRET")
+    a = drawn(table, rng, ("UY", "UX"), title="a")
+    s = drawn(table, rng, ("SCAL",), "DISCRET", "s")
     b, factor = drawn(table, rng, ("UX", "UY")), told(s)
 
     def by_scalar(run):
@@ -82,7 +83,11 @@ def test_products_of_node_fields(table, seed):
     assert_is(nodes.multiplied(a, s), by_scalar(lambda x, y: x * y))
     assert_is(nodes.multiplied(s, a), by_scalar(lambda x, y: x * y))
     assert_is(nodes.multiplied(a, s, divide=True), by_scalar(lambda x, y: x / y))
+    for first, second, title in ((a, s, "a"), (s, a, "a"), (a, b, "a"), (b, a, "")):
+        assert nodes.multiplied(first, second).title == title
     assert nodes.multiplied(a, s).nature == "DISCRET"
+    cube = nodes.multiplied(nodes.applied(a, lambda x: x**4), a, divide=True)
+    assert_is(cube, {k: v**3 for k, v in told(a).items()})
     two = told(b)
     assert_is(nodes.multiplied(a, b), {k: v * two[k] for k, v in told(a).items() if k in two})
     quotient = nodes.multiplied(a, b, divide=True)
@@ -101,16 +106,18 @@ def test_products_of_node_fields(table, seed):
 @SEEDS
 def test_products_of_node_fields_by_names(table, seed):
     rng = np.random.default_rng(seed)
-    a, b = drawn(table, rng, ("UX", "UY", "UZ")), drawn(table, rng, ("FX", "FY", "FZ"))
+    a, b = drawn(table, rng, ("UX", "UY", "UZ"), title="a"), drawn(table, rng, ("FX", "FY", "FZ"))
     x, y = told(a), told(b)
-    pairs = (("UX", "UY", "UZ", "RX"), ("FZ", "FX", "FY", "FX"), ("P", "Q", "P", "R"))
+    pairs = (("UX", "RX", "UY", "UZ"), ("FZ", "FX", "FX", "FY"), ("P", "R", "Q", "P"))
     for divide, run in ((False, np.multiply), (True, np.divide)):
         wanted = defaultdict(float)
         for left, right, name in zip(*pairs, strict=True):
             for n in range(12):
                 if (left, n) in x and (right, n) in y:
                     wanted[name, n] += run(x[left, n], y[right, n])
-        assert_is(nodes.multiplied_by_names(a, b, pairs, divide), dict(wanted))
+        found = nodes.multiplied_by_names(a, b, pairs, divide)
+        assert_is(found, dict(wanted))
+        assert found.title == "a"
     total = defaultdict(float)
     for left, right in (("UX", "FY"), ("UZ", "FX")):
         for n in range(12):
@@ -144,6 +151,9 @@ def test_parts_and_unions_of_node_fields(table, seed):
         assert (caught.value.data["values"], caught.value.data["values_2"]) == (x[key], y[key])
     close = nodes.applied(a, lambda v: v * (1 + 4e-7))
     assert told(nodes.united(a, close)) == x
+    apart = NodeField(table, {"UX": a.components["UX"]}, "DISCRET")
+    second = NodeField(table, {"RZ": b.components["RZ"]}, "DISCRET")
+    assert list(nodes.united(apart, second).components) == ["UX", "RZ"]
     lumps = [NodeField(table, f.components, "DISCRET") for f in (a, b)]
     assert_is(nodes.united(*lumps), {k: x.get(k, 0.0) + y.get(k, 0.0) for k in x | y})
     with pytest.raises(FieldError) as caught:
@@ -166,6 +176,32 @@ def test_parts_and_unions_of_node_fields(table, seed):
     v = rng.standard_normal(12)
     mixed = NodeField.of(table, order, {"T": v})
     assert told(mixed) == {("T", int(n)): u for n, u in zip(order, v, strict=True)}
+
+
+@pytest.mark.parametrize("nature", ["DISCRET", "DIFFUS"])
+def test_operations_see_nodes_that_became_one(table, nature):
+    rng = np.random.default_rng(9)
+    a, b = (drawn(table, rng, names, nature) for names in (("UX", "UY"), ("UY", "RZ")))
+    table.merge(np.array([2, 5]), np.array([7, 9]))
+    after = {2: 2, 7: 2, 5: 5, 9: 5}
+
+    def met(field):
+        made = {}
+        for (name, n), v in sorted(told(field).items(), reverse=True):  # survivors last
+            key = name, after.get(n, n)
+            made[key] = v + made.get(key, 0.0) if nature == "DISCRET" else v
+        return made
+
+    x, y = met(a), met(b)
+    assert_is(a.after_merges(), x)
+    assert_is(nodes.added(a, b), {k: x.get(k, 0.0) + y.get(k, 0.0) for k in x | y})
+    assert_is(nodes.restricted(a, np.array([2, 3, 5])),
+              {k: v for k, v in x.items() if k[1] in (2, 3, 5)})  # fmt: skip
+    assert_is(nodes.multiplied(a, a), {k: v * v for k, v in x.items()})
+    if nature == "DIFFUS":
+        assert_is(nodes.united(a, b, check=False), y | x)
+    alone = NodeField(table, {"UX": NodeValues(np.array([1, 3]), np.ones(2))}, nature)
+    assert alone.after_merges() is alone
 
 
 # --- fields in cells: zones of three, two and four cells, one of two points a cell
@@ -232,7 +268,7 @@ def test_sums_of_cell_fields(table, zones):
 
 def test_products_of_cell_fields(zones):
     rng = np.random.default_rng(2)
-    a = of_cells(rng, zones[:2], ("B", "A"))
+    a = of_cells(rng, zones[:2], ("B", "A"), title="a")
     x = values(a)
     s = of_cells(rng, zones[::-1], ("SCAL",), points=1)
     y = {zone: v for (zone, _), v in values(s).items()}
@@ -268,6 +304,10 @@ def test_products_of_cell_fields(zones):
                     x[zone, n] / f / w if divide else x[zone, n] * f * w for n, w in parts
                 )
         assert_equal(found, wanted)
+        assert found.title == "a"
+    assert cells.multiplied(a, s).title == "a"
+    part = cells.multiplied_by_names(a, CellField(two.blocks[1:]), names)
+    assert [len(b.cells) for b in part.blocks] == [2]
 
 
 def test_parts_and_unions_of_cell_fields(zones):
@@ -302,6 +342,10 @@ def test_parts_and_unions_of_cell_fields(zones):
         with pytest.raises(FieldError) as caught:
             wrong()
         assert caught.value.code == "kernel.fields.component-holds-objects-not"
+    with_numbers = cells.multiplied(held, CellField((cells.rebuilt(
+        a.blocks[0], {"SCAL": np.array([[2.0], [3.0], [5.0]])}),)), True,
+        lambda sign, p, q: f"{p}{sign}{q}")  # fmt: skip
+    assert with_numbers.blocks[0].components["O"].ravel().tolist() == ["p/2.0", "q/3.0", "p/5.0"]
     joined = cells.added(held, held, -1.0, lambda sign, p, q: p + sign + q)
     assert joined.blocks[0].components["O"].ravel().tolist() == ["p-p", "q-q", "p-p"]
     rule = lambda sign, p, q: f"{p}{sign}{q}"  # noqa: E731
