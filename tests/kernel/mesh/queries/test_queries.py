@@ -505,3 +505,37 @@ def test_maps_move_what_they_say_and_keep_what_they_hold():
     moved = np.flatnonzero((mesh.nodes.coordinates[: len(before)] != before).any(axis=1))
     assert moved.tolist() == sorted([at[0, 0], at[3, 1]])
     np.testing.assert_allclose(mesh.nodes.coordinates[at[0, 0]], before[at[0, 0]] + b)
+
+
+def test_lines_that_bend_that_continue_and_that_repeat():
+    table = NodeTable()
+    ring = np.array([[0.0, 0], [1.5, -0.4], [3, 0], [3.2, 0.9], [3, 2], [1.4, 1.1]])
+    ids = table.add(np.column_stack([ring, np.zeros(6)]))
+    rows = np.array([[0, 1, 2], [2, 3, 4], [4, 5, 0]])
+    bent = Mesh.of(table, "SEG3", ids[rows])
+    area = 3.0  # of the triangle; each parabola has two thirds of its middle's triangle
+    for a, m, b in ring[rows]:
+        area += 4 / 3 * 0.5 * (np.cross(np.append(m - a, 0), np.append(b - a, 0))[2])
+    assert measure.signed_area(bent) == pytest.approx(area)
+    assert measure.signed_area(orientation.reversed_line(bent)) == pytest.approx(-area)
+    with pytest.raises(MeshError) as caught:
+        measure.signed_area(combine.poi1(table, ids))
+    assert caught.value.code == "kernel.mesh.area-inside-line-asked"
+    first, second, third = (
+        Mesh.of(table, "SEG2", ids[list(p)][None]) for p in ((2, 4), (0, 2), (4, 5))
+    )
+    for order in ((first, second, third), (second, first, third)):
+        found = combine.union(*order).blocks[0].connectivity.tolist()
+        assert found == ids[[[0, 2], [2, 4], [4, 5]]].tolist()
+    given = combine.union(first, second, third, as_given=True).blocks[0].connectivity
+    assert given.tolist() == ids[[[2, 4], [0, 2], [4, 5]]].tolist()
+    twice = Mesh.of(table, "SEG2", np.array([[0, 1], [1, 0], [2, 3], [0, 1], [3, 2], [4, 5]]))
+    assert [len(cells_of(p)) for p in partition.connected(twice)] == [3, 2, 1]
+    corners = Mesh.of(table, "TRI3", ids[[[0, 2, 4], [5, 4, 2]]])  # the second in the other sense
+    edge = boundary.contour(corners).blocks[0].connectivity
+    assert sorted(edge[:, 0].tolist()) == sorted(edge[:, 1].tolist())  # one loop, one sense
+    assert edge[0].tolist() in ids[[[0, 2], [4, 0]]].tolist()
+    lone = boundary.lone_surfaces(Mesh(table, (
+        CellBlock.make(table, "TRI3", ids[[[0, 2, 4], [4, 2, 0], [5, 4, 2]]]),
+    )))  # fmt: skip
+    assert lone.blocks[0].connectivity.tolist() == [ids[[5, 4, 2]].tolist()]
