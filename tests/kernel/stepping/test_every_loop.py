@@ -17,8 +17,9 @@ from references.recorder import Recorder
 
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
-from ssilang.kernel.solvers.factor import Solver
+from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose, effective
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
@@ -91,10 +92,12 @@ def joints_at(interface, u, state):
     return w, t, new, interface.J.T @ force.ravel(), energies
 
 
-def check_steps(problem, times, energies, instants):
-    """All that a step is made of, at every step."""
+def check_steps(problem, times, energies, instants, static=False):
+    """All that a step is made of, at every step; `static` ones are in balance without inertia."""
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
+    if static:
+        M, C = 0.0 * M, 0.0 * C
     free = la.null_space(rows)
     factors = np.stack([np.interp(times, x, y) for x, y in p.loading.curves], axis=1)
     F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
@@ -116,21 +119,26 @@ def check_steps(problem, times, energies, instants):
         near(found[ELASTIC], 0.5 * now.u @ K @ now.u, energy)
         near(found[[STORED, LOST]], [stored, lost], energy)
         if before is None:
-            near(free.T @ (M @ now.a + rest), 0.0, push)
+            near(free.T @ (M @ now.a + rest) * (not static), 0.0, push)
         else:
             dt, du = times[k] - times[k - 1], now.u - before.u
             near(rows @ now.u, imposed[k], sizes[0], 1e-10)
-            beta, gamma = s.beta, s.gamma
-            ahead = before.u + dt * before.v + dt**2 * (0.5 - beta) * before.a
-            near(now.u, ahead + dt**2 * beta * now.a, sizes[0])
-            near(now.v, before.v + dt * ((1 - gamma) * before.a + gamma * now.a), sizes[1])
-            inertia = M @ ((1 - s.alpha_m) * now.a + s.alpha_m * before.a)
-            balance = inertia + (1 - s.alpha_f) * rest + s.alpha_f * was
-            near(free.T @ balance, 0.0, push)
+            if static:
+                near(free.T @ rest, 0.0, push)
+                assert not np.any([now.v, now.a])
+            else:
+                beta, gamma = s.beta, s.gamma
+                ahead = before.u + dt * before.v + dt**2 * (0.5 - beta) * before.a
+                near(now.u, ahead + dt**2 * beta * now.a, sizes[0])
+                near(now.v, before.v + dt * ((1 - gamma) * before.a + gamma * now.a), sizes[1])
+                inertia = M @ ((1 - s.alpha_m) * now.a + s.alpha_m * before.a)
+                balance = inertia + (1 - s.alpha_f) * rest + s.alpha_f * was
+                near(free.T @ balance, 0.0, push)
             step = found - energies[k - 1]
             near(step[DAMPED], 0.5 * du @ C @ (now.v + before.v), energy)
             supports = 0.5 * (rows @ du) @ la.lstsq(rows.T, now.reaction + before.reaction)[0]
-            near(step[EXTERNAL], 0.5 * du @ (F[k] + F[k - 1]) + supports, energy)
+            if not static or k > 1:  # what is out of balance at first grows from nothing
+                near(step[EXTERNAL], 0.5 * du @ (F[k] + F[k - 1]) + supports, energy)
         before, was = now, rest
 
 
@@ -161,6 +169,26 @@ def test_steps_of_motions_side_by_side_are_those_of_the_equations():
         for problem, history, recorder in zip(alike, found, recorders, strict=True):
             assert history.together == len(alike)
             check_steps(problem, problem.times, history.energies, recorder.snapshots)
+
+    holds()
+
+
+@pytest.mark.parametrize(
+    ("solver", "lines"), [(FIRST_FIT, LINES), (Solver("multigrid"), LINES[:1])],
+    ids=["condensed", "multigrid"],
+)  # fmt: skip
+def test_load_steps_are_equilibria(solver, lines):
+    """Also from a start that is none, whatever scheme the motion after them has."""
+
+    @settings(BRIEF, max_examples=5)
+    @given(problems(steps=25, line_laws=lines))
+    def holds(awkward):
+        problem = replace(awkward.problem(), solver=solver)
+        recorder = Recorder(len(problem.times))
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(hierarchy, "COARSEST", 6)
+            history = step_statics(problem, [recorder])
+        check_steps(problem, problem.times, history.energies, recorder.snapshots, static=True)
 
     holds()
 
