@@ -76,18 +76,6 @@ class _Said:
     flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
-    syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
-    "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('VTU'|'VTKHDF') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
-    en="VTK: meshes, nodal fields, fields in cells and tables of them, each with an optional name, "
-    "as .vtu files for ParaView: NAME.vtu for one mesh, NAME.step.mesh.vtu for several meshes or "
-    "times (TEMP), and NAME.pvd that lists them. Displacements, velocities and forces become "
-    "vectors, stresses and strains tensors, joints' tractions and openings vectors in the joint's "
-    "axes. AUTO goes on with the series that this run began when the time grows, else begins a "
-    "new one; SUIT goes on with the .pvd that is there, NOUV begins anew, NPVD writes no list. "
-    "VTKHDF: NAME.vtkhdf has all times, its mesh once (that may not change); ParaView 5.12 and "
-    "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
-    "models (material) whose names the script has, the field data says which is which. "
-    "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
 )
 def _vtk(call: Call, word: str) -> None:
     said = _read(call)

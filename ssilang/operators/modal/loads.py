@@ -28,10 +28,6 @@ _AXES = ("UX", "UY", "UZ")
     choice("direction", _AXES, optional=False, en="direction of the ground"),
     family="modal",
     full_name="SEISME",
-    en="Load on the modes of a basis by an acceleration of the ground in time, along 'UX', "
-    "'UY' or 'UZ', times a number: the generalised force of mode i is -Q_i X1 times the curve, "
-    "Q_i the generalised displacement of the mode in that direction.",
-    syntax="CHAR1 = SEIS EVOL1 TAB1 X1 'UX' | 'UY' | 'UZ' ;",
 )
 def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) -> Load:
     """Seismic load."""
@@ -58,10 +54,6 @@ def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) 
     arg("table", "TABLE", en="shapes"),
     family="modal",
     full_name="SIGSOL",
-    en="Table of modes, pseudo-modes or static shapes with the stresses of each: entry "
-    "CONTRAINTE_MODALE of modes, CONTRAINTE of the others. A new table; the shapes are those "
-    "of the old one.",
-    syntax="TAB2 = SIGS MODL1 MAT1 (CAR1) TAB1 ;",
 )
 def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
     """Stresses of modes."""

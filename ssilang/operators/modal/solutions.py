@@ -34,10 +34,8 @@ _MAIN = arg("solution", "SOLUTION", en="modes")
     opt("z", "FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
     arg("shape", "CHPOINT", en="shape"),
     opt("stresses", "MCHAML", en="its stresses"),
-    syntax="SOL1 = MANU 'MODE' ('NUME' N1) FLOT1 FLOT2 (FLOT3 FLOT4 FLOT5) CHPO1 (CHEL1) ;",
-    en="MODE: an object SOLUTION of one mode, with a point of its own that marks it.",
 )
-def by_hand(
+def mode_by_hand(
     call: Call,
     number: int | None,
     frequency: float,
@@ -69,7 +67,7 @@ def join_solutions(first: Solution, second: Solution) -> Solution:
     return Solution((*first.modes, *second.modes))
 
 
-@DIME.form(main("solution", "SOLUTION", en="modes"), en="Of a SOLUTION: its number of modes.")
+@DIME.form(main("solution", "SOLUTION", en="modes"))
 def count_modes(solution: Solution) -> int:
     """Number of modes."""
     return len(solution.modes)
@@ -94,9 +92,6 @@ _ALONG = {"QX": 1, "QY": 2, "QZ": 3}
         en="which mode, the last without it",
     ),
     gives="FLOTTANT|ENTIER|POINT|CHPOINT|MCHAML",
-    syntax="OBJ1 = TIRE SOL1 MOT1 ('RANG' | 'CAS' | 'NUME' N1) ;",
-    en="Of a SOLUTION: frequency (FREQ), generalised mass (MGEN) and displacements (QX QY QZ), "
-    "point that marks it (POIN), shape (DEPL), stresses (CONT) of a mode.",
 )
 def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -> Any:
     """What one mode holds."""
@@ -125,8 +120,6 @@ def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -
     arg("model", "MMODEL", en="model"),
     many("material", "MCHAML", at_least=1, en="parameters"),
     _MAIN,
-    syntax="SOL2 = SIGS MODL1 MAT1 (CAR1) SOL1 ;",
-    en="Of a SOLUTION: its modes with their stresses.",
 )
 def stressed(
     call: Call, model: Model, material: tuple[CellField, ...], solution: Solution
@@ -141,9 +134,3 @@ def stiffness_of_modes(call: Call, solution: Solution) -> Matrix:
     """Generalised stiffnesses on the diagonal."""
     made: Matrix = modal_stiffness(call, solution.table, None)
     return made
-
-
-rigi.extend_help(
-    "RIG1 = RIGI SOL1 ;  (SOLUTION)",
-    "Of a SOLUTION: generalised stiffnesses on the diagonal.",
-)

@@ -88,19 +88,6 @@ def _tables(language: str) -> Sequence[HelpTable]:
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
-    en="Field of the parameters of a model: name and value, as many as wanted.\n"
-    "What each law takes stands in the tables below, and on the page of the law (`ssilang help "
-    "CAM_CLAY`); what an element takes, sections included, on that of the element. Geometric "
-    "parameters (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) may be given here too, or by "
-    "CARA. Joints of two points (JOI1) take forces where the others take tractions.\n"
-    "A value is a number, a field in cells, a curve (parameter that depends on another field) "
-    "or, for VECT, a point. Numbers outside of the range of a parameter, and laws whose "
-    "parameters do not go together, are refused.\n"
-    "Beams ELASTIQUE SECTION take the model of their section and its material: the section "
-    "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
-    "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
-    "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
-    syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
     tables=_tables,
 )
 def mate(call: Call, **said: Any) -> CellField:
@@ -120,17 +107,7 @@ def material_names(zone: Zone) -> tuple[str, ...]:
     return (*names, *(other for name, other in INSTEAD.items() if name in names))
 
 
-@operator(
-    "CARA",
-    _MODEL,
-    _PAIRS,
-    family="model",
-    full_name="CARACTERISTIQUE",
-    aliases=("CARB",),
-    en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
-    "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
-    syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-)
+@operator("CARA", _MODEL, _PAIRS, family="model", full_name="CARACTERISTIQUE", aliases=("CARB",))
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
     return _parameters(call, lambda zone: geometric_names(zone).all, False, model, [], None, pairs)

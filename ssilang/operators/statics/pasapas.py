@@ -66,13 +66,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator(
-    "ZPAS",
-    arg("table", "TABLE", en="table of PASAPAS"),
-    family="statics",
-    en="Load steps of the table of PASAPAS, which is the procedure to call.",
-    syntax="ZPAS TAB1 ;",
-)
+@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
 def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
