@@ -376,7 +376,7 @@ class Help:
     """Help of an operator or procedure, shown by INFO, `ssilang help` and the manual.
 
     `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page. What is
-    said of operators stands in `ssilang/messages/help`, their examples beside it.
+    said of operators stands in `ssilang/messages/pages`, their examples beside it.
     """
 
     en: str

@@ -63,7 +63,7 @@ def test_every_operator_and_no_other_has_help_in_both_languages():
         assert all(x.strip() for x in (operator.help.en, operator.help.fr, operator.help.syntax))
         functions = {form.page[-1] for form in operator.forms}
         forms[operator.family, operator.name] = functions | {"en", "fr", "syntax"}
-    for path in (Path(message.__file__).parent / "help").glob("*.toml"):
+    for path in (Path(message.__file__).parent / "pages").glob("*.toml"):
         for name, texts in tomllib.loads(path.read_text(encoding="utf-8")).items():
             assert set(texts) <= forms[path.stem, name]
             for said in (texts, *(t for t in texts.values() if isinstance(t, dict))):
