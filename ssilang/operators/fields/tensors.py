@@ -10,7 +10,6 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.results.equivalent import equivalent_of_lines
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.results.skin import (
     in_global_axes,
@@ -28,6 +27,7 @@ from ssilang.kernel.elements.results.structural_gradients import (
 from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,
     components_at_home,
+    equivalent_of_lines,
     invariants,
     principal,
     tensor,

@@ -47,7 +47,7 @@ from ssilang.operators.mesh.copies.maps import (
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
-from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.workspace import Workspace, workspace
 
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")

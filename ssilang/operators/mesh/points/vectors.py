@@ -12,7 +12,7 @@ from ssilang.language.registry import arg, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
-from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.workspace import workspace
 
