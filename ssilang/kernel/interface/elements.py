@@ -129,9 +129,6 @@ def register_joints() -> None:
         )
 
 
-register_joints()
-
-
 # Integration points on the faces of joints: Gauss, or at the nodes.
 
 GAUSS = {"SEG2": 2, "SEG3": 3, "TRI3": 3, "TRI6": 7, "QUA4": 4, "QUA8": 9}
@@ -171,3 +168,6 @@ def face_rule(face: str, rule: str = "GAUSS") -> Rule:
         rule=rule,
         nodal_weights=NODAL_WEIGHTS,
     )
+
+
+register_joints()
