@@ -27,7 +27,6 @@ from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.run_many import integrate_together
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
 # steps are many and problems small as they are: nothing is gained by making them smaller
@@ -148,27 +147,6 @@ def test_steps_are_those_of_the_equations(loop):
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
         check_steps(*run(awkward, loop))
-
-    holds()
-
-
-def test_steps_of_motions_side_by_side_are_those_of_the_equations():
-    @settings(BRIEF, max_examples=4)
-    @given(problems(moving=False))
-    def holds(awkward):
-        with pytest.MonkeyPatch.context() as patch:
-            forced(patch, "dissection")
-            first = awkward.problem()
-            given = first.loading
-            alike = [first]
-            for factor in (0.6, -0.3, 1.2):  # the same curves of supports, other pushes
-                curves = [(x, factor * y) for x, y in given.curves[:1]] + [*given.curves[1:]]
-                alike.append(replace(first, loading=replace(given, curves=tuple(curves))))
-            recorders = [Recorder(len(first.times)) for _ in alike]
-            found = integrate_together(alike, [[r] for r in recorders])
-        for problem, history, recorder in zip(alike, found, recorders, strict=True):
-            assert history.together == len(alike)
-            check_steps(problem, problem.times, history.energies, recorder.snapshots)
 
     holds()
 
