@@ -20,7 +20,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
-from ssilang.kernel.matrices.from_sparse import matrix_from_sparse
+from ssilang.kernel.matrices.build import matrix_from_sparse
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh
