@@ -89,7 +89,7 @@ def test_words_and_lists_of_words_become_integers():
 
 
 @pytest.mark.parametrize(
-    "phrase", ["LOG 0.", "ACOS 2.", "ENTI 'abc'", "EXP 1.E4", "1 / 0", "IFRE -1."]
+    "phrase", ["«LOG» 0.", "«ACOS» 2.", "ENTI «'abc'»", "«EXP» 1.E4", "«1 / 0»", "«IFRE» -1."]
 )
 def test_impossible_value_is_explained(phrase, refused):
     assert "error" in refused(f"X = {phrase} ;")
@@ -208,7 +208,7 @@ def test_other_roots_of_negative_values_are_refused(base: str) -> None:
 
 
 def test_whether_a_component_exists_is_asked_of_fields_in_cells_alone(refused):
-    said = refused("X = MASQ (PROG 1. 2.) 'EXISTE' 'A' ;")
+    said = refused("X = «MASQ» (PROG 1. 2.) 'EXISTE' 'A' ;")
     assert "'SUPERIEUR' or" in said
     assert "found EXISTE" in said
 

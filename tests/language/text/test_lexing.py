@@ -151,7 +151,7 @@ class TestSignOrOperator:
         assert run(f"n = 5 ; x = {phrase} ;")["x"] == value
 
     def test_a_blank_before_and_none_behind_makes_two_operands(self, fails):
-        assert fails("a = 5 ; x = a -1 ;") == "glued-sign"
+        assert fails("a = 5 ; x = a «-1» ;") == "glued-sign"
 
     def test_two_signed_numbers_are_two_operands(self):
         assert numbers("X 12.5E-3 -50E-3 ;") == [12.5e-3, -50e-3]
@@ -160,7 +160,7 @@ class TestSignOrOperator:
         assert numbers("X PAS -2. -6. ;") == [-2.0, -6.0]
 
     def test_there_is_no_minus_on_a_name(self, fails):
-        assert fails("a = 5 ; x = -a ;") == "two-operands"
+        assert fails("a = 5 ; x = «-»a ;") == "two-operands"
 
 
 def test_two_character_signs_are_one_item():
