@@ -41,7 +41,8 @@ OF_CELLS = [
     "COOR 1 {M}", "CHAN 'CHAM' X {M}", "CHAN 'STRESSES' {M} {A}",
     "ENER {M} (SIGM {M} {A} U) (EPSI {M} U)",
     "WORK {M} (SIGM {M} {A} U) (GRAD {M} U)", "EXCO 'YOUN' {A}", "{A} * 2.",
-    "VARI {M} T (EVOL 'MANU' 'T' (PROG -9. 9.) 'Q' (PROG 1. 4.))", "REDU (SIGM (M3 ET M1 ET M2) (A2 ET A3 ET A1) U) {M}",
+    "VARI {M} T (EVOL 'MANU' 'T' (PROG -9. 9.) 'Q' (PROG 1. 4.))",
+    "REDU (SIGM (M3 ET M1 ET M2) (A2 ET A3 ET A1) U) {M}",
     "MANU 'CHML' {M} 'SCAL' 3.", "CHAN 'GRAVITE' {M} (EPSI {M} U)",
     "(SIGM {M} {A} U) + (SIGM {M} {A} (2. * U))", "PROI {M} (CHAN 'CHAM' X (M2 ET M1))",
 ]  # fmt: skip
