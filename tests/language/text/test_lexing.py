@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Name, Number, Quoted, Symbol
@@ -197,16 +196,6 @@ class TestDot:
 
 def test_a_comma_is_a_blank(run):
     assert len(run("x = PROG 1., 2., 3. ;")["x"]) == 3
-
-
-def test_all_syntax_errors_are_reported_in_one_pass():
-    with pytest.raises(SeveralErrors) as caught:
-        parse(Source("test", "x = (1 + 2 ;\ny = 1 ;\nz = 3) ;\nw = = 2 ;\n"))
-    assert [e.code for e in caught.value.errors] == [
-        "unclosed-paren",
-        "extra-paren",
-        "second-equal",
-    ]
 
 
 def test_quoted_items_stay_strings():
