@@ -224,8 +224,7 @@ class KeptCalculation:
     # ---- whose it is
 
     def _call(self) -> dict[str, Any]:
-        from ssilang.kernel.stepping.keeping import leaves
-        from ssilang.kernel.stepping.problem.digest import digest_of
+        from ssilang.kernel.stepping.keeping import digest_of, leaves
 
         p = self.problem
         self._known = self._known or digest_of(p)

@@ -56,15 +56,7 @@ MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
 
 
-@operator(
-    "ZDYN",
-    arg("table", "TABLE", en="table of DYNAMIC"),
-    family="dynamics",
-    en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
-    "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
-    "returned.",
-    syntax="TAB2 = ZDYN TAB1 ;",
-)
+@operator("ZDYN", arg("table", "TABLE", en="table of DYNAMIC"), family="dynamics")
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     with lasting():

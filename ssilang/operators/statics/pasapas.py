@@ -44,9 +44,13 @@ from ssilang.operators.statics.bodies import (
     plastic_bodies,
     warn_of_strains,
 )
-from ssilang.operators.statics.initial_stress import linear_blocks, offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies, pressure_law, procedure_law
-from ssilang.operators.statics.pasapas_contact import sides_of
+from ssilang.operators.statics.pasapas_contact import (
+    linear_blocks,
+    offset_load,
+    sides_of,
+    stress_offsets,
+)
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
@@ -66,13 +70,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator(
-    "ZPAS",
-    arg("table", "TABLE", en="table of PASAPAS"),
-    family="statics",
-    en="Load steps of the table of PASAPAS, which is the procedure to call.",
-    syntax="ZPAS TAB1 ;",
-)
+@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
 def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
