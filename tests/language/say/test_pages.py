@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ssilang.language.registry import (
-    OPERATORS,
+    Help,
     arg,
     each,
     either,
@@ -15,9 +15,8 @@ from ssilang.language.registry import (
     many,
     opt,
     select,
-    shared,
 )
-from ssilang.language.say.reference import operator_page, page_text, procedure_page
+from ssilang.language.say.reference import Page, page_text, procedure_page
 from ssilang.language.vocabulary.entries import Argument, Declaration, TableEntry
 from ssilang.language.vocabulary.entries_table import entries_markdown, entries_text
 from ssilang.language.vocabulary.terms import Range
@@ -76,14 +75,8 @@ SAID = {
 }
 
 
-@pytest.fixture
-def declared():
-    made = shared(
-        "ZTRY", "lists", "First sentence. Second one.\nNext paragraph.",
-        "X = ZTRY A ;\n Y = ZTRY B ;", full_name="ZTRYING",
-    )  # fmt: skip
-
-    @made.form(
+FORMS = (
+    (
         arg("x", "FLOTTANT", "ENTIER", en="the number", unit="m",
             range=Range(0.0, 2.0, True, False), usual=Range(0.5, 1.0)),
         opt("n", "ENTIER", default=3, en="how often"), many("rest"),
@@ -91,27 +84,26 @@ def declared():
         key("k", ("KEYA", "KEYB"), arg("a", "POINT", en="where"), opt("b", "MOT"), en="the key",
             optional=False),
         flag("f", "FLAG", en="a flag"),
-    )  # fmt: skip
-    def first(x, n, rest, more, k, f):
-        return x
-
-    @made.form(
+    ),
+    None,
+    (
         select("how", {"ONCE": (), "DEEP": (arg("d", "TABLE"),)}, optional=False,
                en="what is done"),
         each("pairs", arg("p", "MOT"), arg("q", "LISTREEL"), en="pairs of both"),
         either("e", group("g1", arg("r", "MAILLAGE")),
                group("g2", arg("s", "CHPOINT"), arg("t", "MOT")), en="one of both", optional=True),
-    )  # fmt: skip
-    def second(how, pairs, e):
-        return 1
-
-    yield made
-    del OPERATORS["ZTRY"]
+    ),
+)  # fmt: skip
 
 
-def test_a_page_says_what_every_form_declares(declared):
-    assert page_text(operator_page(declared), "en") == OPERATOR
-    french = page_text(operator_page(declared), "fr")
+def test_a_page_says_what_every_form_declares():
+    told = Help(
+        "First sentence. Second one.\nNext paragraph.", "Phrase.", "X = ZTRY A ;\n Y = ZTRY B ;"
+    )
+    page = Page("ZTRY", "ZTRYING", "operator", "lists", "", told, FORMS)
+    assert page_text(page, "en") == OPERATOR
+    french = page_text(page, "fr")
+    assert french.startswith("ZTRY (ZTRYING) : opérateur [listes]\n\nPhrase.\n\nSyntaxe\n")
     assert "    x              FLOTTANT ou ENTIER [m]; 0 < x <= 2; Usuel 0.5 <= x <= 1" in french
     assert "    rest           tout objet  (un ou plusieurs)" in french
 
