@@ -264,6 +264,7 @@ LISTS = {
     "EXTR (PRIM E) 'ORDO' 1": [0.0, 1.0, 0.5],
     "PROG 3. PAS -0.5 1.5": [3.0, 2.5, 2.0, 1.5], "LECT 5 PAS -2 1 3 * 4": [5, 3, 1, 4, 4, 4],
     "RAFF L 2": [3.0, 1.0, -1.0, -0.25, 0.5], "BORN L 'COMPRIS' -0.5 1.": [1.0, -0.5, 0.5],
+    "BORN I 'MAXIMUM' 2": [2, -2, 0, 2],
     "UNIQ (LECT 4 1 4 2 1)": [4, 1, 2], "I SAUF (LECT 0 3)": [-2, 7],
     "INTE (PROG 3. 1. 2.) (PROG 2. 3. 9.)": [3, 2],
     "POSI 0.5 'DANS' L": 3, "EXTR (L ET 7.) 4": 7.0, "DIME I": 4,
