@@ -14,11 +14,14 @@ from pathlib import Path
 
 import pytest
 
+from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import operator_page, procedure_page
+from ssilang.language.text.source import Source
+from ssilang.language.values import type_of
 from ssilang.operators.loader import load_operators
 
 load_operators()
@@ -55,6 +58,18 @@ def _same(name, number, output):
     return numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
 
 
+def _foreseen(text, result):
+    """Types that the check foresaw for names of a script, if it did, and those that they have."""
+    seen = {}
+    types = typed_source(Source("example", text))[2]
+    for place, word in sorted(types.items()):
+        name = re.match(r"[\w@!]+", text[place:])[0].upper()[:24]
+        seen[name] = word  # what is said last holds
+    values = {name: result.session.root.find(name) for name in seen}
+    there = {name: type_of(v) for name, v in values.items() if v is not None}
+    return {name: seen[name] or there[name] for name in there}, there
+
+
 @pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
 def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path):
     ran = FormsRan()
@@ -63,6 +78,10 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
         assert _same(operator.name, number, result.output)
+        if re.search(r"\b(REST|LIRE \w+) ;", text):
+            continue  # names that a file brings
+        foreseen, found = _foreseen(text, result)
+        assert foreseen == found
     assert ran.missing(operator) == untried.get(operator.name, [])
 
 
