@@ -383,7 +383,7 @@ def kept_calculation(
     if not minutes > 0.0:
         raise entries.error("operators.dynamics.minutes-of-reprise", minutes=minutes)
     output = run_output(entries.call.session)
-    if entries.call.session.integrate is not None or output.checkpoints is None:
+    if output.checkpoints is None:
         entries.warn("operators.dynamics.nothing-kept")
         return None
     return KeptCalculation(

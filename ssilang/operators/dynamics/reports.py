@@ -59,7 +59,6 @@ def report(
         "unknowns": problem.numbering.size,
         "interface_unknowns": problem.interface.size if problem.interface else 0,
         "steps": steps,
-        "together": history.together,
         "loop": history.loop,
         "method": method,
         "solver": history.solver,

@@ -24,7 +24,6 @@ from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
-from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
@@ -182,10 +181,7 @@ def _stretch(
                 history = run_bulk(problem, *made, observers, line, dynamic, keeper, full)
             elif dynamic:
                 full = work.flag("NEWTON_COMPLET")
-                if full or work is not entries:  # a procedure of the script's steps in its own turn
-                    history = integrate(problem, observers, line, full, keeper=keeper)
-                else:
-                    history = integrated(entries.call.session, problem, observers, line, keeper)
+                history = integrate(problem, observers, line, full, keeper=keeper)
             else:
                 history = step_statics(problem, observers, line, keeper)
     finally:
