@@ -11,7 +11,8 @@ pass is a survivor and printed as a diff; `--again` tries those of a report once
 change nothing stand with their reason in `mutants_equivalent.toml`.
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
-what calls it in its module, or the word of the operator that does; rare names count more.
+what calls it in its module, or the word of the operator that does; rare names count more. What the
+data beside a file of tests names (`.toml` of its name) is named by that file.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
