@@ -58,16 +58,18 @@ def _same(name, number, output):
     return numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
 
 
-def _foreseen(text, result):
-    """Types that the check foresaw for names of a script, if it did, and those that they have."""
+def _checked(text, result):
+    """The check finds nothing wrong, and the types that it foresees are those of the run."""
+    problems, _, types = typed_source(Source("example", text))
+    assert [p.code for p in problems if p.severity == "error"] == []
+    if re.search(r"\b(REST|LIRE \w+) ;", text):
+        return  # names that a file brings
     seen = {}
-    types = typed_source(Source("example", text))[2]
-    for place, word in sorted(types.items()):
-        name = re.match(r"[\w@!]+", text[place:])[0].upper()[:24]
-        seen[name] = word  # what is said last holds
+    for place, word in sorted(types.items()):  # what is said last holds; '' of many types
+        seen[re.match(r"[\w@!]+", text[place:])[0].upper()[:24]] = word
     values = {name: result.session.root.find(name) for name in seen}
     there = {name: type_of(v) for name, v in values.items() if v is not None}
-    return {name: seen[name] or there[name] for name in there}, there
+    assert {name: seen[name] or there[name] for name in there} == there
 
 
 @pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
@@ -78,10 +80,7 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
         assert _same(operator.name, number, result.output)
-        if re.search(r"\b(REST|LIRE \w+) ;", text):
-            continue  # names that a file brings
-        foreseen, found = _foreseen(text, result)
-        assert foreseen == found
+        _checked(text, result)
     assert ran.missing(operator) == untried.get(operator.name, [])
 
 

@@ -159,9 +159,9 @@ OBJECTS = ("S", "S2", "P9", "M", "A", "U", "F", "SG", "K", "R", "D", "E", "G", "
            "B", "X", "T")  # fmt: skip
 
 
-@pytest.mark.parametrize("names", [OBJECTS, OBJECTS[::-1], *((n,) for n in OBJECTS)])
+@pytest.mark.parametrize("names", [OBJECTS, OBJECTS[::-1], ("P9",), ("K",), ("T",)])
 def test_objects_are_listed_as_before_when_they_come_back(names, tmp_path):
-    """All in either order, and each alone; numbers of nodes may be others, their order not."""
+    """All in either order, and some alone; numbers of nodes may be others, their order not."""
     listed = " ".join(f"MESS '{n}' ; LIST {n} ;" for n in names)
     forget = " ".join(f"OUBL {n} ;" for n in names)
     script = f"{MADE} {listed} MESS 'again' ; OPTI SAUV 's' ; SAUV {' '.join(names)} ; {forget} "
