@@ -28,7 +28,8 @@ SOUND = [
 BLOCKS = [
     ("«FINSI» ;", "stray-block-end"), ("«FIN nobody» ;", "stray-block-end"),
     ("REPE b2 2 ; FIN «b3» ;", "wrong-loop-name"), ("«SINON» ;", "stray-block-end"),
-    ("«FINP x» ;", "stray-block-end"),
+    ("«FINP x» ;", "stray-block-end"), ("SI VRAI ; «SINON (VRAI)» ; FINSI ;", "sinon-condition"),
+    ("SI VRAI ; SINON ; «SINON» ; FINSI ;", "second-sinon"),
 ]  # fmt: skip
 
 
