@@ -36,6 +36,7 @@ from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, un
 from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.tables.soundness import flaw_of
 
+
 @INTE.form(
     main("first", "RIGIDITE", en="matrix"),
     arg("second", "RIGIDITE", en="matrix"),
