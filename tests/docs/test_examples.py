@@ -1,4 +1,5 @@
-"""Every example of the help of every operator and procedure runs, and they try all that is built.
+"""Every example of the help of every operator and procedure runs, prints what is known
+beforehand (`test_examples.toml`), and they try all that is built.
 
 `docs/partly.txt` says of an operator what it lacks; behind "without an example:" stand the forms,
 by their number, and the words of a choice that no example of it runs. What is not said there is
@@ -8,19 +9,26 @@ built, and what is said there is so.
 from __future__ import annotations
 
 import re
+import tomllib
+from pathlib import Path
 
 import pytest
 
+from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import operator_page, procedure_page
+from ssilang.language.text.source import Source
+from ssilang.language.values import type_of
 from ssilang.operators.loader import load_operators
 
 load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
 _PROCEDURES = {p: procedure_page(p) for p in standard_procedures().values()}
+_PRINTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +47,31 @@ def _examples(operator):
     return tuple(e for p in around for e in _PROCEDURES[p].help.examples)
 
 
+def _same(name, number, output):
+    """Whether an example printed what is known: words as they are, numbers to four digits."""
+    known = _PRINTED.get(name, [])
+    if number > len(known) or not known[number - 1]:
+        return True
+    wanted, found = known[number - 1], " ".join(output.split())
+    assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
+    numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
+    return numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
+
+
+def _checked(text, result):
+    """The check finds nothing wrong, and the types that it foresees are those of the run."""
+    problems, _, types = typed_source(Source("example", text))
+    assert [p.code for p in problems if p.severity == "error"] == []
+    if re.search(r"\b(REST|LIRE \w+) ;", text):
+        return  # names that a file brings
+    seen = {}
+    for place, word in sorted(types.items()):  # what is said last holds; '' of many types
+        seen[re.match(r"[\w@!]+", text[place:])[0].upper()[:24]] = word
+    values = {name: result.session.root.find(name) for name in seen}
+    there = {name: type_of(v) for name, v in values.items() if v is not None}
+    assert {name: seen[name] or there[name] for name in there} == there
+
+
 @pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
 def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path):
     ran = FormsRan()
@@ -46,6 +79,8 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
         options = RunOptions(output_directory=tmp_path / str(number), on_form=ran)
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
+        assert _same(operator.name, number, result.output)
+        _checked(text, result)
     assert ran.missing(operator) == untried.get(operator.name, [])
 
 
@@ -54,3 +89,4 @@ def test_examples_of_procedures_run(path, tmp_path):
     for number, text in enumerate(_PROCEDURES[path].help.examples, 1):
         result = run_text(text, output_directory=tmp_path / str(number))
         assert result.exit_code == 0, result.message
+        assert _same(path.stem.upper(), number, result.output)
