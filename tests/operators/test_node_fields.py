@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.kernel.base.errors import FieldError
+from ssilang.cli.run import run_text
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -232,14 +232,20 @@ def test_forces_are_zero_where_none_acts(found, refused):
     assert "RZ" in refused(start + "X = «EXTR» C 'RZ' R ;")
 
 
-def test_negative_value_has_no_fractional_power():
-    field = NodeField.of(TABLE, np.array([0]), {"T": np.array([-1.0])})
-    from ssilang.operators.fields.signs import _node_number
-
-    with pytest.raises(
-        FieldError, check=lambda e: e.code == "operators.fields.negative-value-no-power"
-    ):
-        _node_number("**", field, 0.5)
+@pytest.mark.parametrize(
+    ("power", "wanted"), [("0.5", [0.0, 0.0, 2.0]), ("-1.", [-1.0, 0.0, 0.25])]
+)
+def test_values_without_a_power_become_zero_and_are_told(power, wanted):
+    text = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; "
+    text += f"U = (MANU CHPO L 1 UX (PROG -1. 0. 4.)) ** {power} ; X = EXTR U 'VALE' L ; "
+    text += f"S = L TRAN 1 (0. 1.) ; M = ((MANU CHML S 'A' 3.) - 4.) ** {power} ; Y = MAXI M ;"
+    result = run_text(text)
+    assert result.exit_code == 0, result.message
+    find = result.session.root.find
+    assert sorted(find("X").values) == pytest.approx(sorted(wanted))
+    assert find("Y") == pytest.approx(wanted[0])
+    told = [w for w in result.session.warnings if w.code == "operators.fields.power-put-to-zero"]
+    assert len(told) == (2 if power == "0.5" else 1)
 
 
 def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):

@@ -183,6 +183,28 @@ def test_user_procedure_sees_the_state_of_each_time_and_changes_the_load(tmp_pat
     assert T.get("CONTINUATION").get("TEMPS") == 1.0
 
 
+def test_user_procedures_see_where_nodes_were_and_are(tmp_path):
+    """REEV_MEC before the first step and after each; FOR0 and FOR around the step's own motion."""
+    text = """
+    DEBP REEV_MEC T*TABLE N*ENTIER ;
+      T . 'VUS' = (T . 'VUS') ET (N * (1. + (T . 'TT' . 'TEMPS'))) ;
+      SI (N EGA 0) ; T . 'WTABLE' . 'CHARGEMENT' = CHAR 'MECA' (2. * F) EV ; FINS ;
+    FINP ;
+    DEBP PERSO1 T*TABLE ;
+      W = T . 'WTABLE' ; C = FORM (W . 'FOR') ; X = COOR 1 P2 ; FORM (W . 'FOR0') ;
+      T . 'OU' = (T . 'OU') ET (X - (COOR 1 P2)) ; SI (NON (W . 'MEC1')) ; ERRE 'MEC1' ; FINS ;
+      SI (NEG (MAXI (W . 'MAT_MEC') (MOTS 'YOUN')) 1.E6) ; ERRE 'MAT_MEC' ; FINS ;
+    FINP ;
+    """
+    text += BAR + "T . 'VUS' = PROG ; T . 'OU' = PROG ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
+    text += "T . 'PROCEDURE_PERSO1' = VRAI ; T . 'PROCEDURE_REEV_MEC' = VRAI ; PASAPAS T ;"
+    T = run(text, tmp_path)("T")
+    assert T.get("VUS").values == pytest.approx([0.0, 1.25, 1.5, 1.75, 2.0])
+    ends = [T.get("DEPLACEMENTS").get(i).components["UX"].values.max() for i in range(1, 5)]
+    assert T.get("OU").values == pytest.approx(ends, rel=1e-12)
+    assert ends == pytest.approx(4e-3 * np.arange(0.25, 1.1, 0.25), rel=5e-3)
+
+
 def test_user_procedure_takes_a_part_of_the_model_away(tmp_path):
     text = (
         """

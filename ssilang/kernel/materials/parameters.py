@@ -103,7 +103,7 @@ _GEOMETRY: dict[str, Names] = {
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(
         ("EPAI", "RAYO"),
-        ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR"),
+        ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR", "OMEG"),
     ),
     "mindlin": Names(("EPAI",), ("EXCE", "CALF")),
     "thick": Names(("EPAI",), ("EXCE",)),

@@ -395,6 +395,7 @@ REASONS = {
     "CHARMECA": "operators.dynamics.not-kept-procedure",
     "PROCEDURE_CHARMECA": "operators.dynamics.not-kept-procedure",
     "PROCEDURE_PERSO1": "operators.dynamics.not-kept-procedure",
+    "PROCEDURE_REEV_MEC": "operators.dynamics.not-kept-procedure",
     "REDUCTION": "operators.dynamics.not-kept-reduction",
     "AUTOMATIQUE": "operators.dynamics.not-kept-path",
     "PILOTAGE_INDIRECT": "operators.dynamics.not-kept-path",

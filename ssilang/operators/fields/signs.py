@@ -94,13 +94,16 @@ def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
     return made if nature is None else node_algebra.rebuilt(made, made.components, nature)
 
 
-def _power(x: Any, exponent: float) -> Any:
-    if exponent < 0 and np.any(np.asarray(x) == 0):
-        raise FieldError("operators.fields.zero-no-power", exponent=exponent)
+def _power(call: Call, x: FloatArray, exponent: float) -> FloatArray:
+    """Powers of a field's values; where there is none it is zero, and told."""
+    lost = x == 0.0 if exponent < 0 else np.zeros(x.shape, bool)
     try:
-        return real_power(x, exponent)
-    except NoResultError as error:
-        raise FieldError("operators.fields.negative-value-no-power", exponent=exponent) from error
+        real_power(-1.0, exponent)
+    except NoResultError:
+        lost |= x < 0.0
+    if lost.any():
+        call.warn("operators.fields.power-put-to-zero", count=int(lost.sum()), exponent=exponent)
+    return np.where(lost, 0.0, real_power(np.where(lost, 1.0, x), exponent))
 
 
 def _raised(number: float, x: Any) -> Any:
@@ -111,7 +114,7 @@ def _raised(number: float, x: Any) -> Any:
 
 def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     if sign == "**":
-        return _raised(number, x) if left else _power(x, number)
+        return _raised(number, x)
     if sign == "/" and (np.any(x == 0) if left else number == 0):
         raise FieldError("operators.fields.division-by-zero")
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
@@ -125,8 +128,13 @@ def _number_node(sign: str, number: float, field: NodeField) -> NodeField:
     return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), True))
 
 
+def _node_power(call: Call, sign: str, field: NodeField, number: float) -> NodeField:
+    return node_algebra.applied(field, lambda x: _power(call, x, float(number)))
+
+
 for _kind in ("ENTIER", "FLOTTANT"):
-    rule(SIGNS, "CHPOINT", _kind)(_node_number)
+    rule("+ - * /", "CHPOINT", _kind)(_node_number)
+    rule_with_call("**", "CHPOINT", _kind)(_node_power)
     rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
@@ -231,6 +239,8 @@ def _cell_number(
 
     def made(values: Any) -> Any:
         if values.dtype != object:
+            if sign == "**" and not left:
+                return _power(call, values, value)
             return _with_number(sign, values, value, left)
         a, b = (value, values) if left else (values, value)
         return cell_algebra.of_objects(sign, a, b, _of_objects)

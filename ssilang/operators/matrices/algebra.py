@@ -32,9 +32,21 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.messages.message import Teller
-from ssilang.operators.dispatch import CHAN, DIME, EXTR, REDU, listing, union
+from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.tables.soundness import flaw_of
+
+
+@INTE.form(
+    main("first", "RIGIDITE", en="matrix"),
+    arg("second", "RIGIDITE", en="matrix"),
+)
+def intersection_of_matrices(first: Matrix, second: Matrix) -> Matrix:
+    """What two matrices were both put together of."""
+    blocks = tuple(b for b in first.blocks if any(b is c for c in second.blocks))
+    relations = tuple(r for r in first.relations if any(r is c for c in second.relations))
+    return Matrix(first.table, blocks, relations, first.kind)
+
 
 # --- signs -----------------------------------------------------------------------------------
 

@@ -21,6 +21,11 @@ class Configuration:
 
     coordinates: FloatArray
 
+    def moved(self, field: NodeField) -> Configuration:
+        """Where these nodes are once a field of displacements has moved them."""
+        moves = displacements(field.table, field)[: len(self.coordinates)]
+        return Configuration(self.coordinates + moves)
+
 
 @operator(
     "FORM",

@@ -53,10 +53,12 @@ from ssilang.operators.statics.pasapas_contact import (
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
+    ASKED,
     ChangedCalculation,
     SavedTable,
     Steering,
     state_table,
+    tell_parts,
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
@@ -83,8 +85,9 @@ def zpas(call: Call, table: Table) -> None:
         entries.table.set(Mot("ERREUR"), False)
         return
     work = entries
-    if entries.flag("PROCEDURE_PERSO1"):
+    if any(entries.flag(word) for word in (*ASKED, "PROCEDURE_CHARMECA")):
         work = Entries(call, working_table(entries.table), "PASAPAS")
+        tell_parts(work.table)
         entries.table.set(Mot("WTABLE"), work.table)
     try:
         while len(times) > 1:
@@ -147,7 +150,7 @@ def _stretch(
         law = pressure_law(follows, loaded_sides(given.get("MODELE")))
         bodies = loaded_bodies(law, "pressures that follow", bodies)
     if work.flag("PROCEDURE_CHARMECA"):
-        bodies = loaded_bodies(procedure_law(work), "loads by a procedure", bodies)
+        bodies = loaded_bodies(procedure_law(entries), "loads by a procedure", bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         warn_of_connections(work, inputs)
@@ -161,13 +164,15 @@ def _stretch(
     kept = work.get("TEMPS_SAUVEGARDES")
     if kept is not None:
         observers.append(SavedTable(entries.call, entries.table, times, kept.values))
-    if work is not entries:
-        observers.append(Steering(entries.call, entries.table, work.table, results, len(times)))
+    steered = any(work.flag(word) for word in ASKED)
+    if steered:
+        begins = start.reached is None
+        observers.append(Steering(entries, work, results, len(times), begins))
     record = calculation_record(entries, problem, inputs)
     observers += [] if record is None else record.observers
     path = control_asked(work)
     made = None if bodies is None or path else bodies(problem, inputs)
-    keeper = kept_calculation(entries, problem, observers, _not_kept(entries, work), made)
+    keeper = kept_calculation(entries, problem, observers, _not_kept(work), made)
     if keeper is not None:
         observers.append(keeper)
     line = ProgressLine("PASAPAS", entries.call.session.told)
@@ -195,10 +200,10 @@ def _stretch(
     return state_table(reached.values)
 
 
-def _not_kept(entries: Entries, work: Entries) -> list[str]:
+def _not_kept(work: Entries) -> list[str]:
     """Entries in force whose calculation REPRISE cannot keep."""
-    asked = [w for w in ("PROCEDURE_CHARMECA", "AUTOMATIQUE", "PILOTAGE_INDIRECT") if work.flag(w)]
-    return asked if work is entries else ["PROCEDURE_PERSO1", *asked]
+    words = (*ASKED, "PROCEDURE_CHARMECA", "AUTOMATIQUE", "PILOTAGE_INDIRECT")
+    return [word for word in words if work.flag(word)]
 
 
 def _entering(start: Start, stage: Stage) -> Start:

@@ -1,4 +1,4 @@
-"""PERSO1: what the user's procedure sees of a calculation of PASAPAS, and what it changes of it."""
+"""PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
 from __future__ import annotations
 
@@ -7,13 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.results.reduction import field_on_model
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.stepping.times import nearest
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.files.saving import save
+from ssilang.operators.session.configurations import Configuration
 from ssilang.operators.session.user_procedures import StopCalculation, call_user
 from ssilang.operators.statics.pasapas_results import ResultTables
+from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Snapshot
@@ -34,30 +39,67 @@ class ChangedCalculation(Exception):
         self.step = step
 
 
+PARTS = {
+    "MECANIQUE": ("MOD_MEC", "MAT_MEC"),
+    "CONTACT": ("MODCONTA", "MATCONTA"),
+}
+"""Of a formulation: its zones, their characteristics."""
+ASKED = ("PROCEDURE_PERSO1", "PROCEDURE_REEV_MEC")
+"""Entries that call a procedure after each time."""
+
+
 def working_table(table: Table) -> Table:
-    """WTABLE: the entries in use, which start as those of the table."""
-    work = Table()
-    for index, value in table.items():
+    """WTABLE: the entries in use, which start as those of the table.
+
+    What a script has put there itself, for its own procedures, stays.
+    """
+    work, given = Table(), table.get("WTABLE")
+    kept = given.items() if isinstance(given, Table) and not given.has("FOR0") else []
+    for index, value in [*kept, *table.items()]:
         if index not in ("WTABLE", "ESTIMATION"):
             work.set(index, value)
     return work
 
 
+def tell_parts(work: Table) -> None:
+    """What WTABLE holds beside the entries: the model by formulations, the nodes' places."""
+    model, material = work.get("MODELE"), work.get("CARACTERISTIQUES")
+    if not isinstance(model, Model):
+        return
+    for formulation, (part, values) in PARTS.items():
+        zones = tuple(z for z in model.zones if z.formulation == formulation)
+        if zones:
+            work.set(Mot(part), Model(zones))
+        if zones and isinstance(material, CellField):
+            work.set(Mot(values), field_on_model(material, Model(zones)))
+    work.set(Mot("MEC1"), work.has("MOD_MEC"))
+    work.set(Mot("MO_TOT"), model)
+    work.set(Mot("MA_TOT"), material)
+    if not work.has("FOR0"):
+        work.set(Mot("FOR0"), Configuration(model.mesh.nodes.coordinates.copy()))
+    if not work.has("FOR"):
+        work.set(Mot("FOR"), work.get("FOR0"))
+
+
 class Steering:
-    """Calls PERSO1 after each computed time, with the state in ESTIMATION.
+    """Calls REEV_MEC and PERSO1 after each computed time, with the state in ESTIMATION.
 
     Attributes
     ----------
     wanted : array of bool (n_times,)
-        All but the initial time.
+        All but the initial time, and that too where REEV_MEC is to prepare the calculation.
     """
 
     def __init__(
-        self, call: Call, table: Table, work: Table, results: ResultTables, n_times: int
+        self, entries: Entries, work: Entries, results: ResultTables, n_times: int, begins: bool
     ) -> None:
-        self.call, self.table, self.work, self.results = call, table, work, results
+        self.call, self.table = entries.call, entries.table
+        self.work, self.results = work.table, results
+        self.prepared = work.flag("PROCEDURE_REEV_MEC")
+        self.steered = work.flag("PROCEDURE_PERSO1")
+        self.moves = work.flag("GRANDS_DEPLACEMENTS")
         self.wanted = np.ones(n_times, bool)
-        self.wanted[0] = False
+        self.wanted[0] = begins and self.prepared
 
     def receive(self, snapshot: Snapshot) -> None:
         """One computed time.
@@ -67,16 +109,25 @@ class Steering:
         StopCalculation
             When the table's entry ARRET is VRAI.
         ChangedCalculation
-            When an entry of WTABLE, or the list of times, is another one after the call.
+            When an entry of WTABLE, or the list of times, is another one after the calls.
         """
-        self.table.set(Mot("ESTIMATION"), state_table(self.results.values(snapshot)))
+        state = state_table(self.results.values(snapshot))
+        self.table.set(Mot("ESTIMATION"), state)
         before = [self.work.get(word) for word in CHANGEABLE]
-        call_user(self.call, "PERSO1", self.table)
+        if self.prepared:
+            self.table.set(Mot("TT"), state)
+            call_user(self.call, "REEV_MEC", self.table, int(snapshot.step > 0))
+        moved, at_start = state.get("DEPLACEMENTS"), self.work.get("FOR0")
+        if self.moves and isinstance(moved, NodeField) and isinstance(at_start, Configuration):
+            self.work.set(Mot("FOR"), at_start.moved(moved))
+        if self.steered and snapshot.step > 0:
+            call_user(self.call, "PERSO1", self.table)
         if self.table.get("ARRET") is True:
             raise StopCalculation
         after = [self.work.get(word) for word in CHANGEABLE]
         same = all(_is_same(a, b) for a, b in zip(before, after, strict=True))
         if not same or isinstance(self.table.get(TIMES), ListReel):
+            tell_parts(self.work)
             raise ChangedCalculation(snapshot.step)
 
     def close(self) -> None:

@@ -200,6 +200,23 @@ def smooth(
     return points
 
 
+def certain_sides(points: FloatArray, triangles: IntArray) -> IntArray:
+    """Sides (n, 2) of Delaunay triangles, each once, but for those between four on one circle.
+
+    Either diagonal of four points on a circle will do; which one stands must not draw points.
+    """
+    corners = points[triangles]
+    u, v = (np.roll(corners, -k, axis=1) - corners for k in (1, 2))  # towards the opposite side
+    opposite = (u * v).sum(axis=2) / (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+    sides = np.sort(np.stack([np.roll(triangles, -k, axis=1) for k in (1, 2)], axis=2), axis=2)
+    found, inverse = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    inverse = inverse.ravel()
+    both = np.bincount(inverse) == 2
+    tied = np.abs(np.bincount(inverse, opposite.ravel())) < 1e-9  # sum of cotangents
+    certain: IntArray = found[~(both & tied)]
+    return certain
+
+
 def sides_of(cells: IntArray) -> IntArray:
     """Sides (n, 2) of polygons (c, k), each once."""
     k = cells.shape[1]

@@ -16,6 +16,7 @@ from ssilang.kernel.mesh.surfaces.charts import Chart
 from ssilang.kernel.mesh.surfaces.fill import (
     SizeField,
     boundary_sizes,
+    certain_sides,
     fill_contour,
     sides_of,
     smooth,
@@ -259,7 +260,7 @@ def fill_surface(
         at = at * [1.0, -1.0] if turned else at
     squares = surface.startswith("QUA")
     points, triangles = fill_contour(flat, segments, SizeField(at, wanted), squares)
-    points = smooth(points, sides_of(triangles), len(flat))
+    points = smooth(points, certain_sides(points, triangles), len(flat))
     if surface == "POLY":
         polygons = [*join_triangles(points, triangles, len(flat)).values()]
         points, polygons = _without_unused(points, polygons, len(flat))

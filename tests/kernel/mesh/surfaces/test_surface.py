@@ -51,6 +51,14 @@ def test_square_is_filled_and_keeps_its_contour(surface: str) -> None:
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(given).tolist())
 
 
+@pytest.mark.parametrize("side", [0.02, 2.0])
+def test_inner_node_of_a_small_square_is_its_middle(side: float) -> None:
+    """Middles and corners lie on circles with it: either diagonal may stand, none may pull."""
+    nodes = NodeTable()
+    filled(square(nodes, side, 2), "TRI3")
+    assert nodes.coordinates[8:, :2] == pytest.approx(np.full((1, 2), side / 2), abs=1e-12 * side)
+
+
 def test_clockwise_contour_gives_clockwise_cells() -> None:
     made = filled(reversed_line(square(NodeTable(), 1.0, 4)), "TRI3")
     assert all((surface_normals(b)[:, 2] < 0).all() for b in made.blocks)
