@@ -205,7 +205,17 @@ def phrase_values(session: Session, source: Source) -> list[Any]:
 def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
-    session.on_warning = lambda w: err.write(coloured(render(w, session.language), err) + "\n")
+    shown: set[str] = (
+        set()
+    )  # a warning in a loop comes at each turn: word for word it is shown once
+
+    def show(warning: SsiError) -> None:
+        text = render(warning, session.language)
+        if text not in shown:
+            shown.add(text)
+            err.write(coloured(text, err) + "\n")
+
+    session.on_warning = show
     if options.verbose:
         session.on_note = lambda text: err.write(text + "\n")
     follow_loops(session, err)
@@ -441,10 +451,12 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
     quiet = quiet or result.exit_code == ENDED_BY_CLOSED_PIPE
     if quiet or not (output.files or session.warnings or calculations):
         return
+    told_of = [w for w in session.warnings if w.severity == "warning"]
     told = {
         "count": len(output.files),
         "folder": output.directory,
-        "warnings": sum(w.severity == "warning" for w in session.warnings),
+        "warnings": len(told_of),
+        "again": len(told_of) - len({render(w, session.language) for w in told_of}) or None,
         **_energy(session, calculations),
     }
     with suppress(OSError):

@@ -47,6 +47,20 @@ def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
     assert made["statements"] == 5
 
 
+def test_a_warning_of_every_turn_is_shown_once_and_counted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (
+        "OPTI DIME 2 ELEM SEG2 ; C = MANU 'CHPO' (DROI 2 (0. 0.) (1. 0.)) 1 'X' -1. ;\n"
+        "REPE B 5 ; D = C ** 0.5 ; FIN B ; D = C ** 0.5 ;\n"
+    )
+    made = run(tmp_path, text)
+    told = capsys.readouterr().err
+    assert len(made["warnings"]) == 6
+    assert told.count("have no power 0.5") == 2  # at two places
+    assert "6 warnings (4 word for word again, shown once)" in told
+
+
 def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:
     made = run(tmp_path, SCRIPT + "SORT 'CHAI' 'more' ;\nY = X . 3 ;\nSORT 'CHAI' 'never' ;\n")
     assert made["exit_code"] == 1
