@@ -16,7 +16,7 @@ from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
-from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range
+from ssilang.language.vocabulary.terms import CARRIED, UNSAID, Range
 from ssilang.messages.message import Translated, french, spoken
 
 ANY = "*"
@@ -179,7 +179,7 @@ def named(name: str, optional: bool = False, en: str = "") -> Argument:
 
 def main(name: str, *types: str, en: str = "") -> Argument:
     """The operand whose type decides which form of an operator runs; of numbers, any."""
-    return Argument(name, types, en=en, main=True, range=ANY_NUMBER)
+    return Argument(name, types, en=en, main=True, range=CARRIED)
 
 
 def opt(

@@ -25,7 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
 from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
@@ -142,7 +142,7 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
-        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=ANY_NUMBER),
+        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=CARRIED),
         gives="FLOTTANT|ENTIER",
         syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
         en=f"Of numbers: the {en}.",
@@ -150,7 +150,7 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
-        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=ANY_NUMBER),
+        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=CARRIED),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
         syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
         en=f"Of a list: the {en} value; of several, item by item.",

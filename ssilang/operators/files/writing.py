@@ -23,7 +23,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
@@ -64,7 +64,7 @@ _NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
         "TABLE",
         at_least=1,
         en="lists, or what holds them",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
     key("width", "NCOL", _NUMBER, en="columns side by side"),
     key("digits", "DIGI", _NUMBER, en="decimals"),
