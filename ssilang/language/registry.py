@@ -518,6 +518,7 @@ class Operator:
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
+    empties: bool = False  # objects that hold nothing are as good as others to it
     _choices: Choices | None = None
     _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
 
@@ -663,6 +664,7 @@ def operator(
     gives: str | Sequence[str] | Like | By | None = None,
     reads_itself: str = "",
     when: When | None = None,
+    empties: bool | None = None,
 ) -> Callable[[Function], Operator]:
     """Decorator that registers an operator with its first form.
 
@@ -681,6 +683,8 @@ def operator(
         Types of the results; by default what the function's annotation says.
     reads_itself : str
         Why the function takes the `call` and reads from it; `entries` are then for help and checks.
+    empties : bool, optional
+        Whether objects that hold nothing go by without a word; by the family where it is not said.
 
     Notes
     -----
@@ -692,12 +696,19 @@ def operator(
     def add(function: Function) -> Operator:
         made = shared(
             name, family, en, syntax, tables,
-            aliases=aliases, terminal=terminal, full_name=full_name,
+            aliases=aliases, terminal=terminal, full_name=full_name, empties=empties,
         )  # fmt: skip
         made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
 
     return add
+
+
+_OF_CONTAINERS = frozenset(
+    ("arithmetic", "clouds", "comparisons", "control", "functions", "lists", "numbers", "objects",
+     "output", "session", "tables", "words")
+)  # fmt: skip
+"""Families of operators that fill, take apart, compare and print: to them nothing is a value."""
 
 
 def shared(
@@ -710,10 +721,12 @@ def shared(
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
+    empties: bool | None = None,
 ) -> Operator:
     """Register an operator whose forms stand in several families; `form` adds one."""
     about = Help(en, syntax, tables=tables)
-    made = Operator(name, family, about, [], tuple(aliases), terminal, full_name or name)
+    holds = family in _OF_CONTAINERS if empties is None else empties
+    made = Operator(name, family, about, [], tuple(aliases), terminal, full_name or name, holds)
     for word in (name, *aliases):
         OPERATORS[word] = made
     return made

@@ -8,15 +8,23 @@ built, and what is said there is so.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import OPERATORS
+from ssilang.language.run import phrases
+from ssilang.language.run.binding import run_operator
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.errors import SsiError
 from ssilang.language.say.reference import operator_page, procedure_page
+from ssilang.language.values import MAY_BE_EMPTY, Mot, is_empty, type_of
 from ssilang.operators.loader import load_operators
+from ssilang.operators.session.empty_objects import _MAKERS
+from ssilang.operators.workspace import workspace
 
 load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
@@ -39,14 +47,55 @@ def _examples(operator):
     return tuple(e for p in around for e in _PROCEDURES[p].help.examples)
 
 
+class Emptied:
+    """Calls an operator, before each call of its, with every operand in turn that holds nothing."""
+
+    def __init__(self, operator):
+        self.operator, self.tried, self.silent, self.busy = operator, set(), [], False
+
+    def __call__(self, found, call):
+        inner = call.session.frame.procedure in call.session.library.standard_names
+        if found is self.operator and not inner and not self.busy:
+            kinds = [type_of(o.value) for o in call.operands]
+            words = tuple(str(o.value)[:4] for o in call.operands if isinstance(o.value, str))
+            for place, kind in enumerate(kinds):
+                if kind in MAY_BE_EMPTY and (*kinds, place, words) not in self.tried:
+                    self.tried.add((*kinds, place, words))
+                    self.one(found, call, place, kind)
+        return run_operator(found, call)
+
+    def one(self, found, call, place, kind):
+        nothing = _MAKERS[kind](workspace(call.session), "")
+        operands = [
+            replace(o, value=nothing if n == place else o.value)
+            for n, o in enumerate(call.operands)
+        ]
+        before, self.busy = len(call.session.warnings), True
+        try:
+            call.session.evaluator._operate(
+                found, Operand(Mot(found.name), call.span), Call(call.session, operands, call.span)
+            )
+            told = [w.code for w in call.session.warnings[before:]]
+            told += ["excess"] * any(o.value is nothing for o in operands)
+        except SsiError as error:
+            told = [error.code]
+        self.busy = False
+        del call.session.warnings[before:]
+        if "internal" in told or (not (told or found.empties) and is_empty(nothing)):
+            self.silent.append((found.name, place, [type_of(o.value) for o in call.operands]))
+
+
 @pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
-def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path):
-    ran = FormsRan()
+def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path, monkeypatch):
+    """Each call of an operator is tried with nothing in place of an object, too: that is told."""
+    ran, emptied = FormsRan(), Emptied(operator)
+    monkeypatch.setattr(phrases, "run_operator", emptied)
     for number, text in enumerate(_examples(operator), 1):
         options = RunOptions(output_directory=tmp_path / str(number), on_form=ran)
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
     assert ran.missing(operator) == untried.get(operator.name, [])
+    assert not emptied.silent
 
 
 @pytest.mark.parametrize("path", [pytest.param(p, id=p.stem) for p in _PROCEDURES])

@@ -181,6 +181,10 @@ MODELS = {
     ),
     # supports, weight, mass
     "no weight on joints": (FOOTING.format("", ""), "D.nothing-presses"),
+    "joints so soft that the body sinks in": (
+        FOOTING.replace("'KN' 1.E5", "'KN' 1.E3").format(WEIGHT, ""),
+        "D.sinks-in",
+    ),
     "no weight on stops": (
         BODY.format("K = K ET (BLOQ 'MINI' 'UY' B) ET (BLOQ 'UX' B) ;", ""),
         "D.nothing-presses",

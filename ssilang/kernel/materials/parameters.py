@@ -169,6 +169,13 @@ def geometric_names(zone: Zone) -> Names:
     return _GEOMETRY.get(family, Names())
 
 
+def idle_names(zone: Zone) -> tuple[str, ...]:
+    """Parameters that a zone takes and that change nothing: the thickness outside of a plane."""
+    turned = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
+    flat = zone.mode is Mode.PLANE_STRESS if family_name(zone) in SOLID_FAMILIES else not turned
+    return () if flat else ("DIM3",)
+
+
 def known_names(zone: Zone) -> tuple[str, ...]:
     """All parameters that a zone takes."""
     return material_names(zone).all + geometric_names(zone).all

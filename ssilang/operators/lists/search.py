@@ -204,6 +204,7 @@ def _sort_by_cost(
     *_ORDER,
     _DISTINCT,
     _OTHERS,
+    opt("table", "TABLE", en="refused: a table of lists stands before the list"),
     gives=Like("value", ("others",)),
     syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
     "LIS3 LIS4 ... = ORDO LIS1 LIS2 ... ('CROI' | 'DECR') ('ABSO') ('NOCA') ;\n"
@@ -220,7 +221,10 @@ def _sort_lists(
     fold: bool,
     distinct: float | None,
     others: tuple[Sortable, ...],
+    table: Table | None,
 ) -> Any:
+    if table is not None:
+        raise call.error("operators.lists.table-before-list", table)
     lists = _together(call, value, others)
     places = sorting(value.values, order == "DECR", absolute, fold)
     if distinct is not None:

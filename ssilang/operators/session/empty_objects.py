@@ -25,6 +25,7 @@ from ssilang.language.values import (
     ListReel,
     Mot,
     Table,
+    is_empty,
     type_of,
 )
 from ssilang.language.vocabulary.terms import ANY_NUMBER, between
@@ -53,20 +54,6 @@ _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
     "NUAGE": lambda ws, sub: Cloud({}),
     "ANNOTATI": lambda ws, sub: Annotation(),
 }
-
-
-def is_empty(value: Any) -> bool:
-    """Whether an object holds nothing."""
-    if isinstance(value, Annotation):
-        return not value.categories and not value.tags
-    for name in ("blocks", "components", "zones", "parts"):
-        if hasattr(value, name):
-            held = getattr(value, name)
-            relations = getattr(value, "relations", ())
-            if isinstance(value, Mesh):
-                return value.n_cells == 0
-            return len(held) == 0 and len(relations) == 0
-    return len(value) == 0
 
 
 _COUNT = arg("count", "ENTIER", en="number of objects", range=between(1, 1e6))

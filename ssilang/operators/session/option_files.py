@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.language.registry import arg
@@ -31,6 +32,8 @@ def read_file_option(call: Call, word: str) -> None:
     value = call.given(UNIT)
     _formats(call, formats)
     options[word] = Mot(value) if isinstance(value, str) else value
+    if word == "FTRA" and isinstance(value, str) and len(Path(value.strip()).parts) > 1:
+        call.warn("operators.session.folder-of-pictures", name=value, kept=Path(value.strip()).stem)
     options[word + " FORMAT"] = tuple(formats)
     run_output(call.session).reopen(word)
     if word == "IMPR":
