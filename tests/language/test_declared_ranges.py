@@ -178,9 +178,7 @@ CURVE = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; S = SUIT C C ; "
 @pytest.mark.parametrize(
     "text",
     """Z = PROG 0. 'PAS' X 1. ;| Z = PROG 1. 'PAS' 1. 'GEOM' X 3. ;| Z = PROG 'SINU' X XL ;
-Z = PROG 'SINU' 1. 'PHAS' X XL ;| Z = PROG 'LINE' 'A' X XL ;| Z = EVOL 'MANU' XL (PROG 1. 2.) ;
-Z = EVOL 'MANU' (PROG 1. 2.) XL ;| Z = EVOL 'COMP' 'F' XL 'A' (PROG 1. 2.) 'B' (PROG 1. 2.) ;
-Z = EVOL 'COMP' 'F' (PROG 1. 2.) 'A' (PROG 1. 2.) 'B' XL ;| Z = EVOL 'TEMP' S XL 'UX' P ;
+Z = PROG 'SINU' 1. 'PHAS' X XL ;| Z = PROG 'LINE' 'A' X XL ;| Z = EVOL 'TEMP' S XL 'UX' P ;
 OPTI 'DENS' X ;| OPTI 'PREC' X ;| Z = EXIS XL X ;| Z = EXIS XL 1. X ;
 Z = VIDE 'TABULER' XL 'MAILLAGE' ;| DENS X ;| Z = P PLUS (X 0.) ;| Z = MANU 'CHPO' P 'UX' X ;
 Z = COLI C X C X ;| Z = RACP X 1. 2. ;""".replace("\n", "|").split("|"),
@@ -188,12 +186,19 @@ Z = COLI C X C X ;| Z = RACP X 1. 2. ;""".replace("\n", "|").split("|"),
 def test_what_is_no_number_is_refused_where_it_stands(text):
     (error,) = run_text(NAN + CURVE + text).errors
     assert error.span.text in ("X", "XL", "X 0."), render(error, "en", ())
-    assert error.code in ("out-of-range", "kernel.mesh.node-out-of-range", "operand-not-finite")
+    assert error.code in (
+        "out-of-range",
+        "not-finite",
+        "kernel.mesh.node-out-of-range",
+        "operand-not-finite",
+    )
 
 
-@pytest.mark.parametrize("text", ["MESS X XL ;", "Z = MASQ XL 'EGSUPE' 1. ;", "LIST XL ;"])
+@pytest.mark.parametrize(
+    "text", ["MESS X XL ;", "Z = MASQ XL 'EGSUPE' 1. ;", "LIST XL ;", "Z = EVOL 'MANU' XL XL ;"]
+)
 def test_what_came_of_a_division_by_zero_may_be_looked_at(text):
-    result = run_text(NAN + text.replace("X XL", "X"))
+    result = run_text(NAN + text)
     assert result.exit_code == 0, result.message
 
 

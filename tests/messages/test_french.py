@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from ssilang.language.registry import OPERATORS, Help
+from ssilang.language.registry import OPERATORS, Argument, Help
 from ssilang.messages import message
 from ssilang.messages.message import Translated, french
 from ssilang.operators.loader import load_operators
@@ -37,6 +38,10 @@ def declared() -> set[str]:
         found |= set(texts_in(operator.about))
         for form in operator.forms:
             found |= set(texts_in((form.help, form.entries or (), form.when)))
+    for name, module in list(sys.modules.items()):  # what operators read by hand
+        if name.startswith("ssilang.operators"):
+            held = (v for v in vars(module).values() if isinstance(v, Argument | dict))
+            found |= {t for v in held for t in texts_in(v)}
     return found - {""}
 
 

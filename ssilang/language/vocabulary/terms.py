@@ -115,7 +115,8 @@ class Range:
         return "not-increasing", {**told, "count": numbers.size}
 
     def _outside(self, value: float, name: str) -> tuple[str, dict[str, object]]:
-        return "out-of-range", {"value": value, "range": self.text(name) or f"|{name}| < inf"}
+        text = self.text(name)
+        return "out-of-range" if text else "not-finite", {"value": value, "range": text}
 
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low

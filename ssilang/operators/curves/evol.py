@@ -38,7 +38,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE, POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -58,12 +58,12 @@ _ORDINATE = opt("y_name", "MOT", en="name of the ordinates")
 _COMPONENT = opt("name", "MOT", en="component", kind="component")
 
 _BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes")
-_X = arg("x", *_LISTS, en="abscissas", range=ANY_NUMBER)
-_Y = arg("y", *_LISTS, en="ordinates", range=ANY_NUMBER)
-_REALS = arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER)
+_X = arg("x", *_LISTS, en="abscissas", range=CARRIED)
+_Y = arg("y", *_LISTS, en="ordinates", range=CARRIED)
+_REALS = arg("x", "LISTREEL", en="abscissas", range=CARRIED)
 _PARTS = (
-    arg("first", "LISTREEL", en="first parts", range=ANY_NUMBER),
-    arg("second", "LISTREEL", en="second parts", range=ANY_NUMBER),
+    arg("first", "LISTREEL", en="first parts", range=CARRIED),
+    arg("second", "LISTREEL", en="second parts", range=CARRIED),
 )
 TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER)
 _ITS_TIMES = arg("times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER)

@@ -22,7 +22,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, between
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 
 _REAL = ("ENTIER", "FLOTTANT")
 LONGEST = 20_000_000
@@ -38,8 +38,8 @@ _NEXT = {
     for k, v in _KINDS.items()
 }
 _RATIO = arg("ratio", "FLOTTANT", en="ratio of steps", range=ANY_NUMBER)
-_COUNT = arg("count", "ENTIER", en="number of steps", range=between(0, LONGEST))
-_TIMES = arg("count", "ENTIER", en="repetitions", range=between(0, LONGEST))
+_COUNT = arg("count", "ENTIER", en="number of steps", range=NOT_NEGATIVE)
+_TIMES = arg("count", "ENTIER", en="repetitions", range=NOT_NEGATIVE)
 _FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER)
 _SETTINGS = {
     "PHAS": arg("phase", "FLOTTANT", en="phase", unit="deg", range=ANY_NUMBER),
@@ -162,6 +162,7 @@ def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatA
         ratio = call.given(_RATIO, call.keyword_end)
     if call.keyword(("NPAS",)) is not None:
         count = call.given(_COUNT, call.keyword_end)
+        check_length(count)
         return _progression(start, step, count, ratio)
     end = call.given(_ITEM[kinds[-1]])
     more: list[Any] = []

@@ -209,14 +209,14 @@ def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any
     session = call.session
     if session.frame.procedure in session.library.standard_names:
         return
-    told = [(n, "idle-parameter") for n in idle_names(zone) if n in values]
+    told = [(n, "operators.models.idle-parameter") for n in idle_names(zone) if n in values]
     youn = values["YOUN"][0] if "YOUN" in values and "VISQ" not in values else np.empty(0)
     if youn.dtype == float and (youn == 0.0).any():
-        told.append(("YOUN", "no-stiffness"))
+        told.append(("YOUN", "operators.models.no-stiffness"))
     for name, code in told:
         if name in said:
             data = {"name": name, "mode": zone.mode.value}
-            warning = call.error(f"operators.models.{code}", said[name], **data)
+            warning = call.error(code, said[name], **data)
             warning.warns = True
             session.report(warning)
 
