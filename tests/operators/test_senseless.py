@@ -40,7 +40,8 @@ FILES = {
         "operators.files.record-gap",
     ),
     "an earthquake of tens of g": (
-        RECORD, {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "G").replace("5 6", "5 60")},
+        RECORD,
+        {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "G").replace("5 6", "5 60")},
         "operators.files.record-strong",
     ),
     "velocities in a spectrum": (
