@@ -188,12 +188,10 @@ def test_a_refused_folder_is_told_once(home, monkeypatch):
 def test_a_run_tells_of_the_folder_that_it_refused(home):
     kept(home).mkdir(parents=True)
     kept(home).chmod(0o777)
-    deck = (
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; M = MODE L 'MECANIQUE' 'BARR' ;\n"
-        "A = MATE M 'YOUN' 1. 'SECT' 1. 'RHO' 1. 'NU' 0. ; K = (RIGI M A) ET (BLOQ 'UY' L) ;\n"
-        "E = CHAR 'MECA' (FORC 'FX' 1. (L POIN 'FINA')) ; T = TABL ; T . 'RIGI' = K ;\n"
-        "T . 'MASS' = MASS M A ; T . 'CHAR' = E ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 0.2 ;\n"
-        "R = DYNAMIC T ;\n"
+    deck = (  # of what is compiled, little
+        "A = EVOL 'MANU' 'TEMPS' (PROG 0. 'PAS' 0.1 1.) 'ACCE' (PROG 11 * 1.) ;\n"
+        "L = PROG 0.01 ; B = SPO A 'FREQ' (PROG 1. 2.) 'AMOR' L 'DEPL' ;\n"
+        "C = SPON 'SIGN' A 'SPEL' B 'DEPL' 'AMOR' L 'CINE' (PROG 2. 0.1) 'DEPL' ;\n"
     )
     (home / "deck.ssi").write_text(deck)
     given = {k: v for k, v in os.environ.items() if k != "NUMBA_CACHE_DIR"}

@@ -62,7 +62,7 @@ def test_xml_that_grows_is_refused(content: str, tmp_path: Path, capsys: Any) ->
     assert main([str(tmp_path / "case.ssi")]) == 1
     assert "bomb.vtu cannot be read" in capsys.readouterr().err
     from ssilang.io.errors import InputError
-    from ssilang.io.vtk.pvd import read_pvd
+    from ssilang.io.vtk.series import read_pvd
 
     (tmp_path / "bomb.pvd").write_text(GROWING.replace("CONTENT", content))
     with pytest.raises(InputError):

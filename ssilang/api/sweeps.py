@@ -19,7 +19,6 @@ from ssilang.api.view import library
 from ssilang.cli.sweeping.given import MOTION, Case, GivenError, Value, combined, motions_in
 from ssilang.cli.sweeping.pool import dask_installed
 from ssilang.cli.sweeping.sweep import (
-    TOGETHER,
     SweepOptions,
     run_cases,
     write_reports,
@@ -39,7 +38,6 @@ def sweep(
     records: Script | Iterable[Script] | None = None,
     out: Script | None = None,
     jobs: int = 0,
-    together: int = TOGETHER,
     scheduler: str = "",
     allow: Allowed = (),
     language: str = "en",
@@ -59,8 +57,6 @@ def sweep(
         figures; a sweep of that folder that was stopped goes on. Without it nothing stays.
     jobs : int
         Processes; 0: one a core.
-    together : int
-        Most runs of a process whose steps are taken together.
     scheduler : str
         Address of a Dask scheduler, whose workers run instead of processes here.
     allow, language, quiet
@@ -96,7 +92,7 @@ def sweep(
         raise refused("api.report-without-folder", language)
     options = SweepOptions(
         Path(script), out=None if out is None else Path(out), jobs=jobs, scheduler=scheduler,
-        allowed=folders(allow), language=language, together=together,
+        allowed=folders(allow), language=language,
         report=report,
     )  # fmt: skip
     told = (io.StringIO(), io.StringIO()) if quiet else (sys.stdout, sys.stderr)

@@ -280,7 +280,6 @@ def _sweep(options: argparse.Namespace) -> int:
             options.scheduler,
             options.allow,
             options.lang,
-            options.together,
             options.report,
             options.fragility,
             options.intensity,

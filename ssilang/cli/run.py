@@ -9,7 +9,7 @@ import sys
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -83,8 +83,6 @@ class RunOptions:
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     resume: bool = False  # go on from what an earlier run of the deck kept
-    integrate: Any = None  # replaces the kernel's time integration, see `sweeping.gathering`
-    away: Callable[[], float] = lambda: 0.0  # seconds that the run left to others
     on_form: FormsRan | None = None  # collects the forms of operators that run
     petsc: str = field(default_factory=lambda: os.environ.get("SSILANG_PETSC", ""))
     """What starts PETSc, '' if there is none."""
@@ -106,8 +104,6 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             language=options.language,
             limits=options.limits,
             given={k: _as_object(v) for k, v in options.given.items()},
-            integrate=options.integrate,
-            away=options.away,
             was_interrupted=take,
             hold=holding,
             on_form=options.on_form,
@@ -249,7 +245,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     if not left:
         _tell(errors, coloured(message, err), options.debug, err)
     code = ENDED_BY_CLOSED_PIPE if left else 1 if errors else 0
-    seconds = time.perf_counter() - session.started - session.away()
+    seconds = time.perf_counter() - session.started
     result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
     if not refused:
         _tell_imbalance(session)

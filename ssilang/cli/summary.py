@@ -46,7 +46,7 @@ def write_summary(
         "deck_digest": source.digest,
         "version": __version__,
         "exit_code": exit_code,
-        "seconds": round(time.perf_counter() - session.started - session.away(), 3),
+        "seconds": round(time.perf_counter() - session.started, 3),
         "statements": session.evaluator.statement_count,
         "peak_memory_mb": _megabytes(peak_memory()),
         "files": files,

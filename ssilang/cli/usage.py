@@ -186,9 +186,6 @@ def _sweep(sweep: argparse.ArgumentParser) -> None:
     sweep.add_argument("--motions", type=Path, metavar="DIR", help="cli.usage-motions")
     sweep.add_argument("--out", type=Path, help="cli.usage-out-sweep")
     sweep.add_argument("--jobs", type=_from(0), default=0, help="cli.usage-jobs")
-    sweep.add_argument(
-        "--together", type=_from(1), default=8, metavar="N", help="cli.usage-together"
-    )
     sweep.add_argument("--scheduler", default="", help="cli.usage-scheduler")
     sweep.add_argument("--report", action="store_true", help="cli.usage-report-sweep")
     sweep.add_argument(

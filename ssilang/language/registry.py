@@ -11,13 +11,14 @@ import sys
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from inspect import signature
 from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
 from ssilang.language.vocabulary.terms import CARRIED, UNSAID, Range
-from ssilang.messages.message import Translated, french, spoken
+from ssilang.messages.message import Translated, examples, help_texts, spoken
 
 ANY = "*"
 NAME = "NOM"
@@ -371,31 +372,26 @@ Tables = Callable[[str], Sequence[HelpTable]]
 
 
 @dataclass(frozen=True, slots=True)
-class Help(Translated):
-    """Help of an operator, shown by INFO, `ssilang help` and the manual.
+class Help:
+    """Help of an operator or procedure, shown by INFO, `ssilang help` and the manual.
 
-    `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page.
-    `examples` and `in_french` are of procedures, which bring their own; for operators files of
-    `ssilang/messages` have them.
+    `tables` makes, in 'en' or 'fr', what is declared elsewhere and belongs to the page. What is
+    said of operators stands in `ssilang/messages/pages`, their examples beside it.
     """
 
     en: str
-    syntax: str = ""  # one line an accepted form, notices' style
+    fr: str
+    syntax: str  # one line an accepted form, notices' style
     examples: tuple[str, ...] = ()  # scripts that run by themselves
     tables: Tables | None = None
-    in_french: str = ""
-
-    @property
-    def fr(self) -> str:
-        """The same in French."""
-        return self.in_french or french(self.en)
 
     def told(self, language: str) -> str:
         """What it says in 'en' or 'fr'."""
         return spoken(self.en, self.fr, language)
 
 
-NO_HELP = Help("")
+Page = tuple[str, str, str]
+"""Where the help of a form stands: family, operator, name of the form's function."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -410,11 +406,11 @@ class Form:
     function: Function
     injected: tuple[str, ...] = ()  # parameters that get the session or the call
     gives: Gives = None
-    help: Help = NO_HELP
     by_hand: str = ""
     when: When | None = None
     of: tuple[str, ...] = ()  # an operand of one of these types stands in the phrase
     module: str = ""  # that declares it
+    page: Page = ("", "", "")
 
     said: Keyword | Select | None = field(init=False, repr=False, compare=False)
     """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
@@ -513,11 +509,11 @@ class Operator:
 
     name: str
     family: str
-    about: Help  # what is said of the operator as a whole
     forms: list[Form] = field(default_factory=list)
     aliases: tuple[str, ...] = ()
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
+    tables: Tables | None = None  # see `Help`
     empties: bool = False  # objects that hold nothing are as good as others to it
     _choices: Choices | None = None
     _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
@@ -540,20 +536,16 @@ class Operator:
     @property
     def help(self) -> Help:
         """What is said of the operator and of each form, by module whatever was imported first."""
-        forms = sorted(self.forms, key=lambda f: f.function.__module__)
-        helps = (self.about, *(f.help for f in forms))
-        return Help(
-            "\n".join(h.en for h in helps if h.en),
-            "\n".join(h.syntax for h in helps if h.syntax),
-            tables=next((h.tables for h in helps if h.tables is not None), None),
-        )
+        texts = help_texts(self.family, self.name)
+        forms = dict.fromkeys(f.page[-1] for f in sorted(self.forms, key=lambda f: f.module))
+        parts = (texts, *(texts[f] for f in forms if f in texts))
+        en, fr, syntax = ("\n".join(p[k] for p in parts if k in p) for k in ("en", "fr", "syntax"))
+        return Help(en, fr, syntax, examples(self.family, self.name), self.tables)
 
     def form(
         self,
         *entries: Entry,
         gives: str | Sequence[str] | Like | By | None = None,
-        syntax: str = "",
-        en: str = "",
         by_hand: str = "",
         when: When | None = None,
         of: Sequence[str] = (),
@@ -572,8 +564,6 @@ class Operator:
             operand is read.
         gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
-        syntax, en
-            Help of this form.
         by_hand : str
             Why the function reads for itself: it takes the call, and behind it the main operand
             or the word that chose the form if there is one.
@@ -591,26 +581,16 @@ class Operator:
                 function,
                 _injected(function),
                 _gives(gives),
-                Help(en, syntax),
                 by_hand,
                 when,
                 tuple(of),
                 OPERATORS.note(self.name),
+                (self.family, self.name, _name_of(function)),
             )
             self._add(made, ahead)
             return function
 
         return add
-
-    def extend_help(self, syntax: str, en: str) -> None:
-        """Add a paragraph and syntax lines to what is said of the operator as a whole."""
-        OPERATORS.note(self.name)
-        old = self.about
-        self.about = Help(
-            "\n".join(t for t in (old.en, en) if t),
-            "\n".join(t for t in (old.syntax, syntax) if t),
-            tables=old.tables,
-        )
 
     def _add(self, made: Form, ahead: bool) -> None:
         """Put a form in its place: where it stands when all operators are loaded at once."""
@@ -655,8 +635,6 @@ def operator(
     name: str,
     *entries: Entry,
     family: str,
-    en: str,
-    syntax: str = "",
     tables: Tables | None = None,
     aliases: Sequence[str] = (),
     terminal: bool = False,
@@ -677,8 +655,8 @@ def operator(
         operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
-    en, syntax, tables
-        Its help, see `Help`.
+    tables : callable, optional
+        Tables of its help, see `Help`.
     gives : str, sequence of str, Like, or By, optional
         Types of the results; by default what the function's annotation says.
     reads_itself : str
@@ -695,8 +673,8 @@ def operator(
 
     def add(function: Function) -> Operator:
         made = shared(
-            name, family, en, syntax, tables,
-            aliases=aliases, terminal=terminal, full_name=full_name, empties=empties,
+            name, family, tables, aliases=aliases, terminal=terminal, full_name=full_name,
+            empties=empties,
         )  # fmt: skip
         made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
@@ -714,8 +692,6 @@ _OF_CONTAINERS = frozenset(
 def shared(
     name: str,
     family: str,
-    en: str,
-    syntax: str = "",
     tables: Tables | None = None,
     *,
     aliases: Sequence[str] = (),
@@ -724,12 +700,19 @@ def shared(
     empties: bool | None = None,
 ) -> Operator:
     """Register an operator whose forms stand in several families; `form` adds one."""
-    about = Help(en, syntax, tables=tables)
     holds = family in _OF_CONTAINERS if empties is None else empties
-    made = Operator(name, family, about, [], tuple(aliases), terminal, full_name or name, holds)
+    called = full_name or name
+    made = Operator(name, family, [], tuple(aliases), terminal, called, tables, holds)
     for word in (name, *aliases):
         OPERATORS[word] = made
     return made
+
+
+def _name_of(function: Function) -> str:
+    """What a function is called, or the one that it is a part of."""
+    while isinstance(function, partial):
+        function = function.func
+    return str(getattr(function, "__name__", ""))
 
 
 def _injected(function: Function) -> tuple[str, ...]:

@@ -165,17 +165,23 @@ def _french() -> dict[str, str]:
     return texts
 
 
+def help_texts(family: str, operator: str) -> Mapping[str, Any]:
+    """What help says of an operator: `en`, `fr`, `syntax`, and the same of forms by function."""
+    found: Mapping[str, Any] = _of_family("pages", family).get(operator, {})
+    return found
+
+
 def examples(family: str, operator: str) -> tuple[str, ...]:
-    """Scripts that show an operator, from `examples/mesh.toml` for the family mesh."""
-    return tuple(_examples(family).get(operator, ()))
+    """Scripts that show an operator."""
+    return tuple(_of_family("examples", family).get(operator, ()))
 
 
 @cache
-def _examples(family: str) -> dict[str, list[str]]:
-    import tomllib
+def _of_family(folder: str, family: str) -> dict[str, Any]:
+    import tomllib  # most runs tell nothing
 
-    path = Path(__file__).parent / "examples" / f"{family}.toml"
-    return tomllib.loads(path.read_text(encoding="utf-8"))
+    path = Path(__file__).parent / folder / f"{family}.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
 def find(code: str) -> Message:

@@ -26,44 +26,27 @@ if TYPE_CHECKING:
     from ssilang.language.text.source import Span
 
 
-EXTR = shared(
-    "EXTR", "objects", "Takes a part out of an object.", full_name="EXTRAIRE", terminal=True
-)
-DIME = shared(
-    "DIME",
-    "objects",
-    "Number of items of a list, table, word, curve ...",
-    full_name="DIMENSION",
-    syntax="ENTI1 = DIME OBJ1 ;",
-)
-ENLE = shared("ENLE", "objects", "Removes items; gives a new object.", full_name="ENLEVER")
-REDU = shared("REDU", "fields", "Restricts an object to a smaller support.", full_name="REDUIRE")
-MANU = shared(
-    "MANU", "objects", "Makes an object from its parts, named by a keyword.", full_name="MANUEL"
-)
-CHAN = shared(
-    "CHAN", "objects", "Changes an object in a way named by a keyword.", full_name="CHANGER"
-)
-MAXI = shared("MAXI", "fields", "Largest value of a list, field or curve.", full_name="MAXIMUM")
-MINI = shared("MINI", "fields", "Smallest value of a list, field or curve.", full_name="MINIMUM")
-COPI = shared("COPI", "objects", "Copy of an object.", full_name="COPIER")
-ORDO = shared("ORDO", "objects", "Sorts the items of an object.", full_name="ORDONNER")
+EXTR = shared("EXTR", "objects", full_name="EXTRAIRE", terminal=True)
+DIME = shared("DIME", "objects", full_name="DIMENSION")
+ENLE = shared("ENLE", "objects", full_name="ENLEVER")
+REDU = shared("REDU", "fields", full_name="REDUIRE")
+MANU = shared("MANU", "objects", full_name="MANUEL", empties=False)
+CHAN = shared("CHAN", "objects", full_name="CHANGER")
+MAXI = shared("MAXI", "fields", full_name="MAXIMUM")
+MINI = shared("MINI", "fields", full_name="MINIMUM")
+COPI = shared("COPI", "objects", full_name="COPIER")
+ORDO = shared("ORDO", "objects", full_name="ORDONNER")
 
-COUL = shared("COUL", "objects", "Gives a colour.", full_name="COULEUR")
-INVE = shared("INVE", "objects", "Inverts an object.", full_name="INVERSE")
-UNIQ = shared("UNIQ", "objects", "Removes doubles.", full_name="UNIQUE")
-INTG = shared("INTG", "fields", "Integral of a field or a curve.")
+COUL = shared("COUL", "objects", full_name="COULEUR")
+INVE = shared("INVE", "objects", full_name="INVERSE")
+UNIQ = shared("UNIQ", "objects", full_name="UNIQUE")
+INTG = shared("INTG", "fields")
 
-PSCA = shared("PSCA", "fields", "Scalar product.", full_name="PSCAL")
-PVEC = shared("PVEC", "fields", "Vector product.")
-COOR = shared("COOR", "mesh", "Coordinates of what an object stands on.", full_name="COORDONNEE")
-DIFF = shared(
-    "DIFF",
-    "objects",
-    "What belongs to one of two objects only (symmetric difference).",
-    full_name="DIFFERENCE",
-)
-INTE = shared("INTE", "objects", "What is common to two objects.", full_name="INTERSECTION")
+PSCA = shared("PSCA", "fields", full_name="PSCAL")
+PVEC = shared("PVEC", "fields")
+COOR = shared("COOR", "mesh", full_name="COORDONNEE")
+DIFF = shared("DIFF", "objects", full_name="DIFFERENCE")
+INTE = shared("INTE", "objects", full_name="INTERSECTION")
 
 ListingEntry = Callable[[Any, bool, Teller], str]
 LISTINGS: Filled[str, ListingEntry] = Filled("listings")
@@ -194,8 +177,5 @@ operator(
     flag("merged", "NOER", en="doubles are no error"),
     gives=ANY,
     family="objects",
-    en="Joins two objects: union of meshes, sum of matrices, concatenation of lists, logical and.",
-    syntax="OBJ3 = OBJ1 ET OBJ2 ('NOER') ; OBJ3 = ET ('TELQUEL') OBJ1 OBJ2 ; "
-    "OBJ2 = ET TAB1 | LOBJ1 ; LOG4 = ET LOG1 LOG2 LOG3 ... ;",
     reads_itself="the types of its operands, words too, choose a rule, which may read more",
 )(_unite)

@@ -26,7 +26,7 @@ FRAMES = 60
 LARGEST = 32767
 """Of a number in 16 bits; the one below its negative says that there is none."""
 _UPPER = {9: (0, 1), 30: (0, 1), 3: (0, 1), 13: (0, 1, 2), 31: (0, 1, 2), 12: (0, 1, 2, 3)}
-"""Corners of the upper side of a joint, by VTK's type of its cell (`io/vtk/cells.py`)."""
+"""Corners of the upper side of a joint, by VTK's type of its cell (`io/vtk/grid.py`)."""
 
 
 class SceneError(Exception):
@@ -362,7 +362,7 @@ def _of_hdf(path: Path, pyvista: Any) -> _Steps:
 
 def _of_list(path: Path, pyvista: Any) -> _Steps:
     from ssilang.io.errors import InputError, OutputError
-    from ssilang.io.vtk.pvd import read_pvd
+    from ssilang.io.vtk.series import read_pvd
 
     try:
         entries = read_pvd(path)

@@ -167,9 +167,7 @@ def test_a_checkpoint_of_a_run_that_read_other_files_is_refused(case, capsys, mo
 
 
 def test_a_checkpoint_of_another_calculation_is_refused(case, capsys, monkeypatch):
-    monkeypatch.setattr(
-        "ssilang.kernel.stepping.problem.digest.digest_of", lambda problem: "another"
-    )
+    monkeypatch.setattr("ssilang.kernel.stepping.keeping.digest_of", lambda problem: "another")
     assert main([str(case), "--resume"]) == 1
     assert "checkpoint of calculation 1" in said(capsys)
 

@@ -371,6 +371,13 @@ def dies_first(task: Task) -> dict[str, object]:
     return {"run": task.number, "exit_code": 0, "folder": ""}
 
 
+def raises(task: Task) -> dict[str, object]:
+    """Fails outside the script."""
+    if task.number == 2:
+        raise OSError("disk full")
+    return {"run": task.number, "exit_code": 0, "folder": ""}
+
+
 def some_tasks(tmp_path, count):
     return [Task(i, tmp_path / "x.ssi", tmp_path / str(i), {}) for i in range(1, count + 1)]
 
@@ -384,7 +391,7 @@ def test_later_runs_begin_with_the_memory_of_the_first(tmp_path):
     assert len(others) <= 2
 
 
-@pytest.mark.parametrize(("work", "lost"), [(dies_once, 2), (dies_first, 1)])
+@pytest.mark.parametrize(("work", "lost"), [(dies_once, 2), (dies_first, 1), (raises, 2)])
 def test_a_trunk_or_a_fork_that_dies_costs_its_own_run_alone(tmp_path, work, lost):
     rows = sorted(run_grown(some_tasks(tmp_path, 6), 2, work), key=lambda r: r["run"])
     assert [r["run"] for r in rows] == list(range(1, 7))

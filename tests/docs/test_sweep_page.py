@@ -74,7 +74,7 @@ def test_the_suite_has_the_fragility_that_its_records_were_made_for(tmp_path: Pa
     assert made.exit_code == 0, made.message
     options = SweepOptions(
         tmp_path / "oscillator.ssi", ["AG=1,2,4,6,10"], motions, tmp_path / "out", jobs=1,
-        together=50, fragility=["drift>0.001"],
+        fragility=["drift>0.001"],
     )  # fmt: skip
     out, err = io.StringIO(), io.StringIO()
     assert sweep(options, out, err) == 0, err.getvalue()

@@ -45,7 +45,7 @@ def catalogue() -> dict[str, Message]:
     """All messages by their whole code."""
     found = {}
     for path in sorted(_MESSAGES.rglob("*.toml")):
-        if path.parent.name in ("french", "examples"):
+        if path.parent.name in ("french", "examples", "pages"):
             continue
         room = ".".join(path.relative_to(_MESSAGES).with_suffix("").parts)
         for name in tomllib.loads(path.read_text(encoding="utf-8")):

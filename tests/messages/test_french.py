@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from ssilang.language.registry import OPERATORS, Argument, Help
+from ssilang.language.registry import OPERATORS, Argument, Operator
 from ssilang.messages import message
 from ssilang.messages.message import Translated, french
 from ssilang.operators.loader import load_operators
@@ -30,14 +30,15 @@ def texts_in(declared: object) -> Iterator[str]:
             yield from texts_in(part)
 
 
+def operators() -> list[Operator]:
+    load_operators()
+    return [o for name, o in OPERATORS.items() if o.name == name]
+
+
 def declared() -> set[str]:
     """All English lines that operators and their forms declare."""
-    load_operators()
-    found: set[str] = set()
-    for operator in OPERATORS.values():
-        found |= set(texts_in(operator.about))
-        for form in operator.forms:
-            found |= set(texts_in((form.help, form.entries or (), form.when)))
+    forms = [form for operator in operators() for form in operator.forms]
+    found = {t for form in forms for t in texts_in((form.entries or (), form.when))}
     for name, module in list(sys.modules.items()):  # what operators read by hand
         if name.startswith("ssilang.operators"):
             held = (v for v in vars(module).values() if isinstance(v, Argument | dict))
@@ -62,8 +63,15 @@ def test_a_text_stands_in_one_file():
     assert not [en for en, times in kept().items() if times > 1]
 
 
-def test_a_help_of_several_lines_is_told_line_by_line():
-    first, second = sorted(declared())[:2]
-    assert Help(f"{first}\n{second}").fr == f"{french(first)}\n{french(second)}"
-    assert Help("of a procedure", in_french="d'une procédure").told("fr") == "d'une procédure"
-    assert french("what no declaration says") == ""
+def test_every_operator_and_no_other_has_help_in_both_languages():
+    forms = {}
+    for operator in operators():
+        assert all(x.strip() for x in (operator.help.en, operator.help.fr, operator.help.syntax))
+        functions = {form.page[-1] for form in operator.forms}
+        forms[operator.family, operator.name] = functions | {"en", "fr", "syntax"}
+    for path in (Path(message.__file__).parent / "pages").glob("*.toml"):
+        for name, texts in tomllib.loads(path.read_text(encoding="utf-8")).items():
+            assert set(texts) <= forms[path.stem, name]
+            for said in (texts, *(t for t in texts.values() if isinstance(t, dict))):
+                lines = [str(said.get(language, "")).split("\n") for language in ("en", "fr")]
+                assert len(lines[0]) == len(lines[1]), name

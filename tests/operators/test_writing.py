@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import RunResult, run_text
-from ssilang.io.vtk.pvd import read_pvd
+from ssilang.io.vtk.series import read_pvd
 
 PLATE = (
     "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; L = DROI 4 (0. 0.) (2. 0.) ; S = TRAN L 2 (0. 1.) ; "

@@ -16,8 +16,7 @@ from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
 from typing import Any
 
-from ssilang.cli.sweeping.gathering import gathered, run_together
-from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
+from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, row_anyhow, run_task
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -92,18 +91,13 @@ def can_share() -> bool:
     return True
 
 
-def run_alone(tasks: Sequence[Task], together: int = 1) -> Iterator[Row]:
+def run_alone(tasks: Sequence[Task]) -> Iterator[Row]:
     """Rows as they come, made in this process one after the other."""
-    for batch in gathered(tasks, 1, together):
-        yield from run_together(batch)
+    return map(row_anyhow, tasks)
 
 
 def run_here(
-    tasks: Sequence[Task],
-    jobs: int,
-    work: Work = run_task,
-    start: str = "spawn",
-    together: int = 1,
+    tasks: Sequence[Task], jobs: int, work: Work = run_task, start: str = "spawn"
 ) -> Iterator[Row]:
     """Rows as they come, from `jobs` processes; a process that dies costs its own run alone.
 
@@ -111,37 +105,32 @@ def run_here(
     ----------
     start : str
         How processes begin: empty ('spawn') or with the memory of this one ('fork').
-    together : int
-        Most runs that go side by side in a process. Those of a process that dies are made again,
-        each alone.
     """
-    waiting = gathered(tasks, jobs, together)
+    waiting = list(tasks)
     context = FreshContext() if start == "spawn" else get_context(start)
     with elsewhere():  # the pool's own queues would start what counts them
         pass
     while waiting:
         with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
-            futures = {pool.submit(run_together, batch, work): batch for batch in waiting}
-            broken: list[tuple[Task, ...]] = []
+            futures = {pool.submit(row_anyhow, task, work): task for task in waiting}
+            broken: list[Task] = []
             try:
                 for future in as_completed(futures):
-                    batch = futures[future]
+                    task = futures[future]
                     try:
-                        yield from future.result()
+                        yield future.result()
                     except BrokenProcessPool:
-                        broken.append(batch)
+                        broken.append(task)
                     except Exception as problem:
-                        yield from (lost_row(task, str(problem)) for task in batch)
+                        yield lost_row(task, str(problem))
             except (KeyboardInterrupt, GeneratorExit):
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
         if not broken:
             return
-        if len(broken[0]) == 1 and (len(broken) == 1 or jobs == 1):
-            # alone in its pool: this run is the one that dies
-            yield lost_row(broken.pop(0)[0], "its process was killed (memory?)")
-        jobs = 1
-        waiting = [(task,) for batch in broken for task in batch]
+        if len(broken) == 1 or jobs == 1:  # alone in its pool: this run is the one that dies
+            yield lost_row(broken.pop(0), "its process was killed (memory?)")
+        jobs, waiting = 1, broken
 
 
 def dask_installed() -> bool:
@@ -149,28 +138,14 @@ def dask_installed() -> bool:
     return importlib.util.find_spec("distributed") is not None
 
 
-def run_on_cluster(tasks: Sequence[Task], address: str, together: int = 1) -> Iterator[Row]:
-    """Rows as they come, from the workers of a Dask scheduler that see the same files.
-
-    Batches of `together` runs go side by side; those of a batch that is lost are made again, each
-    alone.
-    """
+def run_on_cluster(tasks: Sequence[Task], address: str) -> Iterator[Row]:
+    """Rows as they come, from the workers of a Dask scheduler that see the same files."""
     import distributed
 
     cluster: Any = distributed
     with cluster.Client(address) as client:
-        cores = sum(client.ncores().values())
-        batches = gathered(tasks, cores, together)
-        futures = {client.submit(run_together, b, pure=False): b for b in batches}
-        coming = cluster.as_completed(futures)
-        for future in coming:
-            batch, problem = futures[future], future.exception()
-            if problem is None:
-                yield from future.result()
-            elif len(batch) == 1:
-                yield lost_row(batch[0], str(problem))
-            else:
-                for task in batch:
-                    again = client.submit(run_together, (task,), pure=False)
-                    futures[again] = (task,)
-                    coming.add(again)
+        futures = {client.submit(row_anyhow, task, pure=False): task for task in tasks}
+        for future in cluster.as_completed(futures):
+            problem = future.exception()
+            lost = problem is not None
+            yield lost_row(futures[future], str(problem)) if lost else future.result()

@@ -43,8 +43,6 @@ from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_
 from ssilang.report.sweep_table import read_sweep
 
 TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
-TOGETHER = 8
-"""Runs that go side by side in a process: more gain little and hold more memory."""
 
 
 @dataclass
@@ -59,7 +57,6 @@ class SweepOptions:
     scheduler: str = ""
     allowed: list[Path] = field(default_factory=list)
     language: str = "en"
-    together: int = TOGETHER
     report: bool = False
     """Whether each run and the sweep leave a report."""
     fragility: list[str] = field(default_factory=list)
@@ -231,13 +228,13 @@ def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
 
 def _run(tasks: list[Task], options: SweepOptions, err: TextIO) -> Iterator[dict[str, Any]]:
     if options.scheduler:
-        return run_on_cluster(tasks, options.scheduler, options.together)
+        return run_on_cluster(tasks, options.scheduler)
     jobs = options.jobs or os.cpu_count() or 1
     one_thread()
     if tasks and not can_share():
         err.write(sentence("cli.sweep-in-one-process", {}, options.language) + "\n")
-        return run_alone(tasks, options.together)
-    return run_all(tasks, max(min(jobs, len(tasks)), 1), together=options.together)
+        return run_alone(tasks)
+    return run_all(tasks, max(min(jobs, len(tasks)), 1))
 
 
 def _progress(

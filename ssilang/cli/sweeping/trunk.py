@@ -13,37 +13,29 @@ from collections.abc import Iterator, Sequence
 from multiprocessing.connection import wait
 from typing import Any
 
-from ssilang.cli.sweeping.gathering import run_together
 from ssilang.cli.sweeping.pool import FreshContext, run_here
-from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, run_task
+from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, row_anyhow, run_task
 from ssilang.system import CAN_FORK
 
 ROUNDS = 4
 """Runs for each job from which the others may wait for the first one."""
 
 
-def run_all(
-    tasks: Sequence[Task], jobs: int, work: Work = run_task, together: int = 1
-) -> Iterator[Row]:
-    """Rows as they come, the way that takes least: forks of the first run, or all at once.
-
-    `together`: see `run_here`.
-    """
+def run_all(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
+    """Rows as they come, the way that takes least: forks of the first run, or all at once."""
     if len(tasks) < ROUNDS * jobs or not CAN_FORK:
-        return run_here(tasks, jobs, work, together=together)
-    return run_grown(tasks, jobs, work, together)
+        return run_here(tasks, jobs, work)
+    return run_grown(tasks, jobs, work)
 
 
-def run_grown(
-    tasks: Sequence[Task], jobs: int, work: Work = run_task, together: int = 1
-) -> Iterator[Row]:
+def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterator[Row]:
     """Rows of the first run, then of the others from forks of its process.
 
     If the trunk dies in the first run, that run is lost and the others are made without it.
     """
     spawn = FreshContext()
     receiver, sender = spawn.Pipe(duplex=False)
-    trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender, together))
+    trunk = spawn.Process(target=_grow, args=(list(tasks), jobs, work, sender))
     trunk.start()
     sender.close()
     waiting = {task.number: task for task in tasks}
@@ -59,7 +51,7 @@ def run_grown(
     if len(rest) == len(tasks):
         yield lost_row(rest.pop(0), "its process was killed (memory?)")
     if rest:
-        yield from run_here(rest, jobs, work, together=together)
+        yield from run_here(rest, jobs, work)
 
 
 def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
@@ -74,12 +66,12 @@ def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
         yield row
 
 
-def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any, together: int) -> None:
+def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any) -> None:
     """The trunk: one run, then the others in forks."""
     try:
-        sender.send(run_together(tasks[:1], work)[0])
+        sender.send(row_anyhow(tasks[0], work))
         gc.freeze()  # collections in a fork would copy the memory that it shares
-        for row in run_here(tasks[1:], jobs, work, "fork", together):
+        for row in run_here(tasks[1:], jobs, work, "fork"):
             sender.send(row)
         sender.send(None)
     except (BrokenPipeError, KeyboardInterrupt):

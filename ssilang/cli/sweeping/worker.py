@@ -37,8 +37,6 @@ class Task:
     limits: dict[str, Any] = field(default_factory=dict)
     report: bool = False
     """Whether the run leaves its report."""
-    meeting: Any = None
-    """Where its time integrations meet those of other runs; see `gathering`."""
 
 
 Row = dict[str, Any]
@@ -69,8 +67,6 @@ def run_task(task: Task) -> Row:
         report=task.report,
         limits=Limits(**task.limits),
         given=dict(task.values),
-        integrate=None if task.meeting is None else task.meeting.integrate,
-        away=_never if task.meeting is None else task.meeting.away,
     )
     (task.folder / ROW).unlink(missing_ok=True)  # of another script, or a run that failed
     started, wall = time.perf_counter(), time.time()
@@ -80,7 +76,7 @@ def run_task(task: Task) -> Row:
         "run": task.number,
         **task.values,
         "exit_code": result.exit_code,
-        "seconds": round(time.perf_counter() - started - options.away(), 3),
+        "seconds": round(time.perf_counter() - started, 3),
         "error": result.message.partition("\n")[0],
         **figures_of(result.session.statistics.get("verdicts", [])),
         **{check.name: check.value for check in result.session.checks},
@@ -139,8 +135,12 @@ def _seal(row: Row) -> str:
     return sha256(json.dumps(row, sort_keys=True).encode()).hexdigest()
 
 
-def _never() -> float:
-    return 0.0
+def row_anyhow(task: Task, work: Work = run_task) -> Row:
+    """Row of a run; what the work raises is the row's error."""
+    try:
+        return work(task)
+    except Exception as problem:
+        return lost_row(task, str(problem))
 
 
 def lost_row(task: Task, reason: str) -> Row:

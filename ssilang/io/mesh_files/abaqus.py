@@ -16,7 +16,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded, refuse_doubles
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.system_reasons import system_reason
 
 # family of elements (letters before the number of nodes) and that number -> cell type

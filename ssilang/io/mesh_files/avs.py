@@ -16,8 +16,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.mesh_files.file_mesh import refuse_doubles
-from ssilang.io.vtk.cells import ORDERS
-from ssilang.io.vtk.grid import cell_means
+from ssilang.io.vtk.grid import ORDERS, cell_means
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField

@@ -13,7 +13,7 @@ import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.mesh_files.file_mesh import FileMesh
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.mesh import Mesh
 

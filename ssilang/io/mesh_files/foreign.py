@@ -19,7 +19,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.system_reasons import system_reason

@@ -13,12 +13,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
+from xml.etree import ElementTree
 
-from ssilang.io.errors import OutputError
+from ssilang.io.atomic import write_text
+from ssilang.io.errors import InputError, OutputError
 from ssilang.io.vtk.grid import DataArray, Grid, bare_grid, with_fields
 from ssilang.io.vtk.labels import Labels
-from ssilang.io.vtk.pvd import Entry, read_pvd, write_pvd
-from ssilang.io.vtk.vtu import Encoding, write_vtu
+from ssilang.io.vtk.vtu import Encoding, quoteattr, write_vtu
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
@@ -277,3 +278,50 @@ class SeriesWriter(Series):
 def strip_extension(path: Path) -> Path:
     """`path` without an extension of VTK's."""
     return path.with_suffix("") if path.suffix.lower() in _EXTENSIONS else path
+
+
+# The list of a series' files and times (.pvd), which ParaView opens as one data set.
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One file of a series: time, part name, file name relative to the .pvd."""
+
+    time: float
+    part: str
+    file: str
+
+
+def write_pvd(path: Path, entries: list[Entry]) -> None:
+    """Write the collection `path`, whole or not at all."""
+    numbers = {name: i for i, name in enumerate(dict.fromkeys(e.part for e in entries))}
+    lines = [
+        f'<DataSet timestep="{e.time!r}" group="" part="{numbers[e.part]}"'
+        f" name={quoteattr(e.part)} file={quoteattr(e.file)}/>"
+        for e in entries
+    ]
+    body = "\n".join(lines)
+    write_text(
+        path,
+        '<?xml version="1.0"?>\n'
+        '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+        f"<Collection>\n{body}\n</Collection>\n</VTKFile>\n",
+    )
+
+
+def read_pvd(path: Path) -> list[Entry]:
+    """The entries of a collection.
+
+    Raises
+    ------
+    InputError
+        If the file is absent or no collection.
+    """
+    try:
+        root = ElementTree.parse(path).getroot()
+        return [
+            Entry(float(e.attrib["timestep"]), e.attrib.get("name", ""), e.attrib["file"])
+            for e in root.iter("DataSet")
+        ]
+    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+        raise InputError("io.not-readable-pvd-collection", path=path, error=error) from error

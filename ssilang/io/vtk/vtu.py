@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import replacing
 from ssilang.io.vtk.grid import DataArray, Grid
-from ssilang.io.vtk.quoting import quoteattr
 
 _BLOCK = 1 << 16
 _TYPES = {"f8": "Float64", "f4": "Float32", "i8": "Int64", "i4": "Int32", "u1": "UInt8"}
@@ -148,3 +147,13 @@ _packed_once = lru_cache(maxsize=16)(_packed)
 
 def _header(*numbers: int) -> bytes:
     return np.array(numbers, dtype="<u8").tobytes()
+
+
+# XML attributes, without the imports that the standard library's quoting brings along.
+
+_ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
+
+
+def quoteattr(text: str) -> str:
+    """The text as an XML attribute's value, quotes around it."""
+    return f'"{text.translate(_ENTITIES)}"'

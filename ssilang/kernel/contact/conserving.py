@@ -20,8 +20,8 @@ from typing import Protocol
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.stepping.effective import Effective
 

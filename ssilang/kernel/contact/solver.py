@@ -15,8 +15,8 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.contact.options import ContactOptions
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.interface.response import (
     accept,
     interface_response,

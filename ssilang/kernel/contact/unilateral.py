@@ -397,3 +397,30 @@ def _as_relations(
     flat = np.where(np.abs(values) > NOTHING, values, 0.0).reshape(n, -1)
     columns = np.broadcast_to(np.repeat(nodes, d), flat.shape)
     return rows_from_table(table, columns, unknowns * len(nodes), flat, sense)
+
+
+# How unilateral relations are enforced: a script's choice, free of heavy imports.
+
+
+@dataclass(frozen=True)
+class ContactOptions:
+    """How unilateral relations are enforced.
+
+    Attributes
+    ----------
+    method : 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
+    coefficient : float or None
+        Penalty or augmentation.
+    correction : 'FAUX', 'MASSE' or 'RIGIDITE'
+        Of velocities when a relation closes.
+    persistent : bool
+        Relative velocity of relations that stay closed set to zero.
+    modified_mass : bool
+        Mass taken off the contact unknowns.
+    """
+
+    method: str = "LAGRANGE"
+    coefficient: float | None = None
+    correction: str = "FAUX"
+    persistent: bool = False
+    modified_mass: bool = False

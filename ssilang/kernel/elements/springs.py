@@ -22,15 +22,52 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
-from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
-from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
-from ssilang.kernel.elements.strainless import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
+from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode, Zone
+
+# Families of elements that give matrices and have no strains.
+
+
+class StrainlessFamily(ElementFamily):
+    """A family without strains and stresses; its own methods make its matrices.
+
+    Attributes
+    ----------
+    refusal : str
+        Code of the error where strains are asked for.
+    """
+
+    refusal: str
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Refused."""
+        raise self.no_strains()
+
+    def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Refused."""
+        raise self.no_strains()
+
+    def no_strains(self) -> FieldError:
+        """The error of a request for strains."""
+        return FieldError(self.refusal)
+
 
 LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE."""

@@ -19,9 +19,10 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.interface.bed import Bed, beds_of
-from ssilang.kernel.interface.bed_results import (
+from ssilang.kernel.interface.bed import (
     OF_WHOLE,
+    Bed,
+    beds_of,
     common_results,
     places_from,
     whole_variables,

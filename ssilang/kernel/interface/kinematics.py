@@ -18,8 +18,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.interface.elements import JointElement, joint_element
-from ssilang.kernel.interface.integration import face_rule
+from ssilang.kernel.interface.elements import JointElement, face_rule, joint_element
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.messages.message import Sentence
 

@@ -16,7 +16,7 @@ from ssilang.kernel.matrices.assembly import (
     is_symmetric,
     numbering_of,
 )
-from ssilang.kernel.matrices.from_sparse import matrix_from_sparse
+from ssilang.kernel.matrices.build import matrix_from_sparse
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
 

@@ -16,7 +16,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.strainless import StrainlessFamily
+from ssilang.kernel.elements.springs import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField

@@ -115,7 +115,7 @@ class Case:
 
 
 def _supports_are_still(problem: Problem) -> bool:
-    from ssilang.kernel.stepping.rests.dense.still_supports import supports_are_still
+    from ssilang.kernel.stepping.problem.equilibrium import supports_are_still
 
     return supports_are_still(problem)
 
@@ -148,7 +148,7 @@ def _by(way: str) -> Callable[[Case], Loop]:
 
 
 def _dense(case: Case) -> Loop:
-    from ssilang.kernel.stepping.rests.dense.whole import DenseLoop
+    from ssilang.kernel.stepping.rests.dense.arrays import DenseLoop
 
     return DenseLoop(case.problem, case.motion, case.effective)
 

@@ -87,8 +87,6 @@ class History:
         the largest energy at the ends of its chunks.
     beyond : dict of str to float
         Share of the points of a law that went beyond the last point of its curve, by law.
-    together : int
-        Motions that advanced side by side; `seconds` is the share of one.
     """
 
     times: FloatArray
@@ -101,7 +99,6 @@ class History:
     again: Callable[[], FloatArray] | None = None
     worst: float = 0.0
     seen: float = 0.0
-    together: int = 1
     method: Sentence | None = None
     beyond: dict[str, float] = field(default_factory=dict)
 

@@ -18,8 +18,7 @@ KINETIC, ELASTIC, STORED, LOST, DAMPED, EXTERNAL = range(N_ENERGIES)
 class Motion(NamedTuple):
     """The state at the end of the last step, changed in place.
 
-    Loops on coordinates hold these in place of the n unknowns; loops of several motions one more
-    direction, the first, in each array.
+    Loops on coordinates hold these in place of the n unknowns.
     """
 
     u: FloatArray  # (n,)
@@ -94,14 +93,6 @@ class Recorder(NamedTuple):
     balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
     tap: Tap
     peaks: Peaks
-
-
-class Ends(NamedTuple):
-    """How several motions ended, see `Outcome`."""
-
-    steps: IntArray  # (m,)
-    turns: IntArray
-    residual: FloatArray
 
 
 PARTS = ("u", "v", "a", "reaction", "f", "w", "t", "state", "contact")
@@ -224,22 +215,3 @@ def rows_of(chosen: np.ndarray) -> IntArray:
 Outcome = tuple[int, int, float]
 """Of some steps: how many were done, most interface iterations in one (<= 0: the step after them
 did not converge), residual of a step that did not."""
-
-
-def ends_of(count: int) -> Ends:
-    """Room for the ends of m motions."""
-    return Ends(np.zeros(count, np.int64), np.zeros(count, np.int64), np.zeros(count))
-
-
-def stacked(parts: Sequence[Any]) -> Any:
-    """Records of several motions, or of records, as one: arrays behind a first direction (m,)."""
-    if isinstance(parts[0], tuple):
-        return type(parts[0])(*(stacked(fields) for fields in zip(*parts, strict=True)))
-    return np.stack(parts)
-
-
-def part_of(record: Any, j: int) -> Any:
-    """The record of one of several motions."""
-    if isinstance(record, tuple):
-        return type(record)(*(part_of(fields, j) for fields in record))
-    return record[j]

@@ -534,8 +534,7 @@ def bind_operator(found: Operator, call: Call) -> Bound:
 
 def _tell_form(problem: SsiError, form: Form) -> None:
     """Let an error show the syntax of the form that it is about."""
-    if form.help.syntax:
-        problem.data.setdefault("form_syntax", form.help.syntax)
+    problem.data.setdefault("form_page", form.page)
 
 
 def _names_the_slip(worst: tuple[int, SsiError], depth: int, problem: SsiError) -> bool:

@@ -125,8 +125,6 @@ class Session:
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)
     statistics: dict[str, Any] = field(default_factory=dict)
-    integrate: Any = None  # integrates in time instead of the kernel, for runs that go together
-    away: Callable[[], float] = lambda: 0.0  # seconds left to other runs of the process
     given: dict[str, Any] = field(default_factory=dict)  # replaces a name's first assignment
     started: float = field(default_factory=time.perf_counter)
     calls: dict[str, int] = field(

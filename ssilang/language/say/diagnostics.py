@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
 from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
 from ssilang.language.near import LIKE, SHORT_LIKE, VERY_LIKE, nearest
-from ssilang.language.registry import ANY, OPERATORS, find_operator, keywords_of
+from ssilang.language.registry import ANY, OPERATORS, Page, find_operator, keywords_of
 from ssilang.language.say import hints
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.visible import visible
@@ -15,7 +15,7 @@ from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
 from ssilang.language.vocabulary import words_of
 from ssilang.messages import message
-from ssilang.messages.message import Sentence
+from ssilang.messages.message import Sentence, help_texts
 from ssilang.resources import resource
 
 _LETTERS = 4  # that an operator goes by
@@ -302,9 +302,11 @@ def elsewhere(word: str, language: str) -> str:
 
 def _syntax_hint(data: dict[str, object]) -> str:
     found = find_operator(str(data.get("operator", "")))
-    if found is None or not found.help.syntax:
+    if found is None:
         return ""
-    lines = str(data.get("form_syntax") or found.help.syntax).split("\n")
+    family, operator, form = cast(Page, data.get("form_page", ("", "", "")))
+    of_form = help_texts(family, operator).get(form, {})
+    lines = str(of_form.get("syntax", found.help.syntax)).split("\n")
     given = data.get("quoted")
     quoted = [w for w in given if len(w) > 1] if isinstance(given, list) else []
     # of several forms, the one that a keyword of the phrase belongs to

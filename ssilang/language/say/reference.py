@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from ssilang.language.registry import (
@@ -25,7 +25,7 @@ from ssilang.language.registry import (
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
-from ssilang.messages.message import examples, spoken, teller
+from ssilang.messages.message import spoken, teller
 
 WIDTH = 88
 TABLE_WIDTH = 100
@@ -52,8 +52,7 @@ class Page:
 def operator_page(found: Operator) -> Page:
     """The page of an operator, from the registry."""
     forms = tuple(form.entries for form in found.forms)
-    help_ = replace(found.help, examples=examples(found.family, found.name))
-    return Page(found.name, found.full_name, "operator", found.family, "", help_, forms)
+    return Page(found.name, found.full_name, "operator", found.family, "", found.help, forms)
 
 
 # ---- procedures: the comment at the head of their file is their help --------------------------
@@ -75,9 +74,9 @@ def procedure_page(path: Path) -> Page:
     examples = _even("\n".join(parts["example"]))
     help_ = Help(
         " ".join(" ".join(parts["EN"]).split()),
+        " ".join(" ".join(parts["FR"]).split()),
         _even("\n".join(line for line in parts["syntax"] if line.strip())),
         (examples,) if examples else (),
-        in_french=" ".join(" ".join(parts["FR"]).split()),
     )
     name = path.stem.upper()
     return Page(name, name, "procedure", "procedures", title, help_)

@@ -39,16 +39,7 @@ _RULE = choice(
 )
 
 
-@operator(
-    "INSI",
-    CURVE,
-    _RULE,
-    family="signals",
-    en="Displacements and velocities of accelerations at a constant step, from rest: by "
-    "trapezoids twice ('SIMP', the default) or exactly for an acceleration linear in the "
-    "steps ('LINE').",
-    syntax="EVOL1 EVOL2 = INSI EVOL3 ('SIMP' | 'LINE') ;",
-)
+@operator("INSI", CURVE, _RULE, family="signals")
 def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     """Integrate records."""
     warn_of_motions(call, curve)
@@ -72,11 +63,6 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
         en="degree of the velocity's polynomial",
     ),
     family="signals",
-    en="Accelerations corrected, as little as possible in least squares, so that INSI (with "
-    "the same 'SIMP' or 'LINE') ends with no velocity, no displacement and no mean "
-    "displacement. With 'POLY' the base line alone: the polynomial of degree N1, zero at the "
-    "start, that is nearest to the velocity is taken off.",
-    syntax="EVOL1 = COSI EVOL2 ('SIMP' | 'LINE') ('POLY' N1) ;",
 )
 def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     """Correct records."""
@@ -114,9 +100,6 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     ),
     key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour"),
     family="signals",
-    en="Response spectra over frequencies (Hz) in another unit: displacement 'DEPL', "
-    "pseudo-velocity 'VITE' (w times it), pseudo-acceleration 'ACCE' (w squared times it).",
-    syntax="EVOL2 = CHSP EVOL1 'ENTR' MOT1 'SORT' MOT2 ('COUL' COUL1) ;",
 )
 def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | None) -> Curve:
     """Change the unit of spectra."""
@@ -142,10 +125,6 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
     *LIMITS,
     COLOUR,
     family="signals",
-    en="One-sided power spectral density (per hertz) of a signal at constant step, on 2**N1 "
-    "points (cut, or filled with zeros): summed over the frequencies times their step it is "
-    "the mean square.",
-    syntax="EVOL1 = DSPR N1 EVOL2 ('FMIN' F1) ('FMAX' F2) (COUL1) ;",
 )
 def dspr(
     call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None
@@ -201,13 +180,6 @@ PERIODS = opt(
     ),
     COLOUR,
     family="signals",
-    en="Response spectra of a stationary acceleration of duration X1 whose one-sided power "
-    "density (per hertz) is given, one for each damping of the list: over 75 periods from "
-    "0.04 s to the duration, or over the second list. 'ACCE' (absolute), 'VITE' or 'DEPL' "
-    "(relative); the largest value is the median of the law of rare crossings ('CRAM') or the "
-    "mean of a Gumbel law through two fractiles of Vanmarcke's ('NEWG').",
-    syntax="EVOL1 = PSRS EVOL2 X1 LREEL1 (LREEL2) ('ACCE' | 'VITE' | 'DEPL') "
-    "('CRAM' | 'NEWG') ('PERI' | 'FREQ') (COUL1) ;",
 )
 def psrs(
     call: Call,

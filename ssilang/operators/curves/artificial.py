@@ -90,13 +90,6 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
     family="signals",
     full_name="SIAR",
     gives=ANY,
-    en="Artificial signals of a one-sided power density (per hertz): sums of sines of random "
-    "phase, times modulations in time given for bands of frequencies (limits in the list), "
-    "from 0 to X1. Acceleration, velocity and displacement, or those named. 'TINI' start, "
-    "'NCOU' number of signals, 'NPOI' number of instants (steps of 0.02 s by default), 'NSIN' "
-    "number of sines (slices of 0.1 Hz by default), 'INIT' start of the random numbers.",
-    syntax="EVOL1 EVOL2 EVOL3 = SIAR EVOL4 (EVOL5 LREEL1) (X1) ('TINI' X2) ('ACCE') ('VITE') "
-    "('DEPL') ('NCOU' N1) ('NPOI' N2) ('NSIN' N3) ('INIT' N4) ;",
 )
 def siar(
     call: Call,
@@ -194,10 +187,6 @@ def _bands(
     ),
     _SEED,
     family="signals",
-    en="A list perturbed at random: signs drawn ('SIGN', the default), or a part of each "
-    "square given to the neighbours ('AMPL': the share sin^2 of an angle drawn between 0 and "
-    "X1 degrees; the sum of squares stays), or both. 'INIT' starts the random numbers.",
-    syntax="LREEL1 = PERT LREEL2 ('SIGN') ('AMPL' X1) ('INIT' N1) ;",
 )
 def pert(
     call: Call, values: ListReel, signs: bool, degrees: float | None, seed: int | None
@@ -262,19 +251,6 @@ def pert(
     flag("root_2", "NEG2", en="accepted, changes nothing"),
     flag("wavelets", "ONDE", en="not available"),
     family="signals",
-    en="Response spectrum of a random acceleration that changes in time: a stationary signal "
-    "of one-sided power density EVOL2 (per hertz), each band of frequencies of which, between "
-    "the numbers of the first list, is multiplied by its curve in EVOL3 (one more limit than "
-    "curves, which go from one instant to another, all alike). Over 75 periods from 0.04 s to "
-    "the duration, or those of the second list, for the damping given (0.05): 'ACCE' "
-    "(absolute, the default), 'VITE' or 'DEPL' (relative). The value is the mean of a Gumbel "
-    "law through two fractiles of Vanmarcke's law of the largest answer of an oscillator that "
-    "starts from rest. Time is cut into 'NBPR' processes (of about 2 s), in which modulations "
-    "are linear, of 'NBIN' instants (10) each, and goes on for 'TPLU' seconds (20); 'PREC' is "
-    "the precision of the levels (1.E-3), 'NBDE' says these defaults. PSRS does the same for "
-    "a stationary signal.",
-    syntax="EVOL1 = PRNS EVOL2 EVOL3 LREEL1 (LREEL2) (X1) ('ACCE' | 'VITE' | 'DEPL') "
-    "('PERI' | 'FREQ') (COUL1) ('NBPR' N1) ('NBIN' N2) ('TPLU' X2) ('PREC' X3) ('NBDE') ;",
 )
 def prns(
     call: Call,

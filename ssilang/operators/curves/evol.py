@@ -165,26 +165,6 @@ _ENTRIES: dict[str, list[Entry]] = {
     select("kind", _ENTRIES, en="where it comes from"),
     family="curves",
     full_name="EVOLUTION",
-    en="Curve, or several: from two lists ('MANU'), from real and imaginary parts or modulus "
-    "and phase ('COMP'), of a component along a line of nodes ('CHPO'), in time at points "
-    "('TEMP': from a list of fields and a list of times, or a table of results).\n"
-    "RECO gives components at points from modal contributions in time (of DYNE with a load: "
-    "with the pseudo-modes that it drives); SOLU the contributions of DYNE themselves; PJBA "
-    "the projections of fields in time on the shapes of a basis.",
-    syntax="EVOL1 = EVOL (COUL) 'MANU' ('TYPE' MTYP1) ('LEGE' TIT1) (NOMABS) LIS1 "
-    "(NOMORD) LIS2 ;\n"
-    "EVOL1 = EVOL (COUL) 'CHPO' CHPO1 (COMP) GEO1 ;\n"
-    "EVOL1 = EVOL (COUL) 'TEMP' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) COMP | LCOMP POIN1 "
-    "| MAIL1 ;\n"
-    "EVOL1 = EVOL (COUL) 'TEMP' TAB1 MOT1 COMP N1 N2 N3 ; (field in cells: zone, cell, point)\n"
-    "EVOL1 = EVOL (COUL) 'COMP' ('REIM' | 'MOPH') ('LEGE' TIT1 TIT2) NOMABS LREE1 (NOMOR1) "
-    "LREE2 (NOMOR2) LREE3 ;\n"
-    "EVOL1 = EVOL (COUL) 'RECO' LCHP1 LREE1 TBAS1 (N1) COMP | LCOMP GEO1 ;\n"
-    "EVOL1 = EVOL (COUL) 'RECO' TDYNE | TPASA TBAS1 | MODL1 MAT1 (CHAR1) 'DEPL' | 'VITE' | "
-    "'ACCE' GEO1 COMP | CHPO1 (LREE1) ;\n"
-    "EVOL1 = EVOL (COUL) 'SOLU' TDYNE 'DEPL' | 'VITE' | 'ACCE' | 'TRAVAIL_INTERIEUR' | "
-    "'TRAVAIL_EXTERIEUR' GEO1 COMP | CHPO1 | TBAS1 'ALFA' (LREE1) ;\n"
-    "EVOL1 = EVOL (COUL) 'PJBA' LCHP1 LREE1 | TAB1 (MOT1) (LENT1) TBAS1 (N1 | LENT2) (RIG1) ;",
     reads_itself="names of axes are words of any kind, spelt as keywords or colours too",
 )
 def evol(call: Call) -> Curve:

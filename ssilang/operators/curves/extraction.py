@@ -92,12 +92,6 @@ _ZERO = flag("zero", "ZERO", en="abscissas begin at 0")
         },
         "EVOLUTIO",
     ),
-    syntax="LREE1 = EXTR EVOL1 'ABSC' | 'ORDO' (N1) | MOT1 ; EVOL2 = EXTR EVOL1 'COUR' N1 | MOT1 "
-    "| LENT1 ;\nEVOL2 = EXTR EVOL1 'PAS' N1 | 'AVAN' X2 | 'APRE' X3 | 'COMP' X2 X3 ('ZERO') ; "
-    "(limits as reals, or 'INDI' and integers)\n"
-    "MOT1 = EXTR EVOL1 'LEGX' | 'LEGY' | 'LEGE' | 'COUL' (N1) ;",
-    en="Of curves: abscissas or ordinates as a list (also by the name of an axis), some of the "
-    "curves, some of their points, names of axes, colours.",
 )
 def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
     """A part of curves, by a word."""
@@ -216,7 +210,7 @@ _PARTS: dict[str, Any] = {
 }  # fmt: skip
 
 
-@DIME.form(_MAIN, en="Of curves: how many there are.")
+@DIME.form(_MAIN)
 def count_curves(curve: Curve) -> int:
     """Number of curves."""
     return len(curve.parts)
@@ -232,8 +226,6 @@ def copy_curves(curve: Curve) -> Curve:
     _MAIN,
     choice("order", ("CROI", "DECR"), default="CROI", en="increasing (default) or decreasing"),
     flag("absolute", "ABSO", en="by absolute values"),
-    syntax="EVOL2 = ORDO EVOL1 ('CROI' | 'DECR') ('ABSO') ;",
-    en="Of curves: points in order of abscissas.",
 )
 def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
     """Points in order of abscissas."""
@@ -254,9 +246,6 @@ _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
     opt("place", "ENTIER", en="number of the curve, all without it", range=POSITIVE),
     arg("name", "MOT", en="title, legend or name"),
     of=("EVOLUTIO",),
-    syntax="EVOL2 = CHAN 'TITR' | 'LEGE' | 'NOMABS' | 'NOMORD' EVOL1 (N1) MOT1 ;",
-    en="TITR, LEGE, NOMABS, NOMORD change the title, the legend, the names of the axes of curves "
-    "(of curve N1 only).",
 )
 def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
     """Other titles, legends, names of axes."""
@@ -291,25 +280,13 @@ def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     return ListEnti(places), ListReel(xs), ListReel(ys)
 
 
-@MAXI.form(
-    _MAIN,
-    _ABSOLUTE,
-    gives=_EXTREME,
-    syntax="N1 X1 Y1 = MAXI EVOL1 ('ABS') ;",
-    en="Of a curve: place, abscissa and ordinate of the largest ordinate; of several, lists.",
-)
+@MAXI.form(_MAIN, _ABSOLUTE, gives=_EXTREME)
 def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     """The largest ordinate."""
     return _extreme(call, curve, absolute, np.argmax)
 
 
-@MINI.form(
-    _MAIN,
-    _ABSOLUTE,
-    gives=_EXTREME,
-    syntax="N1 X1 Y1 = MINI EVOL1 ('ABS') ;",
-    en="Of a curve: place, abscissa and ordinate of the smallest ordinate; of several, lists.",
-)
+@MINI.form(_MAIN, _ABSOLUTE, gives=_EXTREME)
 def smallest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
     """The smallest ordinate."""
     return _extreme(call, curve, absolute, np.argmin)

@@ -28,9 +28,6 @@ _RECORDS = key(
     _RECORDS,
     family="signals",
     gives=("EVOLUTIO", "LISTREEL"),
-    en="A lognormal fragility, for @FRAGILITE: its curve, and median, dispersion, standard "
-    "errors of the median's logarithm and of the dispersion, runs that exceed, all runs.",
-    syntax="EVOL1 LREEL1 = ZFRA LREEL2 LREEL3 (LREEL4) ('SIGN' LENTI1) ;",
 )
 def zfra(
     call: Call,
@@ -60,8 +57,6 @@ def zfra(
     ),
     _RECORDS,
     gives=("EVOLUTIO", "LISTREEL"),
-    en="NUAG: from a cloud of demands.",
-    syntax="EVOL1 LREEL1 = ZFRA 'NUAG' LREEL2 LREEL3 X1 ('DESS') ('CAPA' X2) ('SIGN' LENTI1) ;",
 )
 def _cloud(
     call: Call,

@@ -97,20 +97,7 @@ def _interpolate(
 
 # two lists beside a number or a field are the function, wherever these stand
 ipol = operator(
-    "IPOL",
-    _NUMBER_OR_FIELD,
-    _FUNCTION,
-    *_SPLINE,
-    family="curves",
-    gives=Like("value"),
-    en="Value of a function given by a curve or two lists, at a number, at each item of a "
-    "list or value of a field: linear, or by a cubic spline ('SPLI', with slopes at the ends "
-    "'DGAU' and 'DDRO'); constant outside. 'TOUS': all ordinates of a curve that goes back. "
-    "Field between those of a table RESULTAT. Point at a distance along a line, given by its "
-    "field of curvilinear abscissas.",
-    syntax="OBJ2 = IPOL OBJ1 EVOL1 | LREE1 LREE2 ('SPLI' ('DGAU' X1) ('DDRO' X2) | 'TOUS') ;\n"
-    "CHAM1 = IPOL TAB1 X1 ; POIN1 = IPOL CHPO1 X1 ;\n"
-    "CHP2 = IPOL NUAG1 CHP1 ('GAUSS' | 'RATIO' | 'PID' (P1) ('ELIM' X1) | 'GRILL') ;",
+    "IPOL", _NUMBER_OR_FIELD, _FUNCTION, *_SPLINE, family="curves", gives=Like("value")
 )(_interpolate)
 
 
@@ -248,11 +235,6 @@ _PLACE = ("ENTIER", "LISTENTI")
         en="between places",
     ),
     gives="FLOTTANT|LISTREEL|NUAGE",
-    syntax="X1 | LREE1 = INTG EVOL1 ('ABS') ('BORN' X1 X2 | LREE1 LREE2) "
-    "('INDI' N1 N2 | LENT1 LENT2) ;",
-    en="Of a curve: integral by trapezes, over all or between bounds (abscissas 'BORN' or places "
-    "'INDI', one interval or lists of them); 'ABS' of the absolute value. Several curves give a "
-    "list. Without 'BORN' abscissas may go back: a loop gives the area inside it.",
 )
 def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
     """Integrals of curves."""
@@ -288,14 +270,7 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     return list(zip(low.tolist(), high.tolist(), strict=True))
 
 
-@operator(
-    "PRIM",
-    CURVE,
-    family="curves",
-    full_name="PRIMITIVE",
-    en="Primitive of curves by trapezes, zero at the first abscissa.",
-    syntax="EVOL2 = PRIM EVOL1 ;",
-)
+@operator("PRIM", CURVE, family="curves", full_name="PRIMITIVE")
 def prim(curve: Curve) -> Curve:
     """Running integral."""
     return dataclasses.replace(curve, parts=tuple(primitive(p) for p in curve.parts))

@@ -45,10 +45,7 @@ from ssilang.operators.workspace import workspace
     key("low", "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off"),
     key("high", "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off"),
     flag("causal", "CAUS", en="one pass, as a device does"),
-    en="A record itself, filtered by Butterworth's of order N1 (4): without what is slower than F1 "
-    "('PHAU') or faster than F2 ('PBAS'). Forth and back, without phase, both corners count "
-    "twice (half the amplitude there); 'CAUS': one pass (0.707 there), with a phase.",
-    syntax="EVOL1 = FILT EVOL2 ('ORDR' N1) ('PHAU' F1) ('PBAS' F2) ('CAUS') ;")  # fmt: skip
+)
 def filtered_records(
     call: Call, curve: Curve, order: int, low: float | None, high: float | None, causal: bool
 ) -> Curve:
@@ -72,9 +69,6 @@ def filtered_records(
     arg("second", "EVOLUTIO", en="component along y"),
     arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
     gives=("EVOLUTIO", "EVOLUTIO"),
-    en="Two horizontal components of a record along axes turned by an angle in degrees, from x to "
-    "y.",
-    syntax="EVOL1 EVOL2 = TOUR EVOL3 EVOL4 FLOT1 ;",
 )
 def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> tuple[Curve, Curve]:
     """Turn two components."""
@@ -91,17 +85,23 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
     "ZOND",
     arg("record", "EVOLUTIO", en="acceleration"),
     arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz"),
-    key("damping", "AMOR", arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
-        default=0.05, en="damping"),
-    key("tolerance", "TOLE", arg("x", "FLOTTANT", range=POSITIVE), default=0.05,
-        en="largest misfit, 0.05 without it"),
+    key(
+        "damping",
+        "AMOR",
+        arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
+        default=0.05,
+        en="damping",
+    ),
+    key(
+        "tolerance",
+        "TOLE",
+        arg("x", "FLOTTANT", range=POSITIVE),
+        default=0.05,
+        en="largest misfit, 0.05 without it",
+    ),
     family="signals",
     gives=("EVOLUTIO", "FLOTTANT"),
-    en="The record near a given one whose spectrum is a target at its frequencies, by wavelets "
-        "added in time (Al Atik and Abrahamson 2010), for @ACCORD; and the largest misfit, as a "
-        "part of the target.",
-        syntax="EVOL1 X1 = ZOND EVOL2 EVOL3 ('AMOR' X2) ('TOLE' X3) ;",
-)  # fmt: skip
+)
 def zond(
     call: Call, record: Curve, target: Curve, damping: float, tolerance: float
 ) -> tuple[Curve, float]:
@@ -163,15 +163,6 @@ def zond(
     family="signals",
     full_name="ONDE",
     gives=by("form", dict.fromkeys(("REIM", "MOPH"), ("CHPOINT", "MAILLAGE")), "EVOLUTIO"),
-    en="Continuous wavelet transform (Morlet's wavelet of pulsation 'PULS', 5 by default) of a "
-    "signal on 2**N1 points, scaled so that a sine gives its amplitude. 'REIM' or 'MOPH': "
-    "nodal field (PREE PIMA, or MODU and PHAS in degrees) and its mesh, a unit square with "
-    "time in abscissa and frequency in ordinate (evenly spaced in 1/f), zero near the ends. "
-    "'CRMO' or 'CRPH': its ridge, by the largest modulus or where the phase turns at the "
-    "wavelet's pulsation to 'EPSI' (1.E-4): frequency and amplitude in time.",
-    syntax="CHP1 MAIL1 = ONDE N1 EVOL2 'REIM' | 'MOPH' 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
-    "('PULS' X4) ;\nEVOL1 = ONDE N1 EVOL2 ('CRMO' | 'CRPH') 'FMIN' F1 'FMAX' F2 ('NFRQ' N2) "
-    "('EPSI' X5) ('PULS' X4) (COUL1) ;",
 )
 def onde(
     call: Call,

@@ -29,10 +29,6 @@ from ssilang.operators.curves.words import COLOUR, CURVE, shade
     arg("first", "FLOTTANT", en="abscissa to reach", range=ANY_NUMBER),
     opt("second", "FLOTTANT", en="another one", range=ANY_NUMBER),
     family="curves",
-    en="Curves continued to one or two abscissas outside their range: with the value at the "
-    "end ('BORN', the default) or along the line of the last two points ('LINE'). Abscissas "
-    "inside change nothing.",
-    syntax="EVOL2 = PROL ('BORN' | 'LINE') EVOL1 X1 (X2) ;",
 )
 def prol(call: Call, rule: str, curve: Curve, first: float, second: float | None) -> Curve:
     """Continue curves."""
@@ -74,8 +70,6 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
     arg("second", "EVOLUTIO", en="as many curves"),
     family="curves",
     full_name="CONCAT",
-    en="Curves joined end to end, two by two: the one that begins first stands first.",
-    syntax="EVOL3 = CONC EVOL1 EVOL2 ;",
 )
 def conc(call: Call, first: Curve, second: Curve) -> Curve:
     """Join curves."""
@@ -118,10 +112,6 @@ def _start(part: CurvePart) -> float:
         "size", "REDU", arg("n", "ENTIER", range=POSITIVE), en="steps of the signal in an interval"
     ),
     family="curves",
-    en="Broken lines of about N1 intervals that stand for the size of signals at constant "
-    "step: positive, with the signal's sum of squares on each interval (the modulation of a "
-    "signal). 'REDU': intervals of N2 samples of the signal, N1 intervals at least.",
-    syntax="EVOL1 = LSQF EVOL2 N1 ('UNIF') ('REDU' N2) ;",
 )
 def lsqf(
     call: Call, curve: Curve, count: int, uniform: bool, best: int | None, size: int | None
@@ -149,9 +139,6 @@ def lsqf(
     arg("moved", "EVOLUTIO", en="displacement", unit="m"),
     arg("speed", "EVOLUTIO", en="velocity", unit="m/s"),
     family="curves",
-    en="Poincaré map: displacement and velocity of a node at the instants where a shock "
-    "begins, that is where the contact force EVOL2 leaves zero.",
-    syntax="EVOL1 = MAPP (COUL1) EVOL2 EVOL3 EVOL4 ;",
 )
 def mapp(call: Call, colour: str | None, force: Curve, moved: Curve, speed: Curve) -> Curve:
     """Poincaré map."""
@@ -195,10 +182,6 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
         en="number of shocks kept, all without it",
     ),
     family="signals",
-    en="Mean shock of records: each shock is recorded for the time 'ACQU' from where the "
-    "absolute value passes 'DECL' percent of its largest (1.E-6 by default); 'NCHO' keeps "
-    "the first ones.",
-    syntax="EVOL1 = CMOY EVOL2 'ACQU' X1 ('DECL' X2) ('NCHO' N1) ;",
 )
 def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
     """Mean shock."""
@@ -220,10 +203,6 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
     arg("group", "ENTIER", en="group size", range=POSITIVE),
     family="signals",
     full_name="LAPLACE",
-    en="Inverse Laplace transform by Durbin's series: f(t) from the circular frequencies w "
-    "(2**N of them, from 0, at a constant step), the real and imaginary parts of F(a + i w), "
-    "the number a, and the group size L: the result has 2**N / L times over 2 pi / step.",
-    syntax="EVOL1 = LAPL 'INVERSE' LREEL1 LREEL2 LREEL3 X1 N1 ;",
 )
 def lapl(
     call: Call,

@@ -74,12 +74,6 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
     COLOUR,
     choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
-    en="Fast Fourier transform of a signal at constant step, on 2**N1 points (cut, or filled "
-    "with zeros): the integral of s(t) exp(-2 i pi f t), as real and imaginary parts ('REIM') "
-    "or modulus and phase in degrees ('MOPH'), over frequencies between FMIN and FMAX. Of a "
-    "list of fields: lists of real and imaginary fields, and the frequencies.",
-    syntax="EVOL1 = TFR N1 EVOL2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) (COUL1) (COUL2) ;\n"
-    "LCHP1 LCHP2 LREE1 = TFR N1 LCHP3 LREE2 'REIM' | 'MOPH' ('FMIN' F1) ('FMAX' F2) ;",
 )
 def tfr(
     call: Call,
@@ -156,14 +150,7 @@ def tfr_of_fields(
     return lists[0], lists[1], ListReel(f[kept])
 
 
-@operator(
-    "TFRI",
-    arg("curve", "EVOLUTIO", en="complex curve"),
-    family="signals",
-    en="Inverse Fourier transform of a complex curve from frequency 0 to the highest, at "
-    "constant step: a real signal; inverse of TFR.",
-    syntax="EVOL2 = TFRI EVOL1 ;",
-)
+@operator("TFRI", arg("curve", "EVOLUTIO", en="complex curve"), family="signals")
 def tfri(call: Call, curve: Curve) -> Curve:
     """Transform back."""
     if not is_complex(curve) or len(curve.parts) != 2:
@@ -203,11 +190,6 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
     ),
     family="signals",
     full_name="FILTRE",
-    en="Filter as a complex curve on 2**(N1 - 1) + 1 frequencies: first-order high-pass "
-    "('PHAU') or low-pass ('PBAS') of cut-off F1, or a power of the circular frequency "
-    "(i 2 pi f)**N ('OMEG').",
-    syntax="EVOL1 = FILT N1 'TYPE' 'PHAU' F1 | 'PBAS' F1 | 'OMEG' N2 ('SORT' 'REIM' | 'MOPH') "
-    "'DFRQ' F2 ;",
 )
 def filt(
     call: Call,
@@ -243,8 +225,6 @@ def filt(
     COLOUR,
     family="signals",
     full_name="HANNING",
-    en="Hanning's mean (1/4, 1/2, 1/4) of a spectrum, N1 times.",
-    syntax="EVOL1 = HANN EVOL2 N1 (COUL1) ;",
 )
 def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
     """Smooth a spectrum."""
@@ -276,11 +256,6 @@ _PERCENT = opt(
     flag("ends", "FIN", en="places where they end too"),
     family="signals",
     gives=ANY,
-    en="Number of shocks in records: stretches above a threshold in percent of the largest "
-    "absolute value (1.E-6 by default). Of one record also the peaks ('MAXI') and the places "
-    "where shocks begin ('DEBU') and end ('FIN').",
-    syntax="LENT1 = COMT EVOL1 (X1) ; N1 (LREE1) (LENT2) (LENT3) = COMT EVOL1 (X1) ('MAXI') "
-    "('DEBU') ('FIN') ;",
 )
 def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, ends: bool) -> Any:
     """Count shocks."""
@@ -296,16 +271,7 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     return (len(first), *more)
 
 
-@operator(
-    "TOTE",
-    CURVE,
-    _PERCENT,
-    family="signals",
-    full_name="TOTEMP",
-    en="Length of the abscissas where the absolute value of each curve is above a level, in "
-    "percent of its largest.",
-    syntax="LREE1 = TOTE EVOL1 (X1) ;",
-)
+@operator("TOTE", CURVE, _PERCENT, family="signals", full_name="TOTEMP")
 def tote(curve: Curve, percent: float) -> ListReel:
     """Measure durations."""
     levels = [percent / 100.0 * float(np.abs(p.ordinates).max()) for p in curve.parts]
@@ -328,10 +294,6 @@ _AXIS = arg("name", "MOT", en="name of the ordinates")
     ),
     arg("values", "LISTREEL", en="ordinates", range=ANY_NUMBER),
     family="signals",
-    en="Curve in time from ordinates at a constant step ('CONS'), or from times and values "
-    "('NOCO': pairs one after the other with 'COUP', else all times then all values, or two "
-    "lists, the first of which holds the step or 0).",
-    syntax="EVOL1 = FDT MOT1 'CONS' X1 LREE1 ; EVOL1 = FDT MOT1 'NOCO' 'COUP' LREE2 | LREE3 ;",
 )
 def fdt(name: str, step: float, values: ListReel) -> Curve:
     """A curve at a constant step."""

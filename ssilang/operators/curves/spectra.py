@@ -59,10 +59,6 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
     _COLOUR,
     arg("signal", "EVOLUTIO", en="signal g(t)"),
     family="modal",
-    en="Displacement X(t) of an oscillator, X'' + 2 a w X' + w^2 X = g(t), from X and X' at the "
-    "start (0); exact for a signal linear between its points.",
-    syntax="EVOL2 = OSCI EVOL1 'AMOR' A1 'FREQ' F1 ('TEMPS' LREEL1) ('DEPL' X0) ('VITE' V0) "
-    "('COUL' MOT1) ;",
 )
 def osci(
     call: Call,
@@ -117,13 +113,6 @@ def osci(
     arg("signal", "EVOLUTIO", en="acceleration"),
     opt("second", "EVOLUTIO", en="its other component"),
     family="modal",
-    en="Response spectrum of an acceleration: for each damping, the largest relative displacement "
-    "('DEPL'), pseudo-velocity ('VITE'), pseudo-acceleration ('ACCE') or absolute acceleration "
-    "('ACCA') of oscillators against their frequency. Of two horizontal components with "
-    "'ROTD': percentiles of these over all directions (RotD50, RotD100; Boore 2010).",
-    syntax="EVOL2 = SPO EVOL1 'AMOR' LREEL1 ('FREQ' LREEL2) ('TEMP' LREEL3) ('COUL' MOT2) "
-    "'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;\nEVOL2 = SPO EVOL1 EVOL3 'ROTD' LREEL4 'AMOR' LREEL1 "
-    "('FREQ' LREEL2) ('COUL' MOT2) 'DEPL' | 'VITE' | 'ACCE' | 'ACCA' ;",
 )
 def spo(
     call: Call,
@@ -209,9 +198,6 @@ operator(
     ),
     family="modal",
     full_name="VALPROPRE",
-    en="Eigenvalues, increasing, of the tridiagonal matrix of given diagonal and sub-diagonal and "
-    "of ones above the diagonal.",
-    syntax="LREEL1 = VALP LREEL2 LREEL3 ('ITERATION' N1) ('ABSOLU' | 'RELATIF' X1) ;",
 )(_valp)
 
 
@@ -249,10 +235,6 @@ operator(
     arg("power", "EVOLUTIO", en="power density"),
     arg("envelope", "EVOLUTIO", en="envelope"),
     family="signals",
-    en="Standard deviations and peak factors of a floor spectrum, for SPPLANC, the procedure "
-    "to call: frequencies, dampings and participations of modes, frequencies of the spectrum, "
-    "its damping, power density, envelope.",
-    syntax="LREEL1 LREEL2 = ZSPP LREEL3 LREEL4 LREEL5 LREEL6 X1 EVOL1 EVOL2 ;",
 )
 def zspp(
     modes: ListReel,
@@ -346,15 +328,6 @@ operator(
     ),
     key("colour", "COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
     family="modal",
-    en="Spectra of oscillators that yield, one for each damping: bilinear with kinematic ('CINE') "
-    "or isotropic ('ISOT') hardening, or non-linear elastic ('ELAS'), of given ductility and "
-    "ratio of the slope beyond the limit to the elastic one. EVOL2 is the linear spectrum "
-    "(kind MOT1) of the signal EVOL1, of equal steps. The elastic limit is the linear "
-    "displacement divided by the ductility and the spectrum (kind MOT3) that of the largest "
-    "displacements; with 'DEMA' the limit is sought at which the ductility is the given one "
-    "and the spectrum is that of the limits.",
-    syntax="EVOL3 = SPON ('DEMA') 'SIGN' EVOL1 'SPEL' EVOL2 'DEPL'|'VITE'|'ACCE' 'AMOR' LREEL1 "
-    "'CINE'|'ISOT'|'ELAS' LREEL2 ('COUL' COUL1) 'DEPL'|'VITE'|'ACCE' ;",
 )(_spon)
 
 
@@ -411,10 +384,3 @@ def envelope_of_spectra(call: Call, table: Table) -> Table:
     made.set(Mot("SPECTRE"), Curve(tuple(parts), spectra[0][0].title))
     made.set(Mot("AMORTISSEMENT"), ListReel(kept))
     return made
-
-
-enve.extend_help(
-    syntax="TAB1 = ENVE TAB2 ;",
-    en="Of a table of spectra (at 1, 2 ... tables with SPECTRE, curves, and AMORTISSEMENT, their "
-    "dampings): a table with the envelope, the largest ordinate for each damping.",
-)

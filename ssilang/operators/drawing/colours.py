@@ -27,9 +27,6 @@ from ssilang.operators.workspace import workspace
         range=ANY_NUMBER,
     ),
     gives=Like("value"),
-    syntax="OBJ2 = OBJ1 COUL (MOT1 | LISTMOTS1 | N1) ;",
-    en="A curve, deformed shape or set of arrows in one colour for all its parts, or in one each "
-    "(the first ones of a LISTMOTS, which may be longer); without a colour, in that of OPTI COUL.",
 )
 def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
     if given is None:

@@ -128,22 +128,6 @@ _OPTIONS: tuple[Entry, ...] = (
     *_OPTIONS,
     family="drawing",
     full_name="DESSIN",
-    en="Draws curves to a numbered picture in the output folder, as PNG and SVG. Scales: LOGX "
-    "LOGY, XBOR YBOR with two bounds, XGRA YGRA with a step, CARR for a square frame, AXES "
-    "through the origin, GRIL (dash) (GRIS). Texts: TITR TITX TITY, POSX POSY EXCE or CENT, "
-    "XFMT YFMT with a Fortran format, LEGE with a corner NO NE SO SE, EXT or XY x y, MIMA "
-    "writes and marks extremes, DATE. Curves that lie on each other to the eye get a second "
-    "frame with what they differ from the first: ECAR asks for it, ECAR FAUX forbids it. "
-    "Frequencies of spectra have their periods along the upper side. SEPA draws each curve in "
-    "its own frame, CHOI some of them. The table holds, by number of curve, words NOLI TIRR "
-    "TIRC TIRL TIRM REMP BLAN REGU LABEL txt MARQ (size) (PLEIN) kind; tables TITRE, INITIAL, "
-    "FINAL and LIGNE_VARIABLE by number give legends, first and last point and a dash for "
-    "each segment.",
-    syntax="DESS EVOL1 ('LOGX') ('LOGY') ('GRIL' (TYPE) ('GRIS')) ('CARR') ('XBOR' X1 X2) "
-    "('YBOR' Y1 Y2) ('XGRA' DX) ('YGRA' DY) ('MIMA') ('ECAR' (LOGI1)) ('DATE') ('SEPA') "
-    "('CHOI' N1 ...) "
-    "('TITR' T) ('TITX' T) ('TITY' T) ('POSX' M) ('POSY' M) ('XFMT' F) ('YFMT' F) ('AXES') "
-    "('LEGE' (PLACE)) (TAB1) ;",
 )
 def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: Any) -> None:
     """Draw and write."""

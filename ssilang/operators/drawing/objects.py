@@ -59,10 +59,6 @@ def is_colour(word: str) -> bool:
     opt("model", "MMODEL", en="its model"),
     family="drawing",
     full_name="DEFORME",
-    en="A deformed shape for TRAC: a mesh moved by an amplified displacement (the "
-    "amplification is chosen by the picture if it is not given), with a colour, arrows and a "
-    "field to show on it. ET puts several shapes into one picture.",
-    syntax="DEF1 = DEFO MAIL1 CHPO1 (FLOT1) (VEC1) (COUL1) (CHPO2 | MCHAML1 MODEL1) ;",
 )
 def defo(
     colour: str | None,
@@ -86,18 +82,7 @@ _FAMILIES = {
 }
 
 
-VECT = shared(
-    "VECT",
-    "drawing",
-    en="Arrows for TRAC. Of a nodal field: its displacements (DEPL), forces (FORC) or the "
-    "components named, times an amplification (chosen by the picture if it is not given; "
-    "negative: the arrow points at its node), in a colour. Of a field in cells: with a "
-    "LISTMOTS, the vector of these components in each cell; without, the strokes of its "
-    "principal stresses, or of the one named, with a LISTMOTS of colours.",
-    syntax="VEC1 = VECT CHPO1 (FLOT1) ('DEPL' | 'FORC' | LISTMOTS1 | MOT1 MOT2 (MOT3)) "
-    "(COUL1) ;\nVEC1 = VECT MCHAML1 (MCHAML2) MODEL1 (FLOT1) (MOT1 | LISTMOTS1) (LISTMOTS2) ;",
-    full_name="VECTEUR",
-)
+VECT = shared("VECT", "drawing", full_name="VECTEUR")
 _SCALE = opt(
     "scale", "FLOTTANT", en="amplification, chosen by the picture by default", range=ANY_NUMBER
 )
@@ -193,8 +178,6 @@ def _in_cells(
 @EXTR.form(
     main("shape", "DEFORME", en="deformed shapes"),
     choice("what", ("AMPL",), optional=False, en="amplification"),
-    syntax="X1 = EXTR DEFO1 'AMPL' ;",
-    en="Of deformed shapes: the amplification of the first, also the one that a picture chooses.",
 )
 def amplification(call: Call, shape: Deformed, what: str) -> float:
     """By how much the displacement is amplified."""
@@ -206,9 +189,7 @@ def amplification(call: Call, shape: Deformed, what: str) -> float:
     return automatic_scale(first.mesh, first.displacement)
 
 
-ANNO = shared(
-    "ANNO", "drawing", "Makes texts that TRAC adds to a picture; ET puts several together."
-)
+ANNO = shared("ANNO", "drawing")
 
 
 @union(("ANNOTATI", "ANNOTATI"))
@@ -220,8 +201,6 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     said("CATE"),
     arg("colour", "MOT", en="colour", kind="colour"),
     arg("text", "MOT", en="its meaning"),
-    syntax="ANNO1 = ANNO 'CATE' COUL1 MOT1 ;",
-    en="CATE: a line of the legend, a colour and its meaning.",
 )
 def _category(colour: str, text: str) -> Annotation:
     if not is_colour(colour) and is_colour(text):
@@ -235,10 +214,6 @@ def _category(colour: str, text: str) -> Annotation:
     many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
     opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
     opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
-    syntax="ANNO1 = ANNO 'ETIQ' POIN1 (COUL1) ('N'|'NE'|'E'|'SE'|'S'|'SO'|'O'|'NO'|'C') "
-    "(FLOT1) (LOGI1) MOT1 ;",
-    en="ETIQ: a text at a point, in a colour, on one of its sides, at a distance, with a line to "
-    "the point unless LOGI1 is FAUX.",
 )
 def _tag(
     call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool

@@ -159,23 +159,6 @@ _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
     *_OPTIONS,
     family="drawing",
     full_name="TRACER",
-    en="Draws to a numbered PNG picture in the output folder: a mesh (or the one that a "
-    "matrix stands on), deformed shapes, arrows, a nodal field or a field in cells as "
-    "iso-values (in OPTI ISOV's way), with a number or a list of levels; a further mesh is "
-    "drawn as lines. A POINT is the eye of a view in space. Words: CACH hides what is behind, "
-    "FACE fills with shades, FACB with white edges, FSDB without shades, ARET lets the first "
-    "mesh hide the edges given behind it, ECLA shrinks cells, COUL draws one colour, NOEU ELEM "
-    "QUAL CHAM write numbers, names and values that are seen, COUP shows what is beyond a "
-    "plane, SECT what is cut by it, BOIT frames a mesh, TITR LEGE NOLE DATE for texts; "
-    "ANIME writes an animated GIF of the successive deformed shapes beside the picture, OSCIL "
-    "one that also runs back. A field of several components is drawn in several panels, a "
-    "stress in cells as von Mises; triangles mark its least and largest value.",
-    syntax="TRAC MAIL1 (OEIL1) ('QUAL') ('NOEU') ('ELEM') ('COUL' (COUL1)) ('CACH') "
-    "('FACE') ('ECLA' (FLOT1)) (('DIRE') 'COUP' P1 P2 P3) ('SECT' P1 P2 P3) ('TITR' T) "
-    "('BOIT' MAIL2) ;\n"
-    "TRAC DEFO1 (OEIL1) ('ANIME' | 'OSCIL') ... ; TRAC VEC1 MAIL1 ... ;\n"
-    "TRAC (N1 | LISTREEL1) CHPO1 (MAIL1 | DEFO1) (MAIL2) (VEC1) ('LEGE' T) ('NOLE') ... ;\n"
-    "TRAC (N1 | LISTREEL1) MODEL1 MCHAML1 (DEFO1) (MAIL1) ... ; TRAC 'ARET' MAIL1 MAIL2 ;",
 )
 def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:
     """Draw and write."""

@@ -224,8 +224,7 @@ class KeptCalculation:
     # ---- whose it is
 
     def _call(self) -> dict[str, Any]:
-        from ssilang.kernel.stepping.keeping import leaves
-        from ssilang.kernel.stepping.problem.digest import digest_of
+        from ssilang.kernel.stepping.keeping import digest_of, leaves
 
         p = self.problem
         self._known = self._known or digest_of(p)
@@ -384,7 +383,7 @@ def kept_calculation(
     if not minutes > 0.0:
         raise entries.error("operators.dynamics.minutes-of-reprise", minutes=minutes)
     output = run_output(entries.call.session)
-    if entries.call.session.integrate is not None or output.checkpoints is None:
+    if output.checkpoints is None:
         entries.warn("operators.dynamics.nothing-kept")
         return None
     return KeptCalculation(

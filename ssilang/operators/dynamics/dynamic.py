@@ -14,12 +14,10 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.language.values import Mot, Table
 from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.checkpoints import (
-    KeptCalculation,
     kept_calculation,
     steps_of_reprise,
 )
@@ -56,15 +54,7 @@ MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
 
 
-@operator(
-    "ZDYN",
-    arg("table", "TABLE", en="table of DYNAMIC"),
-    family="dynamics",
-    en="Time integration of the table of DYNAMIC, which is the procedure to call.\n"
-    "Results go to TAB1 . 'RESULTATS_CSV' and 'ENERGIES'; the table of saved instants is "
-    "returned.",
-    syntax="TAB2 = ZDYN TAB1 ;",
-)
+@operator("ZDYN", arg("table", "TABLE", en="table of DYNAMIC"), family="dynamics")
 def zdyn(call: Call, table: Table) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     with lasting():
@@ -146,8 +136,6 @@ def _integrated(
         from ssilang.kernel.plasticity.run import run_bulk
 
         return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper, full=full)
-    if tolerance is None and not full and driver is None:
-        return integrated(entries.call.session, problem, observers, line, keeper)
     if tolerance is None:
         from ssilang.kernel.stepping.run import integrate
 
@@ -185,22 +173,6 @@ def _say_reduction(entries: Entries, history: History) -> None:
     found = history.reduction
     if found is not None and found.vectors == 0:
         entries.warn("operators.dynamics.reduction-not-used", refused=found.refused)
-
-
-def integrated(
-    session: Session,
-    problem: Problem,
-    observers: Sequence[Observer],
-    line: ProgressLine,
-    keeper: KeptCalculation | None = None,
-) -> History:
-    """The history; in a sweep, of what other runs bring too, side by side."""
-    from ssilang.kernel.stepping.run import integrate
-
-    if keeper is not None:
-        return integrate(problem, observers, line, keeper=keeper)
-    found: History = (session.integrate or integrate)(problem, observers, line)
-    return found
 
 
 # ---- what is read ----------------------------------------------------------------------------

@@ -37,13 +37,7 @@ from ssilang.language.values import ListChpo, ListReel, Table
     arg("tractions", "TABLE", en="tractions of the same instants, from 1"),
     opt("variables", "TABLE", en="internal variables of the same instants, from 1"),
     family="dynamics",
-    en="What a footing carries at some instants, for @BILANSSI: a table of lists PART (share "
-        "of the area in contact), FORCE (along the mean normal, positive in compression), CISA "
-        "(across it), PRESSION (largest), OUVERTURE (largest), ENFONCEMENT (mean motion of the "
-        "upper side into the soil); MOMENT, ROTATION and BRAS (from the centre to the edges) by "
-        "axis; AIRE. A macro-element whose ground yields needs its internal variables.",
-        syntax="TAB2 = ZSEM MODL1 CAR1 LCHP1 TAB1 (TAB3) ;",
-)  # fmt: skip
+)
 def zsem(
     call: Call,
     model: Model,

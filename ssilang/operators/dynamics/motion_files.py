@@ -19,8 +19,8 @@ from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.language.values import ListMots, Table
 from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 from ssilang.operators.dynamics.motion_observers import VtkObserver
-from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import output_path, run_output
+from ssilang.operators.files.writing_vtk import cell_labels
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si, workspace
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ssilang.io.recording import Recording
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh

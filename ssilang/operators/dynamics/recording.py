@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.recording import Recording
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.operators.dynamics.motion_files import stress_of

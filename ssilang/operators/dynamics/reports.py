@@ -59,7 +59,6 @@ def report(
         "unknowns": problem.numbering.size,
         "interface_unknowns": problem.interface.size if problem.interface else 0,
         "steps": steps,
-        "together": history.together,
         "loop": history.loop,
         "method": method,
         "solver": history.solver,
@@ -158,7 +157,7 @@ def none_if_nan(value: float) -> float | None:
 
 def warn_resolution(entries: Entries, problem: Problem) -> None:
     """Warn when the step does not resolve contact, saying the step to use."""
-    from ssilang.kernel.stepping.problem.resolution import contact_resolution
+    from ssilang.kernel.stepping.problem.plausibility import contact_resolution
 
     warn_contrast(entries, problem)
     warn_massless(entries, problem)
@@ -233,7 +232,7 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
 def warn_contrast(entries: Entries, problem: Problem) -> None:
     """Warn when joints are out of all proportion to the bodies: units, most often."""
     from ssilang.kernel.statics.conditioning import joint_conditioning
-    from ssilang.kernel.stepping.problem.contrast import STRANGE, stiffness_contrast
+    from ssilang.kernel.stepping.problem.capacity import STRANGE, stiffness_contrast
 
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
 from ssilang.operators.tables.entries import Entries
 

@@ -30,10 +30,6 @@ MOST_VALUES = 1 << 20
     arg("model", "MMODEL", en="model"),
     arg("motion", "LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
     family="dynamics",
-    en="Largest shear strain over displacements (a list, or results of DYNAMIC), at the "
-    "centres of solid cells, for ISSLEQ: square root of twice e:e, e being the deviator of "
-    "the strain.",
-    syntax="CHAM1 = ZGAM MODL1 (LCHP1 | TAB1) ;",
 )
 def zgam(model: Model, motion: ListChpo | Table) -> CellField:
     """Largest strain zone by zone."""

@@ -38,9 +38,6 @@ _TOP = 1000.0
     arg("given", "TABLE", en="what @BILANSSI was given"),
     arg("found", "TABLE", en="what it found"),
     family="dynamics",
-    en="Puts the figures that @BILANSSI found into the run's summary (statistics, verdicts), "
-    "its curves into the run's report.",
-    syntax="ZBIL TAB1 TAB2 ;",
 )
 def zbil(session: Session, given: Table, found: Table) -> None:
     """Keep a verdict."""

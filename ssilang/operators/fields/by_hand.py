@@ -63,10 +63,6 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
         at_least=1,
         times="count",
     ),
-    syntax="CHPO1 = MANU 'CHPO' GEO1 (N1) MOT1 VAL1 MOT2 VAL2 ... ('TITRE' MOT3) ('NATURE' MOT4) ;",
-    en="CHPO: field at the nodes of a mesh or at a point; a value is a number or, on a mesh of "
-    "points, a list with one value a point. Words after the last pair need N1, the number of "
-    "pairs.",
 )
 def node_field(
     call: Call,
@@ -88,7 +84,6 @@ def node_field(
     _ON_NODES,
     arg("names", "LISTMOTS", en="names of the components"),
     arg("values", "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER),
-    syntax="CHPO1 = MANU 'CHPO' GEO1 LMOT1 LREE1 ('TITRE' MOT3) ('NATURE' MOT4) ;",
 )
 def node_field_of_lists(
     call: Call,
@@ -153,9 +148,6 @@ _CURVES = (
         arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
-    syntax="CHAM1 = MANU 'CHML' 'EVOL' MOT1 X1 CHAM1 X2 CHAM2 ... | TAB1 ;",
-    en="With 'EVOL': in each cell a curve through the values that fields in cells have there, "
-    "against numbers that increase (the indices of a table of them).",
 )
 def curves_in_cells(
     call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
@@ -199,12 +191,6 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         "point, of the zone if not 1, then the value",
         range=ANY_NUMBER,
     ),
-    syntax="CHAM1 = MANU 'CHML' GEO1 | MODL1 ('REPA') MOT1 VAL1 MOT2 VAL2 ... ('TYPE' MOT3) "
-    "('CONS' MOT4) ('NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES') ;\n"
-    "CHAM1 = MANU 'CHAM' MODL1 ('TYPE' MOT1) ('POSI' MOT2) MOT3 CELL1 POINT1 (ZONE1) VAL1 ;",
-    en="CHML: field in the cells of a mesh or model; values are numbers or objects, constant in "
-    "the cells; 'REPA' deals the values of a list out, one a cell. On a model also: zero "
-    "everywhere but at one point of one cell.",
 )
 def cell_field(
     call: Call,
@@ -347,11 +333,6 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
     arg("model", "MMODEL", en="model"),
     choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
     family="fields",
-    en="Field of zeros on a model: a scalar at the points of a support (NOEUD GRAVITE RIGIDITE "
-    "MASSE STRESSES), or the components of a kind of field (CONTRAIN, DEFORMAT, DEPLACEM, "
-    "FORCES, GRADIENT, MATERIAU, CARACTER, TEMPERAT, PRINCIPA, DEFINELA, VARINTER, MAHOOKE, "
-    "HOTANGEN).",
-    syntax="CHAM1 = ZERO MODL1 MOT1 ;",
 )
 def zero(call: Call, model: Model, word: str | None) -> CellField:
     """Zeros."""

@@ -98,8 +98,6 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
         en="sub-type, mesh, names of components or constituents, number of zones",
     ),
     gives=by("what", {"TYPE": "MOT", "MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
-    syntax="OBJ1 = EXTR CHAM1 'TITR' | 'TYPE' | 'MAIL' | 'COMP' (MODL1) | 'CONS' | 'COVA' | 'DEVA' "
-    "| 'NBZO' ;",
 )
 def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
     """A part of a field in cells."""
@@ -114,10 +112,6 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
     opt("cell", "ENTIER", en="number of the cell in it", range=POSITIVE),
     opt("point", "ENTIER", en="number of the point in it", range=POSITIVE),
     gives=ANY,
-    syntax="VAL1 = EXTR CHAM1 MOT1 N1 N2 N3 ;",
-    en="Of a field in cells: the value of a component in zone N1, cell N2, point N3; its type, "
-    "mesh, names of components or constituents, of the components that vary (COVA: curves, "
-    "clouds), of what they depend on (DEVA), number of zones.",
 )
 def extr_value(
     call: Call,

@@ -40,15 +40,7 @@ def _trimmed(title: str | None) -> str | None:
     return None if title is None else str(title).rstrip()
 
 
-@CHAN.form(
-    said(*SUPPORTS),
-    _MODEL,
-    _SOURCE,
-    _TITLE,
-    syntax="CHAM2 = CHAN 'NOEUD' | 'GRAVITE' | 'RIGIDITE' | 'MASSE' | 'STRESSES' MODL1 CHAM1 ;",
-    en="With a support's name: the field in cells at the nodes, centres or integration points of "
-    "the elements, by least squares on their shape functions.",
-)
+@CHAN.form(said(*SUPPORTS), _MODEL, _SOURCE, _TITLE)
 def chan_support(
     word: str, model: Model, field: NodeField | CellField, title: str | None
 ) -> CellField:
@@ -64,9 +56,6 @@ def chan_support(
     arg("place", "MMODEL", "MAILLAGE", en="model or mesh"),
     choice("support", SUPPORTS, default="NOEUD", en="points of the result"),
     _TITLE,
-    syntax="CHAM1 = CHAN 'CHAM' CHPO1 GEO1 | MODL1 ('NOEUD' | 'GRAVITE' | ...) (TYP1) ;",
-    en="CHAM: the field in cells that a nodal field gives by interpolation, at the nodes (default) "
-    "or at the points of a support.",
 )
 def chan_cells(
     field: NodeField | CellField, place: Model | Mesh, support: str, title: str | None
@@ -89,9 +78,6 @@ def chan_cells(
         default="MOYE",
         en="mean (default) or sum of the cells around, or a new node at each point",
     ),
-    syntax="CHPO1 = CHAN 'CHPO' MODL1 CHAM1 ('MOYE' | 'SOMM' | 'SUPP') ;",
-    en="CHPO: the nodal field with, at each node, the mean (or sum) of the values that the cells "
-    "around it have there; 'SUPP' makes a new node at each point that carries the field.",
 )
 def chan_nodal(
     call: Call, model: Model | None, field: NodeField | CellField, rule: str
@@ -106,12 +92,7 @@ def chan_nodal(
     return nodal_of_cells(model, field, "SOMM" if rule == "SOMM" else "MOYE")
 
 
-@REDU.form(
-    main("model", "MMODEL", en="model"),
-    arg("mesh", "MAILLAGE", en="cells that stay"),
-    syntax="MODL2 = REDU MODL1 GEO1 ;",
-    en="A model restricted to the cells of a mesh.",
-)
+@REDU.form(main("model", "MMODEL", en="model"), arg("mesh", "MAILLAGE", en="cells that stay"))
 def redu_model(model: Model, mesh: Mesh) -> Model:
     """Model on a mesh."""
     return model_on_mesh(model, mesh)
@@ -135,8 +116,6 @@ def redu_behind_model(model: Model, field: CellField, strict: bool) -> CellField
     main("field", "MCHAML", en="field"),
     arg("support", "MAILLAGE", "MMODEL", en="cells that stay"),
     _STRICT,
-    syntax="CHAM2 = REDU ('STRI') CHAM1 GEO1 | MODL1 ;",
-    en="A field in cells restricted to the cells of a mesh or model.",
 )
 def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) -> CellField:
     """Field in cells on a mesh or model."""
@@ -149,9 +128,6 @@ def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) ->
     main("field", "MCHAML", en="field in cells"),
     arg("table", "TABLE", en="models or meshes"),
     gives="TABLE",
-    syntax="TAB2 = REDU CHAM1 TAB1 ;",
-    en="A field in cells restricted to each model (or mesh) of a table ESCLAVE, as PART makes it: "
-    "a table ESCLAVE of fields.",
 )
 def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
     """Field in cells on each part of a model."""
@@ -165,12 +141,7 @@ def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
     return made
 
 
-@REDU.form(
-    main("table", "TABLE", en="table ESCLAVE of fields"),
-    _MODEL,
-    syntax="CHAM2 = REDU TAB1 MODL1 ;",
-    en="A table ESCLAVE of fields in cells, joined and restricted to a model.",
-)
+@REDU.form(main("table", "TABLE", en="table ESCLAVE of fields"), _MODEL)
 def redu_table(call: Call, table: Table, model: Model) -> CellField:
     """The fields of a table on a model."""
     fields = [v for k, v in table.items() if isinstance(k, int) and isinstance(v, CellField)]
@@ -182,12 +153,7 @@ def redu_table(call: Call, table: Table, model: Model) -> CellField:
 _POINTS = main("field", "MCHAML", en="field in cells")
 
 
-@COOR.form(
-    _POINTS,
-    arg("axis", "ENTIER", en="axis, from 1", range=POSITIVE),
-    syntax="CHAM2 = COOR N1 CHAM1 ; CHAM2 CHAM3 (CHAM4) = COOR CHAM1 ;",
-    en="Of a field in cells: the coordinates of the points that it stands on, as fields in cells.",
-)
+@COOR.form(_POINTS, arg("axis", "ENTIER", en="axis, from 1", range=POSITIVE))
 def coor_cells(call: Call, field: CellField, axis: int) -> CellField:
     """One coordinate as a field in cells."""
     if not 1 <= axis <= workspace(call.session).dimension:

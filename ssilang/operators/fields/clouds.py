@@ -33,15 +33,7 @@ def _joined(first: Cloud, second: Cloud) -> Cloud:
     return first.joined(second)
 
 
-@operator(
-    "NUAG",
-    arg("field", "CHPOINT", "MCHAML", en="field"),
-    family="clouds",
-    full_name="NUAGE",
-    en="Cloud of rows of named values: column by column ('COMP' name values ...), row by row "
-    "(names with their types first), or the values of a field, one row a node or point.",
-    syntax="NUAG1 = NUAG CHPO1 | CHAM1 ;",
-)
+@operator("NUAG", arg("field", "CHPOINT", "MCHAML", en="field"), family="clouds", full_name="NUAGE")
 def nuag(field: NodeField | CellField) -> Cloud:
     """Cloud of the values of a field."""
     if isinstance(field, NodeField):
@@ -67,8 +59,6 @@ def nuag(field: NodeField | CellField) -> Cloud:
     ),
     by_hand="the values of a column are objects of any type, up to the next word; the types of a "
     "row are said by words",
-    syntax="NUAG1 = NUAG 'COMP' MOT1 OBJ1 OBJ2 ... 'COMP' MOT2 ... ;\n"
-    "NUAG1 = NUAG MOT1*TYP1 MOT2*TYP2 ... OBJ1 OBJ2 ... ;",
 )
 def cloud_by_hand(call: Call) -> Cloud:
     """Cloud column by column, or row by row."""
@@ -137,12 +127,8 @@ def _columns(cloud: Cloud) -> Collection[str]:
         en="names of columns, or the rows to take",
     ),
     gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"),
-    syntax="LMOT1 = EXTR NUAG1 'COMP' ; NUAG2 = EXTR NUAG1 'MAXI' | 'MINI' MOT1 ; "
-    "NUAG2 = EXTR NUAG1 'INFE' | 'SUPE' MOT1 X1 | 'ENTR' MOT1 X1 X2 ;",
-    en="Of a cloud: names of components; the row of the largest or smallest value, of the value "
-    "just below or above a number; the rows between two numbers; the object of a single row.",
 )
-def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
+def extract_from_cloud(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
     """Rows of a cloud, or the names of its columns."""
     word = what.word
     if word == "COMP":
@@ -164,12 +150,7 @@ def extract(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
     return cloud.rows([int(np.argmax(near) if below else np.argmin(near))])
 
 
-@EXTR.form(
-    main("cloud", "NUAGE", en="cloud of one row"),
-    _COMPONENT,
-    gives=ANY,
-    syntax="OBJ1 = EXTR NUAG1 MOT1 ;",
-)
+@EXTR.form(main("cloud", "NUAGE", en="cloud of one row"), _COMPONENT, gives=ANY)
 def extract_object(call: Call, cloud: Cloud, component: str) -> object:
     """What a column of a cloud of one row holds."""
     name = component.rstrip()
@@ -181,23 +162,15 @@ def extract_object(call: Call, cloud: Cloud, component: str) -> object:
 
 
 @DIME.form(
-    main("cloud", "NUAGE", en="cloud"),
-    choice("what", ("COMP", "UPLE"), en="columns or rows"),
-    syntax="N1 = DIME NUAG1 'COMP' | 'UPLE' ;",
-    en="Of a cloud: its number of components, or of rows ('UPLE').",
+    main("cloud", "NUAGE", en="cloud"), choice("what", ("COMP", "UPLE"), en="columns or rows")
 )
 def size(cloud: Cloud, what: str | None) -> int:
     """Number of columns or rows."""
     return len(cloud) if what == "UPLE" else len(cloud.columns)
 
 
-@REDU.form(
-    main("cloud", "NUAGE", en="cloud"),
-    many("names", "MOT", en="columns to keep"),
-    syntax="NUAG2 = REDU NUAG1 MOT1 MOT2 ... ;",
-    en="Of a cloud: some of its components.",
-)
-def reduce(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
+@REDU.form(main("cloud", "NUAGE", en="cloud"), many("names", "MOT", en="columns to keep"))
+def reduce_cloud(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
     """Some columns of a cloud."""
     kept = [str(w).rstrip() for w in names]
     missing = [n for n in kept if n not in cloud.columns]

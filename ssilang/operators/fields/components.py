@@ -57,9 +57,6 @@ _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
     gives=Like("field"),
     family="fields",
     full_name="EXCO",
-    en="Field of some components, under new names if they are given (one component of a field "
-    "at nodes is called SCAL without). 'NOID': a missing component is no error.",
-    syntax="CHP2 = EXCO MOT1 | LMOT1 ('NOID') CHP1 (MOT2 | LMOT2) ('NATURE' MOT3) ;",
 )
 def exco(
     call: Call,
@@ -130,15 +127,7 @@ _ONE_NAME = (
 )
 
 
-@operator(
-    "NOMC",
-    *_NEW_NAMES,
-    gives=Like("field"),
-    family="fields",
-    en="Field with other names of components: one name for a single component, or a list of "
-    "old names and a list of new ones.",
-    syntax="CHP2 = NOMC MOT1 | (LMOT1 LMOT2) CHP1 ('NATURE' MOT3) ;",
-)
+@operator("NOMC", *_NEW_NAMES, gives=Like("field"), family="fields")
 def nomc(
     call: Call, old: ListMots, new: ListMots, field: NodeField | CellField, nature: str | None
 ) -> NodeField | CellField:
@@ -179,62 +168,30 @@ def _with_nature(call: Call, field: NodeField, word: str | None) -> NodeField:
     return field if nature is None else node_algebra.rebuilt(field, field.components, nature)
 
 
-CHAN.form(
-    said("COMP"),
-    *_NEW_NAMES,
-    of=_FIELDS,
-    gives=Like("field"),
-    syntax="CHP2 = CHAN 'COMP' MOT1 | (LMOT1 LMOT2) CHP1 ('NATU' MOT3) ;",
-    en="COMP changes names of components, as NOMC does.",
-)(nomc.forms[0].function)
+CHAN.form(said("COMP"), *_NEW_NAMES, of=_FIELDS, gives=Like("field"))(nomc.forms[0].function)
 CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
 
 
-@CHAN.form(
-    said("ATTR"),
-    _NODAL,
-    NATURE,
-    syntax="CHPO2 = CHAN 'ATTRIBUT' CHPO1 'NATURE' 'INDETER' | 'DIFFUS' | 'DISCRET' ;",
-    en="ATTRIBUT changes the nature of a field at nodes.",
-)
+@CHAN.form(said("ATTR"), _NODAL, NATURE)
 def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField:
     """Another nature."""
     return _with_nature(call, field, nature)
 
 
-@CHAN.form(
-    said("TITR"),
-    _NODAL,
-    arg("title", "MOT", en="its new title"),
-    of=("CHPOINT",),
-    syntax="CHPO2 = CHAN 'TITRE' CHPO1 MOT1 ;",
-    en="TITRE changes the title of a field at nodes.",
-)
+@CHAN.form(said("TITR"), _NODAL, arg("title", "MOT", en="its new title"), of=("CHPOINT",))
 def change_title(field: NodeField, title: str) -> NodeField:
     """Another title."""
     return NodeField(field.table, field.components, field.nature, str(title))
 
 
-@CHAN.form(
-    said("TYPE"),
-    _IN_CELLS,
-    arg("title", "MOT", en="its new sub-type"),
-    of=("MCHAML",),
-    syntax="CHAM2 = CHAN 'TYPE' CHAM1 MOT1 ;",
-    en="TYPE changes the sub-type of a field in cells.",
-)
+@CHAN.form(said("TYPE"), _IN_CELLS, arg("title", "MOT", en="its new sub-type"), of=("MCHAML",))
 def change_type(field: CellField, title: str) -> CellField:
     """Another sub-type."""
     return CellField(field.blocks, title.rstrip())
 
 
 @CHAN.form(
-    said("CONS"),
-    _IN_CELLS,
-    arg("constituent", "MOT", en="its new constituent"),
-    of=("MCHAML",),
-    syntax="CHAM2 = CHAN 'CONS' CHAM1 MOT1 ;",
-    en="CONS changes the constituent of a field in cells.",
+    said("CONS"), _IN_CELLS, arg("constituent", "MOT", en="its new constituent"), of=("MCHAML",)
 )
 def change_constituent(field: CellField, constituent: str) -> CellField:
     """Another constituent."""
@@ -282,13 +239,6 @@ def _component_names(field: NodeField) -> Collection[str]:
         en="values as a list, mesh of points, names of components, title, type or nature",
     ),
     gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"),
-    syntax="LREE1 = EXTR CHPO1 'VALE' (MOT1 | LMOT1) (POIN1 | GEO1) ('NOID') ;\n"
-    "MAIL1 = EXTR CHPO1 'MAIL' ('NOMU') ; LMOT1 = EXTR CHPO1 'COMP' ; "
-    "MOT1 = EXTR CHPO1 'TITR' | 'TYPE' | 'NATU' ;",
-    en="Of a field at nodes: a value at a point, values as a list (in the order of the points of "
-    "a mesh, 0. where it has none), its mesh of points, names of components, title, type, nature. "
-    "A point that the field does not stand on is refused, but for fields of nature DISCRET "
-    "(forces), which are zero there, and with 'NOID'.",
 )
 def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
     """A part of a field at nodes."""
@@ -306,7 +256,6 @@ def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | Lis
     main("field", "CHPOINT", en="field at nodes"),
     arg("component", "MOT", kind="component", en="component"),
     arg("point", "POINT", en="where"),
-    syntax="X1 = EXTR CHPO1 MOT1 POIN1 ;",
 )
 def value_at(call: Call, field: NodeField, component: str, point: Point) -> float:
     """A component at a point."""
@@ -359,9 +308,6 @@ def _values(
         "CHPOINT",
         en="points that stay, or field that is not zero there",
     ),
-    syntax="CHPO2 = REDU CHPO1 MAIL1 | POIN1 | CHPO3 ;",
-    en="Of a field at nodes: the part on the points of a mesh, on a point, or where another field "
-    "has a value other than zero.",
 )
 def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
     """A field on fewer nodes."""
@@ -375,8 +321,6 @@ def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
 @ENLE.form(
     main("field", "CHPOINT", en="field at nodes"),
     arg("names", "MOT", "LISTMOTS", kind="component", en="components"),
-    syntax="CHPO2 = ENLE CHPO1 MOT1 | LMOT1 ;",
-    en="Of a field at nodes: without some components.",
 )
 def without(field: NodeField, names: str | ListMots) -> NodeField:
     """A field without some components."""
@@ -388,7 +332,6 @@ def without(field: NodeField, names: str | ListMots) -> NodeField:
     main("field", *_FIELDS, en="field"),
     flag("shape", "GEOM", en="accepted, changes nothing"),
     gives=Like("field"),
-    en="Of a field: a field with the same values.",
 )
 def copy(field: NodeField | CellField, shape: bool) -> NodeField | CellField:
     """A field of its own with the same values."""

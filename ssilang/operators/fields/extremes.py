@@ -137,23 +137,18 @@ _COMPONENTS = (
 )
 
 
-def _add_forms(operator: Operator, largest: bool, en: str) -> None:
-    name = operator.name
+def _add_forms(operator: Operator, largest: bool) -> None:
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
         many("others", "ENTIER", "FLOTTANT", en="more numbers", range=CARRIED),
         gives="FLOTTANT|ENTIER",
-        syntax=f"X1 = {name} ('ABS') X2 X3 ... ;",
-        en=f"Of numbers: the {en}.",
     )(partial(_of_numbers, largest=largest))
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
         many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=CARRIED),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
-        syntax=f"X1 = {name} LIS1 ('ABS') ; LIS4 = {name} ('ABS') LIS1 LIS2 ... ;",
-        en=f"Of a list: the {en} value; of several, item by item.",
     )(partial(_of_lists, largest=largest))
     operator.form(
         main("value", "CHPOINT", en="field at nodes"),
@@ -161,9 +156,6 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
         *_COMPONENTS,
         many("others", "CHPOINT", en="fields at the same nodes"),
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
-        syntax=f"X1 = {name} CHP1 ('ABS') (('AVEC') | 'SANS' LMOT1) ; CHPO4 = {name} CHPO1 CHPO2 ;",
-        en=f"Of a field: the {en} value, of all components or 'AVEC' / 'SANS' some; of several "
-        "fields at nodes, value by value.",
     )(partial(_of_node_fields, largest=largest))
     operator.form(
         main("value", "MCHAML", en="field in cells"),
@@ -173,19 +165,11 @@ def _add_forms(operator: Operator, largest: bool, en: str) -> None:
     )(partial(_of_cell_field, largest=largest))
 
 
-_add_forms(MAXI, True, "largest")
-_add_forms(MINI, False, "smallest")
+_add_forms(MAXI, True)
+_add_forms(MINI, False)
 
 
-@operator(
-    "MAX1",
-    arg("field", "CHPOINT", en="field"),
-    *_COMPONENTS,
-    family="fields",
-    en="Nodal field divided by its value of largest size, which becomes 1; among the "
-    "components named ('AVEC', may be left out) or not named ('SANS') by a list.",
-    syntax="CHP1 = MAX1 CHP2 (('AVEC') | 'SANS' LMOTS1) ;",
-)
+@operator("MAX1", arg("field", "CHPOINT", en="field"), *_COMPONENTS, family="fields")
 def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | None) -> NodeField:
     """Bring a field to one."""
     chosen = _components(call, list(field.components), which, listed)
@@ -204,9 +188,6 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
     arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
     family="fields",
     full_name="PILEPS",
-    en="The largest X with -CRIT < E1 + X E2 < CRIT on the side that E2 goes to, for every value "
-    "of the fields in cells E1 and E2 (strains), component by component.",
-    syntax="X1 = PILE MCHAML1 MCHAML2 CRIT ;",
 )
 def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
     """Largest factor before a component passes the limit."""

@@ -31,11 +31,6 @@ _ODD = {
     gives=Like("field"),
     family="fields",
     full_name="DFOURIER",
-    en="Values at an angle (degrees) of a field of the Fourier harmonic n that OPTI says: "
-    "cos(n a) for UR UZ, their forces, the stresses and strains of the meridian plane and the "
-    "hoop ones, sin(n a) for UT and the shears RT ZT; for a negative n sin(|n| a) and "
-    "cos(|n| a).",
-    syntax="CH2 = DFOU CH1 X1 ;",
 )
 def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | CellField:
     """Sum a harmonic."""

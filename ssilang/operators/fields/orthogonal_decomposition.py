@@ -49,13 +49,6 @@ _OPTIONS = (
     gives=by("table", {True: "TABLE"}, ("LISTCHPO", "LISTREEL")),
     family="modal",
     full_name="POD",
-    en="Proper orthogonal decomposition of a list of fields, or of a result of PASAPAS or "
-    "DYNAMIC (entry DEPLACEMENTS, DEPL, or the one named): the first modes (largest value 1) "
-    "and their eigenvalues, decreasing. A list of integers chooses fields (from 1; of a table "
-    "its indices), a list of words components, a matrix (a mass) the scalar product. "
-    "'SNAPSHOTS' for few fields, 'CLASSIQUE' for few unknowns. 'TBAS': a table BASE_MODALE.",
-    syntax="LPOD1 LVAL1 = POD LCHPO1 | TAB1 (MOT1) (LENTI1) (LMOTS1) 'SNAPSHOTS' | 'CLASSIQUE' "
-    "(MASS1) N1 ;\nTPOD1 = POD ... N1 'TBAS' (MAIL1) ;",
 )
 def pod(call: Call, fields: ListChpo, **said: Any) -> Table | tuple[ListChpo, ListReel]:
     """Orthogonal decomposition of a list of fields."""

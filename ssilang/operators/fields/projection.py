@@ -37,22 +37,7 @@ _TOLERANCE = opt(
 )
 
 
-@operator(
-    "PROI",
-    _MODEL,
-    _FIELDS,
-    _SUPPORT,
-    _TOLERANCE,
-    family="fields",
-    en="Projection of a field in cells, given at nodes, by its shape functions: on a mesh (a "
-    "nodal field, where the nodes lie inside), or on a model (a field in cells at the nodes "
-    "or at the points of a support). 'MINI': nodal values in each cell of the model with the "
-    "least integral of squared differences, by N1 points in each direction (3). The tolerance "
-    "is relative to the cells (1.E-5); points beyond it get no value on a mesh and 0 on a "
-    "model, which is told, and raises SOUC.",
-    syntax="CHPO1 = PROI GEO1 CHAM1 (TOL1) ;\nCHAM2 = PROI MODL1 CHAM1 (MOT1) (TOL1) ;\n"
-    "CHAM2 = PROI MODL1 CHAM1 'MINI' (N1) ;",
-)
+@operator("PROI", _MODEL, _FIELDS, _SUPPORT, _TOLERANCE, family="fields")
 def proi(
     call: Call, place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float
 ) -> CellField:

@@ -13,17 +13,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 
 
-@operator(
-    "SENS",
-    arg("contours", "TABLE", en="closed contours by number"),
-    family="fields",
-    en="Of a table of closed contours in the plane, such as CCON gives: the table of their "
-    "senses, "
-    "1 anticlockwise, -1 clockwise. In MODE AXIS a contour may be open along the axis. Of two "
-    "fields in cells: the table, by number of the cell, of the mean over the cell's points of "
-    "their difference (one component).",
-    syntax="TAB2 = SENS TAB1 ;\nTAB1 = SENS MCHAML1 MCHAML2 ;",
-)
+@operator("SENS", arg("contours", "TABLE", en="closed contours by number"), family="fields")
 def sens(call: Call, contours: Table) -> Table:
     """Senses of contours."""
     made = Table()

@@ -43,13 +43,6 @@ _ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of 
     ),
     gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
     family="fields",
-    en="Signed distance PHI of the nodes of a mesh to a line (SEG2, in 2D) or a surface (TRI3, "
-    "QUA4, in 3D), positive on the side of its normals (to the left of a line); nodes farther "
-    "than a number (largest coordinate) are left out. 'DEUX' adds the signed distance PSI "
-    "ahead of the line's ends given as points, or of the surface's front given as a mesh of "
-    "SEG2; 'TROI' (3D) the abscissa TAU along the front besides.",
-    syntax="CHP1 = PSIP MAIL1 MAIL2 (X1) ;\nCHP1 CHP2 = PSIP MAIL1 MAIL2 (X1) 'DEUX' P1 (P2) "
-    "| MAIL3 ; CHP1 CHP2 CHP3 = PSIP MAIL1 MAIL2 (X1) 'TROI' MAIL3 ;",
 )
 def psip(
     call: Call, place: Mesh | Point, mesh: Mesh, reach: float | None, ahead: Chosen | None

@@ -131,11 +131,7 @@ for _kind in ("ENTIER", "FLOTTANT"):
     rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
-@INVE.form(
-    main("field", "CHPOINT", en="nodal field"),
-    syntax="CHPO2 = INVE CHPO1 ;",
-    en="Of a nodal field: one over its values.",
-)
+@INVE.form(main("field", "CHPOINT", en="nodal field"))
 def _inverse(call: Call, field: NodeField) -> NodeField:
     for name, part in field.components.items():
         if not np.all(part.values):
@@ -265,11 +261,7 @@ _NAMES = (
 
 
 @PSCA.form(
-    main("first", "CHPOINT", en="first field"),
-    arg("second", "CHPOINT", en="second field"),
-    *_NAMES,
-    syntax="CHP3 = PSCA CHP1 CHP2 LMOT1 LMOT2 ;",
-    en="Of two fields: at each place the sum of products of paired components.",
+    main("first", "CHPOINT", en="first field"), arg("second", "CHPOINT", en="second field"), *_NAMES
 )
 def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
@@ -312,14 +304,7 @@ def _lists_of(call: Call, *lists: ListMots) -> list[list[str]]:
     return names
 
 
-@PVEC.form(
-    main("first", "CHPOINT", en="field"),
-    *_TWO,
-    when=IN_PLANE,
-    syntax="CHP2 = PVEC CHP1 LMOT1 LMOT2 ; (2D)",
-    en="Of fields: at each place the vector product of the components LMOT1 of the first and LMOT2 "
-    "of the second, named LMOT3; in 2D the components LMOT1 turned by a quarter turn.",
-)
+@PVEC.form(main("first", "CHPOINT", en="field"), *_TWO, when=IN_PLANE)
 def quarter_turn(call: Call, first: NodeField, old: ListMots, new: ListMots) -> NodeField:
     """Components at nodes turned by a quarter turn."""
     (x, y), (u, v) = _lists_of(call, old, new)
@@ -340,7 +325,6 @@ def quarter_turn_in_cells(call: Call, first: CellField, old: ListMots, new: List
     arg("second", "CHPOINT", en="second field"),
     *_THREE,
     when=NOT_IN_PLANE,
-    syntax="CHP3 = PVEC CHP1 CHP2 LMOT1 LMOT2 LMOT3 ; (3D)",
 )
 def vector_product(
     call: Call,

@@ -28,15 +28,7 @@ from ssilang.operators.fields.signs import paired_names
 # ---- measures -----------------------------------------------------------------------------------
 
 
-@operator(
-    "RESU",
-    arg("field", "CHPOINT", en="forces, say"),
-    family="fields",
-    full_name="RESULT",
-    en="Resultant of a field at nodes: its first point with the sum of each component. "
-    "The sum of a list is SOMM's.",
-    syntax="CHPO2 = RESU CHPO1 ;",
-)
+@operator("RESU", arg("field", "CHPOINT", en="forces, say"), family="fields", full_name="RESULT")
 def resu(call: Call, field: NodeField) -> NodeField:
     """Sum components over nodes."""
     nodes = field.node_ids
@@ -69,9 +61,6 @@ _PAIRED = (
     arg("second", "CHPOINT", en="second field"),
     *_PAIRED,
     family="fields",
-    en="Sum over all nodes of the products of paired components of two fields; of two lists "
-    "of fields, a list.",
-    syntax="X1 = XTY CHPO1 CHPO2 LMOT1 LMOT2 ; LREE1 = XTY LCHP1 LCHP2 LMOT1 LMOT2 ;",
 )
 def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
     """Scalar product of fields."""
@@ -112,8 +101,6 @@ _FACTORS = (
     opt("second", "CHPOINT", en="field to add"),
     *_FACTORS,
     family="fields",
-    en="Sum of the squares of all values of a field, or of X1 CHP1 + X2 CHP2.",
-    syntax="X3 = XTX CHP1 ; X3 = XTX X1 CHP1 X2 CHP2 ;",
 )
 def xtx(
     call: Call, first: NodeField, second: NodeField | None, a: float | None, b: float | None
@@ -153,9 +140,6 @@ def _weighted_sum(
     arg("table", "TABLE", en="fields by point"),
     family="fields",
     full_name="COMBTABLE",
-    en="Linear combination of the fields of a table indexed by points, with the values of a "
-    "field with one component as coefficients.",
-    syntax="CHPO1 = COMB ('SEMBLABLE') CHPO2 TAB1 ;",
 )
 def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:
     """Combine fields."""
@@ -173,14 +157,7 @@ def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField
     return total
 
 
-COLI = shared(
-    "COLI",
-    "fields",
-    en="Linear combination: fields each followed by its coefficient, or a list of fields (or "
-    "a table 1 .. N of fields or lists) with a list of coefficients.",
-    syntax="CHP1 = COLI CHP2 X2 CHP3 X3 ... ; OBJ1 = COLI LCHP1 | TAB1 LREE1 ;",
-    full_name="COLINEAIRE",
-)
+COLI = shared("COLI", "fields", full_name="COLINEAIRE")
 
 
 @COLI.form(
@@ -223,13 +200,7 @@ def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
     return total
 
 
-@operator(
-    "SOMT",
-    arg("field", "CHPOINT", en="field of one component"),
-    family="fields",
-    en="Sum of the values of a field of a single component (SCAL, most often).",
-    syntax="X1 = SOMT CHPO1 ;",
-)
+@operator("SOMT", arg("field", "CHPOINT", en="field of one component"), family="fields")
 def somt(field: NodeField) -> float:
     """Sum values."""
     if len(field.components) != 1:

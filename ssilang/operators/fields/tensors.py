@@ -10,7 +10,6 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.results.equivalent import equivalent_of_lines
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.results.skin import (
     in_global_axes,
@@ -28,6 +27,7 @@ from ssilang.kernel.elements.results.structural_gradients import (
 from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,
     components_at_home,
+    equivalent_of_lines,
     invariants,
     principal,
     tensor,
@@ -106,32 +106,13 @@ def _tensor(
     return shell_tensor(zone, field, material, side)
 
 
-@operator(
-    "VMIS",
-    MODEL,
-    STATE,
-    family="stress",
-    en="Von Mises stress of a stress field; in beams and bars the equivalent stress of the "
-    "section forces with the parameters SECT INRY INRZ TORS and the distances DX DY DZ; in "
-    "shells that of the membrane forces and, weighed by CALF (2/3), of the moments; "
-    "in COQ6 and COQ8 that of the stresses at each point.",
-    syntax="CHAM1 = VMIS MODL1 SIG1 (CAR1) ;",
-)
+@operator("VMIS", MODEL, STATE, family="stress")
 def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Equivalent stress."""
     return _equivalent(call, model, fields, "MOYE", von_mises, "VMIS")
 
 
-@operator(
-    "TRES",
-    MODEL,
-    STATE,
-    _SIDE,
-    family="stress",
-    full_name="TRESCA",
-    en="Tresca's equivalent stress: the largest difference of principal stresses.",
-    syntax="CHAM1 = TRES MODL1 SIG1 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-)
+@operator("TRES", MODEL, STATE, _SIDE, family="stress", full_name="TRESCA")
 def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
     """Equivalent stress."""
     return _equivalent(call, model, fields, side, tresca, "TRES")
@@ -145,11 +126,6 @@ def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     _SIDE,
     family="stress",
     full_name="PRINCIPALE",
-    en="Principal stresses or strains SI11 SI22 SI33 and their directions COX1 COY1 COZ1 COX2 "
-    "..., global cosines; they decrease in space. In the plane the third is the one out of the "
-    "plane, unless 'TRID' is given.",
-    syntax="CHAM2 = PRIN CHAM1 MODL1 ('TRID') ;\n"
-    "CHAM2 = PRIN CHAM1 MODL1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
 )
 def prin(
     call: Call, model: Model, fields: tuple[CellField, ...], ordered: bool, side: str
@@ -169,17 +145,7 @@ def prin(
     return on_zones(present(call, model), "PRINCIPALE", make)
 
 
-@operator(
-    "INVA",
-    MODEL,
-    STATE,
-    _SIDE,
-    family="stress",
-    full_name="INVARIANT",
-    en="The three invariants of a stress or strain field: trace, sum of the principal minors "
-    "of order two, determinant.",
-    syntax="CHAM1 CHAM2 CHAM3 = INVA MODL1 CHAM4 (CAR1 'SUPE' | 'MOYE' | 'INFE') ;",
-)
+@operator("INVA", MODEL, STATE, _SIDE, family="stress", full_name="INVARIANT")
 def inva(
     call: Call, model: Model, fields: tuple[CellField, ...], side: str
 ) -> tuple[CellField, CellField, CellField]:
@@ -202,9 +168,6 @@ def inva(
     many("others", "MCHAML", en="accepted, not used"),
     family="stress",
     full_name="ENERGIE",
-    en="Density sigma : epsilon of a field of stresses and a field of strains (for a linear "
-    "material twice the energy); INTG integrates it.",
-    syntax="CHAM3 = ENER MODL1 CHAM1 CHAM2 ;",
 )
 def ener(
     call: Call, model: Model, first: CellField, second: CellField, others: tuple[CellField, ...]
@@ -242,10 +205,6 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     many("given", "MCHAML", en="parameters"),
     family="stress",
     full_name="GRADIENT",
-    en="Gradient of a displacement field, components UX,X UX,Y ..., or of a scalar field such "
-    "as a temperature T, components T,X T,Y (T,Z). Bars and beams have UX,X UY,X (UZ,X), flat "
-    "shells UX,X UX,Y ... UZ,Y, in their own frame as their stresses (VECT in CAR1).",
-    syntax="GRAD1 = GRAD MODL1 CHPO1 (CAR1) ;",
 )
 def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...]) -> CellField:
     """Gradients."""
@@ -276,11 +235,6 @@ def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...
     arg("field", "MCHAML", en="field to integrate"),
     many("others", "MCHAML", en="parameters"),
     gives=by("by_cell", {True: "MCHAML"}, "FLOTTANT"),
-    syntax="VAL1 = INTG MODL1 CHAM1 (MOT1) (CAR1) ;\n"
-    "CHAM2 = INTG 'ELEM' MODL1 CHAM1 (MOT1) (CAR1) ;",
-    en="Of a field in cells: integral of a component over the model, or cell by cell ('ELEM'); "
-    "with the parameters CAR1 beams and bars count with their section, shells and plane stress "
-    "with their thickness.",
 )
 def intg(
     call: Call,
@@ -313,14 +267,7 @@ def _only(call: Call, field: CellField) -> str:
     return names[0]
 
 
-@operator(
-    "JACO",
-    MODEL,
-    family="stress",
-    full_name="JACOBIEN",
-    en="Jacobian of the map from the reference cell, at the points of 'RIGIDITE'.",
-    syntax="CHAM1 = JACO MODL1 ;",
-)
+@operator("JACO", MODEL, family="stress", full_name="JACOBIEN")
 def jaco(model: Model) -> CellField:
     """Jacobians."""
 

@@ -49,12 +49,6 @@ _LAW = arg("curve", "EVOLUTIO", en="law of variation")
     _SUPPORT,
     family="fields",
     full_name="VARIATION",
-    en="Field of the values of a curve at those of a field (of its component that is named as "
-    "the abscissa); with a model, in cells at the points of a support ('RIGIDITE' by "
-    "default). 'NUAG': parameters given by curves become numbers, from the fields that they "
-    "depend on.",
-    syntax="CHPO2 = VARI CHPO1 EVOL1 (MOT1) ; CHAM2 = VARI MODL1 CHAM1 | CHPO1 EVOL1 (MOT1) ;\n"
-    "CHAM2 = VARI 'NUAG' MODL1 CHAM1 CHAM3 | CHPO3 (MOT1) (MOT2) ;",
 )
 def vari(
     call: Call, model: Model, field: NodeField | CellField, curve: Curve, support: str

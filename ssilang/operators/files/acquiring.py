@@ -101,11 +101,6 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
     many("names", "*", en="names, each with * and a type, behind a list the number of its values"),
     family="files",
     full_name="ACQUERIR",
-    en="Reads values in free format from the file that OPTI ACQU names into names, each with "
-    "its type (ENTIER FLOTTANT MOT LISTENTI LISTREEL; without a type, that of the value), "
-    "behind a list the number of its values. Each statement begins on a new line of the file. "
-    "BRUT gives the next line as a word.",
-    syntax="ACQU NOM1*TYPE1 (N1) (NOM2*TYPE2 (N2) ...) ;\nMOT1 = ACQU 'BRUT' ;",
     gives="MOT|",
     reads_itself="its items are names and types, with * between, and numbers of values",
 )

@@ -32,19 +32,7 @@ PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"
 _FILE = lead("file", "MOT", en="file")
 
 
-@LIRE.form(
-    said("MESH"),
-    _FILE,
-    syntax="TAB1 = LIRE 'MESH' FIC1 ;",
-    en="MESH: a mesh of another program, in the format that the ending of the file tells (.msh "
-    ".med .vtu .vtk .inp .bdf .nas .fem .mesh .unv .stl; Gmsh meshes a .geo), as a table of "
-    "meshes: NOEUDS all nodes, MAILLAGE all cells, '@QUA4' ... those of a type, and each named "
-    "part under its name: physical groups, sets, groups and tags; NAME_GN for the nodes of a part "
-    "that has cells too, KEY_3 for a tag 3 without a name. Cells are turned so that their Jacobian "
-    "is positive; those with nodes that coincide become simpler ones, those that have no "
-    "counterpart are left out, both with a warning that counts them. Fields are not read. MED "
-    "needs h5py.",
-)
+@LIRE.form(said("MESH"), _FILE)
 def _mesh(call: Call, file: str) -> Table:
     return mesh_table(call, str(file))
 
@@ -55,13 +43,7 @@ _BY_WORD = {
 }  # fmt: skip
 
 
-@LIRE.form(
-    said("GMSH", "MED", "VTU", "VTK", "ABAQUS", "NAS", "FEM", "MEDIT", "UNV"),
-    _FILE,
-    syntax="TAB1 = LIRE 'GMSH'|'MED'|'VTU'|'VTK'|'ABAQ'|'NAS'|'FEM'|'MEDI'|'UNV' FIC1 ;",
-    en="The word of a format: as MESH, whatever the ending. NAS and FEM are Nastran's bulk data, "
-    "UNV is I-DEAS' universal file.",
-)
+@LIRE.form(said("GMSH", "MED", "VTU", "VTK", "ABAQUS", "NAS", "FEM", "MEDIT", "UNV"), _FILE)
 def _by_word(call: Call, word: str, file: str) -> Table:
     return mesh_table(call, str(file), _BY_WORD[word])
 
@@ -150,14 +132,7 @@ def _sound(mesh: Mesh) -> Mesh:
 
 
 @SORT.form(
-    said("MESH", "MED"),
-    arg("mesh", "MAILLAGE", "TABLE", en="mesh, or a table of its parts"),
-    syntax="SORT 'MESH'|'MED' MAIL1|TAB1 ;",
-    en="MESH: a mesh with its named parts for another program, in the format that the ending of "
-    "the file tells: .msh (Gmsh 2.2: physical groups), .med (groups; needs h5py; the word MED puts "
-    "the ending), .inp (Abaqus: sets). Parts are the meshes and points that the script calls by a "
-    "name and that lie on nodes of the mesh, or those of a table such as MAILLER's or LIRE's, "
-    "whose MAILLAGE or TOTAL is the whole. Joints are left out, with a warning.",
+    said("MESH", "MED"), arg("mesh", "MAILLAGE", "TABLE", en="mesh, or a table of its parts")
 )
 def _sort(call: Call, word: str, mesh: Any) -> None:
     path = target_path(call, ".med" if word == "MED" else "")

@@ -21,7 +21,7 @@ from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
 from ssilang.operators.workspace import workspace
 
-LIRE = shared("LIRE", "files", "Reads a file below the script's folder or the output folder.")
+LIRE = shared("LIRE", "files")
 
 
 _FILE = lead("file", "MOT", en="file")
@@ -33,9 +33,6 @@ _FILE = lead("file", "MOT", en="file")
     key("first", "DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
     key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator"),
     choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines"),
-    syntax="TAB1 = LIRE 'CSV' FIC1 ('DEBU' N1) ('SEPA' MOT1) ('COLO' | 'LIGN') ;",
-    en="CSV: a table of LISTREEL, 1 to the number of columns (COLO) or lines (LIGN) of a CSV file, "
-    "from line DEBU, separated by SEPA (one character, ; if it is not given).",
 )
 def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     sign = str(separator) or ";"
@@ -48,14 +45,7 @@ def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     return made
 
 
-@LIRE.form(
-    said("PROC"),
-    _FILE,
-    opt("name", "MOT", default="", en="the only one wanted"),
-    syntax="LIRE 'PROC' FIC1 (MOT1) ;",
-    en="PROC: the procedures that a file defines (only MOT1 if it is given); a file of statements "
-    "without a DEBP becomes the procedure MOT1.",
-)
+@LIRE.form(said("PROC"), _FILE, opt("name", "MOT", default="", en="the only one wanted"))
 def _proc(call: Call, file: str, name: str) -> None:
     path = input_path(call, file)
     wanted = str(name).strip().upper()
@@ -75,13 +65,7 @@ def _proc(call: Call, file: str, name: str) -> None:
             frame.assign(one, Procedure(one, node, str(path)))
 
 
-@LIRE.form(
-    said("AVS"),
-    syntax="TAB1 = LIRE 'AVS' ;",
-    en="AVS: the next structure of the AVS UCD file that OPTI LECT names, as a table: MAILSUPP its "
-    "nodes, LEMAILLA its cells, SOUMAILA the parts by kind and material, LECHPOIN and LEMCHAML "
-    "its fields, values of the model under their names.",
-)
+@LIRE.form(said("AVS"))
 def _avs(call: Call) -> Table:
     name = option_name(call.session, "LECT", 4)
     output = run_output(call.session)
@@ -132,12 +116,7 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     return tuple(made)
 
 
-@LIRE.form(
-    said("STL"),
-    _FILE,
-    syntax="MAIL1 = LIRE 'STL' FIC1 ;",
-    en="STL: a mesh of TRI3, text or binary; ELIM joins its nodes.",
-)
+@LIRE.form(said("STL"), _FILE)
 def _stl(call: Call, file: str) -> Mesh:
     corners = read_stl(file_to_read(call, str(file), ".stl"))
     nodes = workspace(call.session).nodes

@@ -32,24 +32,13 @@ _ENTRIES: tuple[Entry, ...] = (
 """What every format of records reads: file, then a factor or 'SI'."""
 
 
-@LIRE.form(
-    said("PEER"),
-    *_ENTRIES,
-    syntax="EVO1 = LIRE 'PEER' FIC1 (FLOT1 | 'SI') ;",
-    en="PEER: a ground motion in the format of the PEER database (.AT2, .VT2, .DT2) as an "
-    "evolution in time, times FLOT1, or in metres and seconds ('SI').",
-)
+@LIRE.form(said("PEER"), *_ENTRIES)
 def _peer(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     record = read_peer(file_to_read(call, str(file), ".AT2"))
     return _curve(call, "PEER", file, [record], factor, in_si)
 
 
-@LIRE.form(
-    said("ESM"),
-    *_ENTRIES,
-    syntax="EVO1 = LIRE 'ESM' FIC1 (FLOT1 | 'SI') ;",
-    en="ESM: a ground motion in the text format of the ESM and ITACA databases (.ASC).",
-)
+@LIRE.form(said("ESM"), *_ENTRIES)
 def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     record = read_esm(file_to_read(call, str(file), ".ASC"))
     return _curve(call, "ESM", file, [record], factor, in_si)
@@ -59,11 +48,13 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     said("COSMOS"),
     *_ENTRIES,
     key(
-        "number", "CANAL", arg("n", "ENTIER", range=NOT_NEGATIVE), default=0,
-        en="which record of a file that has several"),
-    syntax="EVO1 = LIRE 'COSMOS' FIC1 (FLOT1 | 'SI') ('CANAL' N1) ;",
-    en="COSMOS: a ground motion in version 1.20 of the COSMOS format (.V1, .V2), the first of the "
-    "file or record CANAL.")  # fmt: skip
+        "number",
+        "CANAL",
+        arg("n", "ENTIER", range=NOT_NEGATIVE),
+        default=0,
+        en="which record of a file that has several",
+    ),
+)
 def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: int) -> Curve:
     found = read_cosmos(file_to_read(call, str(file), ".V2"))
     if number < 0 or number > len(found):
@@ -74,13 +65,7 @@ def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: in
     return _curve(call, "COSMOS", file, [record], factor, in_si)
 
 
-@LIRE.form(
-    said("SIGNAL"),
-    *_ENTRIES,
-    syntax="EVO1 = LIRE 'SIGNAL' FIC1 (FLOT1 | 'SI') ;",
-    en="SIGNAL: ground motions as a table (CSV or blanks): a column of times and further ones, "
-    "under titles that name units, as in time (s); acceleration (g). A curve for each column.",
-)
+@LIRE.form(said("SIGNAL"), *_ENTRIES)
 def _signal(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     found = read_titled(file_to_read(call, str(file), ".csv"))
     return _curve(call, "SIGNAL", file, found, factor, in_si)

@@ -165,11 +165,6 @@ _WORDS = (
     many("objects", "*", "TEXTE", whole=True, en="objects, all that have a name by default"),
     family="files",
     full_name="SAUVER",
-    en="Saves objects, all that they refer to and the names of both, to the file that OPTI "
-    "SAUV names, in the output folder; without objects, everything that has a name. Further "
-    "statements add to the file, under a LABEL if one is given. REST reads it back. The "
-    "format is ssilang's own (JSON and arrays), FORMAT and MUET change nothing.",
-    syntax="SAUV ('FORMAT') ('LABEL' MOT1) ('MUET') (OBJ1 OBJ2 ...) ;",
 )
 def sauv(
     call: Call, formatted: bool, label: str, silent: bool, objects: tuple[Operand, ...]
@@ -244,17 +239,7 @@ def _settings(ws: Workspace) -> dict[str, Any]:
 # ---- REST
 
 
-@operator(
-    "REST",
-    *_WORDS,
-    gives=ANY,  # a name that it restores may be spelt like it
-    family="files",
-    full_name="RESTITUER",
-    en="Gives back the objects of the file that OPTI REST names, under their names; up to the "
-    "record of a LABEL if one is given. Its nodes are added to those that exist, as are the "
-    "unknowns of OPTI INCO. Dimension and mode are those of the file if none has been set.",
-    syntax="REST ('FORMAT') ('LABEL' MOT1) ;",
-)
+@operator("REST", *_WORDS, gives=ANY, family="files", full_name="RESTITUER")
 def rest(call: Call, formatted: bool, label: str, silent: bool) -> None:
     """Read a file's records into names."""
     name = option_name(call.session, "REST", 2)

@@ -29,13 +29,7 @@ from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
 from ssilang.operators.workspace import workspace
 
-SORT = shared(
-    "SORT",
-    "files",
-    "Writes objects to the file that OPTI SORT names (fort.7 if it names none), in the output "
-    "folder. The extension may be left out.",
-    full_name="SORTIR",
-)
+SORT = shared("SORT", "files", full_name="SORTIR")
 
 
 def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Path:
@@ -71,11 +65,6 @@ _NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
     select(
         "separator", {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),
-    syntax="SORT 'EXCE' OBJ1 (OBJ2 ...) ('NCOL' N1) ('SEPA' PVIR|VIRG|ESPA|TABU|OBLI) "
-    "('DIGI' N2) ;",
-    en="EXCE: a CSV table with a column for each list of the objects (LISTREEL LISTENTI LISTMOTS "
-    "EVOLUTION TABLE), headed by the curves' axis names and the tables' indices. NCOL columns "
-    "at most side by side, DIGI decimals. Further SORT statements append.",
 )
 def _exce(
     call: Call,
@@ -119,14 +108,7 @@ def _columns(value: Any, name: str, units: UnitSystem | None) -> list[Column]:
     return []
 
 
-@SORT.form(
-    said("CHAI"),
-    *TEXT,
-    gives=(),
-    by_hand=TEXT_IS_FREE,
-    syntax="SORT 'CHAI' OBJ1 (OBJ2 ...) ;",
-    en="CHAI: a line of text, written as MESS writes it. Further SORT statements append.",
-)
+@SORT.form(said("CHAI"), *TEXT, gives=(), by_hand=TEXT_IS_FREE)
 def _chai(call: Call, word: str) -> None:
     text = read_text(call)
     run_output(call.session).add_lines("SORT", target_path(call), [text])
@@ -138,9 +120,6 @@ def _chai(call: Call, word: str) -> None:
     arg("value", "FLOTTANT", en="figure", range=CARRIED),
     opt("expected", "FLOTTANT", en="value expected", range=CARRIED),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
-    syntax="SORT 'BILA' MOT1 FLOT1 (FLOT2 FLOT3) ;",
-    en="BILA: reports a figure of the run under a name in summary.json, with the value expected "
-    "and the tolerance on their distance if there are any.",
 )
 def _bila(
     call: Call, name: str, value: float, expected: float | None, tolerance: float | None

@@ -39,10 +39,6 @@ from ssilang.operators.workspace import workspace
     opt("cells", "MCHAML", en="field in cells"),
     flag("follows", "SUIT", en="behind what is written"),
     key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
-    syntax="SORT 'AVS ' (MAIL1) (CHPO1) (MCHAML1) ('SUIT') ('TEMP' FLOT1) ;",
-    en="AVS: a mesh (else the cells of the field in cells, else the nodes of the nodal field) with "
-    "a nodal field and a field in cells (one mean value a cell), in AVS UCD text. SUIT appends a "
-    "structure to those written since OPTI SORT, TEMP adds the value 'time'.",
 )
 def _avs(
     call: Call,
@@ -73,12 +69,7 @@ def _support(
     raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML"))
 
 
-@SORT.form(
-    said("STL"),
-    arg("mesh", "MAILLAGE", en="surface of TRI3"),
-    syntax="SORT 'STL ' MAIL1 ;",
-    en="STL: a surface of TRI3 as STL text.",
-)
+@SORT.form(said("STL"), arg("mesh", "MAILLAGE", en="surface of TRI3"))
 def _stl(call: Call, mesh: Mesh) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
@@ -88,13 +79,7 @@ def _stl(call: Call, mesh: Mesh) -> None:
 _MESH = arg("mesh", "MAILLAGE", en="mesh")
 
 
-@SORT.form(
-    said("ABAQ"),
-    _MESH,
-    syntax="SORT 'ABAQ' MAIL1 ;",
-    en="ABAQ: the nodes and cells of a mesh of solids as an Abaqus deck (.inp); in two dimensions "
-    "OPTI MODE says which: CPS, CPE or CAX.",
-)
+@SORT.form(said("ABAQ"), _MESH)
 def _abaq(call: Call, mesh: Mesh) -> None:
     ws = workspace(call.session)
     plane = PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
@@ -104,13 +89,7 @@ def _abaq(call: Call, mesh: Mesh) -> None:
     output.add_lines("SORT", target_path(call, ".inp"), lines)
 
 
-@SORT.form(
-    said("NAS"),
-    _MESH,
-    syntax="SORT 'NAS' MAIL1 ;",
-    en="NAS: the nodes and cells of a mesh as Nastran bulk data (.bdf), a property number for "
-    "each kind of cells.",
-)
+@SORT.form(said("NAS"), _MESH)
 def _nas(call: Call, mesh: Mesh) -> None:
     lines = nastran_lines(parted(mesh)[0])
     output = run_output(call.session)
@@ -128,11 +107,6 @@ def _nas(call: Call, mesh: Mesh) -> None:
     flag("unknowns", "INCO", en="a file of the unknowns too"),
     flag("places", "GEOM", en="a file of the nodes too"),
     arg("matrix", "RIGIDITE", en="matrix"),
-    syntax="SORT 'MAT ' 'MM' 'ASSE' RIGI1 ('TITR' MOT1) ('INCO') ('GEOM') ;",
-    en="MAT: a matrix, assembled, as Matrix Market text (.mm), the multipliers of its conditions "
-    "behind its unknowns. INCO adds a file .inco (local node and component of each unknown, then "
-    "of each equation, then the names), GEOM a file .geom (coordinates of the local nodes, number "
-    "of the node).",
 )
 def _mat(
     call: Call,
@@ -161,13 +135,7 @@ def _mat(
         output.wrote(target)
 
 
-@SORT.form(
-    main("mesh", "MAILLAGE", en="mesh"),
-    flag("kept", "NOOP", en="changes nothing"),
-    syntax="SORT MAIL1 ('NOOP') ;",
-    en="Without a word: a mesh with its named parts (points and meshes on its nodes), in a file of "
-    "ssilang's own that LIRE reads; SAUV saves everything else too.",
-)
+@SORT.form(main("mesh", "MAILLAGE", en="mesh"), flag("kept", "NOOP", en="changes nothing"))
 def _sort_mesh(call: Call, mesh: Mesh, kept: bool) -> None:
     frame = call.session.frame
     encoder = Encoder()
@@ -194,12 +162,7 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
     return False
 
 
-@LIRE.form(
-    lead("file", "MOT", en="file, or mesh that must be there"),
-    gives="TABLE|",
-    syntax="TAB1 = LIRE FIC1 ;",
-    en="A file by its ending (LIRE 'm.msh'): as MESH.",
-)
+@LIRE.form(lead("file", "MOT", en="file, or mesh that must be there"), gives="TABLE|")
 def _lire_file(call: Call, file: str) -> Table | None:
     if "." in file:  # which no name has
         return mesh_table(call, str(file))
@@ -207,12 +170,7 @@ def _lire_file(call: Call, file: str) -> Table | None:
     return None
 
 
-@LIRE.form(
-    named("wanted", optional=True, en="mesh that must be there"),
-    syntax="LIRE (GEO1) ;",
-    en="Without a word: the mesh and its named parts from the file that OPTI LECT names, written "
-    "by SORT; GEO1 must be one of them if it is given.",
-)
+@LIRE.form(named("wanted", optional=True, en="mesh that must be there"))
 def _lire_own(call: Call, wanted: str) -> None:
     path = input_path(call, option_name(call.session, "LECT", 4))
     with closing(read_archive(path)) as archive:

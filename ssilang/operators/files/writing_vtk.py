@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -9,19 +10,19 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.run_output import RunOutput
-from ssilang.io.vtk.labels import Labels
+from ssilang.io.vtk.labels import Labels, labels_of
 from ssilang.io.vtk.series import Part, Series, SeriesWriter, strip_extension
 from ssilang.io.vtk.vtu import Encoding
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.changes.local_refinement import parted
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.language.registry import arg, choice, flag, key, many, said
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.files.cell_names import cell_labels
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import units_in_si
@@ -79,18 +80,6 @@ _TIME = arg("t", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
     flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
-    syntax="SORT 'VTK ' OBJ1 (MOT1) (OBJ2 (MOT2) ...) ('FORM'|'BINA'|'ZIP') "
-    "('AUTO'|'NOUV'|'SUIT'|'NPVD') ('VTU'|'VTKHDF') ('TEMP' FLOT1) ('DOUBLE_PRECISION') ;",
-    en="VTK: meshes, nodal fields, fields in cells and tables of them, each with an optional name, "
-    "as .vtu files for ParaView: NAME.vtu for one mesh, NAME.step.mesh.vtu for several meshes or "
-    "times (TEMP), and NAME.pvd that lists them. Displacements, velocities and forces become "
-    "vectors, stresses and strains tensors, joints' tractions and openings vectors in the joint's "
-    "axes. AUTO goes on with the series that this run began when the time grows, else begins a "
-    "new one; SUIT goes on with the .pvd that is there, NOUV begins anew, NPVD writes no list. "
-    "VTKHDF: NAME.vtkhdf has all times, its mesh once (that may not change); ParaView 5.12 and "
-    "pyvista open it, while the run goes on too. Cells have the numbers of the meshes (group) and "
-    "models (material) whose names the script has, the field data says which is which. "
-    "Numbers are written in double precision, packed unless FORM or BINA says otherwise.",
 )
 def _vtk(call: Call, word: str) -> None:
     said = _read(call)
@@ -213,3 +202,41 @@ def _part(mesh: Mesh, said: _Said, labels: Labels) -> Part:
     ids = mesh.sorted_node_ids
     points = {n: f for n, f in said.points.items() if np.isin(f.node_ids, ids).any()}
     return Part(mesh, points, said.cells, labels)
+
+
+# What a script calls the cells that go to a VTK file: meshes and models by their names.
+
+_PARTS = (Mesh, Model, Point, str)
+
+
+def cell_labels(session: Session, parts: Mapping[str, Mesh]) -> dict[str, Labels]:
+    """Labels of the cells of named parts.
+
+    `group` is the smallest mesh with a name in the script that has the cell, `material` the
+    smallest such model, `part` which of several parts.
+    """
+    groups: dict[str, tuple[CellBlock, ...]] = {}
+    materials: dict[str, tuple[CellBlock, ...]] = {}
+    for name, value in _named(session):
+        if isinstance(value, Mesh):
+            groups.setdefault(name, value.blocks)
+        elif isinstance(value, Model):
+            materials.setdefault(name, tuple(zone.cells for zone in value.zones))
+    told = {"group": groups, "material": materials}
+    return {
+        name: labels_of(mesh, told, (i, name) if len(parts) > 1 else None)
+        for i, (name, mesh) in enumerate(parts.items(), start=1)
+    }
+
+
+def _named(session: Session) -> Iterator[tuple[str, Any]]:
+    """Objects by their names, then those of tables by theirs."""
+    frame = session.frame
+    found = [(name, frame.find(name)) for name in sorted(frame.names())]
+    yield from found
+    for _, value in found:
+        # those that are made as they are asked for hold none, nor do those of other entries
+        if type(value) is Table and all(isinstance(v, _PARTS) for _, v in value.items()):
+            for index, held in value.items():
+                if isinstance(index, str):
+                    yield index.strip(), held

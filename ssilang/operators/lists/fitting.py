@@ -32,10 +32,6 @@ _GAIN = 1e-12
     ),
     key("weights", "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"),
     family="lists",
-    en="The parameters that bring a function nearest to measured values: from its values and "
-    "derivatives for a first set of parameters, those for which the sum of (weight * "
-    "difference) ** 2 is least, the function taken for linear. Repeated, it serves for others.",
-    syntax="LREE1 = MOCA LREE2 LREE3 LREE4 LREE5 (LREE6 ...) ('POIDS' LREE7) ;",
 )
 def moca(
     call: Call,
@@ -93,11 +89,6 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
         en="`LY LDY = PROC1 LX LP`",
     ),
     family="lists",
-    en="The parameters of a function that bring it nearest to measured points, by Levenberg's "
-    "and Marquardt's damped steps, and the criterion, the sum of (weight * difference) ** 2. "
-    "The procedure is given the points and the parameters; it gives the values and their "
-    "derivatives by the parameters in one list, point after point.",
-    syntax="LREE1 X1 = LEVM 'ABSC' LREE2 'ORDO' LREE3 'SIGM' LREE4 'PARA' LREE5 'PROC' PROC1 ;",
 )
 def levm(
     call: Call,
@@ -164,11 +155,6 @@ def _damped(
     flag("matrices", "MATR", en="not available"),
     family="lists",
     full_name="GANEWTON",
-    en="The step of Gauss' and Newton's method towards the least f.f: the table of sub-type "
-    "VECTEUR holds f for the present variables at 0 and its derivatives at 1 to n (numbers, "
-    "lists or nodal fields), the result the steps H1 to Hn, [J^T J + nu I] H = - J^T f. "
-    "'AMOR' gives nu (Levenberg and Marquardt), else 0.",
-    syntax="TAB2 = GANE TAB1 ('AMOR' X1) ;",
 )
 def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:
     """A step of Gauss and Newton."""

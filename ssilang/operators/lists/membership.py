@@ -24,15 +24,7 @@ from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
 
-DANS = shared(
-    "DANS",
-    "lists",
-    en="Whether a list of integers stands in another one (as its k-th stretch of that "
-    "length), a real in a list, a point in a mesh, a list of reals in another, in sequence "
-    "('SEQU') or in any order ('QUEL').",
-    syntax="LOG1 = DANS LENT1 LENT2 ; LOG1 = DANS LREE1 X1 ; LOG1 = DANS POIN1 MAIL1 ; "
-    "LOG1 = DANS ('SEQU' | 'QUEL') LREE1 LREE2 ;",
-)
+DANS = shared("DANS", "lists")
 _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")
 _SECOND = "list where it is looked for"
 
@@ -108,8 +100,6 @@ Subtracted = ListReel | ListEnti | ListMots
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("first"),
     family="lists",
-    en="The items of a list that are not in a second one.",
-    syntax="LIS3 = LIS1 SAUF LIS2 (X1 | 'NOCA') ;",
 )
 def sauf(
     call: Call, first: Subtracted, second: Subtracted, tolerance: float | None, fold: bool
@@ -126,8 +116,6 @@ def sauf(
 @INTE.form(
     main("first", "LISTREEL", en="first list"),
     arg("second", "LISTREEL", en="second list", range=CARRIED),
-    syntax="LREE3 = LREE1 INTE LREE2 ;",
-    en="Two lists of reals: the values of the first that the second holds as well.",
 )
 def common_reals(first: ListReel, second: ListReel) -> ListReel:
     """Values in both lists, in the order of the first."""

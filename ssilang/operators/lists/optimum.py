@@ -19,20 +19,7 @@ _HISTORY = "EXCE_ASYMPTOTES"
 
 
 @operator(
-    "EXCE",
-    arg("table", "TABLE", en="values and slopes"),
-    family="lists",
-    full_name="EXCELLENCE",
-    en="A step of the method of moving asymptotes (Svanberg) towards the least F(X1 ... XN) "
-    "under C1(X) <= C1MAX ... and bounds. Tables by number: VX0 . i the present point; VF . 0 "
-    "the value of F there, VF . i its derivatives; MC . j . 0 and MC . j . i those of Cj; "
-    "VXMIN, VXMAX, VCMAX the bounds. The table comes back with the new point in VX0: work out "
-    "values and slopes there and call again. METHODE 'STA' (default) has asymptotes at T0 X "
-    "and X / T0 (T0 0.3333; variables of one sign, else at twice the range), 'MOV' asymptotes "
-    "that follow the steps (S0 0.7), from those of T0 where it is given, 'LIN' tangents. From "
-    "a point that misses conditions, these may be given up at a cost: DELTA0 (50) times what "
-    "F may change over the range.",
-    syntax="TAB1 = EXCE TAB1 ;",
+    "EXCE", arg("table", "TABLE", en="values and slopes"), family="lists", full_name="EXCELLENCE"
 )
 def exce(call: Call, table: Table) -> Table:
     """One convex problem."""

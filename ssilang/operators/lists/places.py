@@ -82,10 +82,6 @@ def _plain(item: Any) -> Any:
         kind="component",
     ),
     opt("point", "POINT", en="where"),
-    syntax="LREE1 = EXTR LCHP1 'VALE' (POIN1) (MOT1 | LMOT1) ;",
-    en="Of a list of fields, with 'VALE': their values at a point, component by component (zero "
-    "where a field does not stand on it; one that none stands on is refused). The point may be "
-    "left out where all fields stand on a single one.",
 )
 def _values_at(
     call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point | None
@@ -118,23 +114,12 @@ def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     return _plain(value.values[chosen[0]])
 
 
-EXTR.form(
-    _list("LISTREEL"),
-    _PLACES,
-    gives="FLOTTANT|LISTREEL",
-    syntax="OBJ1 = EXTR LIS1 N1 ; LIS2 = EXTR LIS1 LENT1 ;",
-    en="Of a list: the item at place N1 (from 1), or the list of the items at places LENT1.",
-)(_extract)
+EXTR.form(_list("LISTREEL"), _PLACES, gives="FLOTTANT|LISTREEL")(_extract)
 for _kind in LISTS[1:-1]:
     EXTR.form(_list(_kind), _PLACES, gives=f"{_ITEM[_kind]}|{_kind}")(_extract)
 
 
-@EXTR.form(
-    _list("LISTOBJE"),
-    key("kind", "TYPE", optional=False, en="type of its objects"),
-    syntax="MOT1 = EXTR LOBJ1 'TYPE' ;",
-    en="Of a list of objects, with 'TYPE': the type of its objects, blank if it holds none.",
-)
+@EXTR.form(_list("LISTOBJE"), key("kind", "TYPE", optional=False, en="type of its objects"))
 def _type_of_items(value: ListObje, kind: bool) -> Mot:
     first = type_of(value.values[0]) if value.values else ""  # all are of one type
     return Mot(f"{first:8s}")
@@ -143,13 +128,7 @@ def _type_of_items(value: ListObje, kind: bool) -> Mot:
 EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
 
 
-@ENLE.form(
-    _LIST,
-    _PLACES,
-    gives=Like("value"),
-    syntax="LIS2 = ENLE LIS1 N1 | LENT1 ;",
-    en="Of a list: without the items at places N1 or LENT1 (places before any removal).",
-)
+@ENLE.form(_LIST, _PLACES, gives=Like("value"))
 def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     gone = set(_places(call, len(value), places))
     return taken(value, [i for i in range(len(value)) if i not in gone])
@@ -162,24 +141,17 @@ _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
     main("places", "LISTENTI", en="places, before the list"),
     arg("value", *_OTHER_LISTS, en="list", range=CARRIED),
     gives=Like("value"),
-    en="Places may stand before a list of another type.",
 )
 def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
     return _remove(call, value, places)
 
 
-@DIME.form(_LIST, en="Of a list: its number of items.")
+@DIME.form(_LIST)
 def _size(value: AnyList) -> int:
     return len(value)
 
 
-INSE = shared(
-    "INSE",
-    "lists",
-    en="New list with an item put at place N1; those from there on move up.",
-    syntax="LIS2 = INSE LIS1 N1 OBJ1 ;",
-    full_name="INSERER",
-)
+INSE = shared("INSE", "lists", full_name="INSERER")
 
 
 def _insert(call: Call, value: AnyList, place: int, item: Any) -> Any:
@@ -203,14 +175,7 @@ for _kind, _item in _ITEM.items():
     )(_insert)
 
 
-REMP = shared(
-    "REMP",
-    "lists",
-    en="Replaces items of a list in place: all names of the list see it. Of a word: a new "
-    "word where each MOT2 is replaced by MOT3.",
-    syntax="REMP LIS1 N1 | LENT1 OBJ1 | LIS2 ; MOT4 = REMP MOT1 MOT2 | LMOT2 MOT3 | LMOT3 ;",
-    full_name="REMPLACER",
-)
+REMP = shared("REMP", "lists", full_name="REMPLACER")
 
 
 def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> None:
@@ -267,8 +232,6 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
     gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
     family="lists",
     full_name="SOMME",
-    en="Sum of the values of a list; with 'CUMU' the list of partial sums.",
-    syntax="X1 = SOMM LIS1 ; LIS2 = SOMM 'CUMU' LIS1 ;",
 )
 def somm(running: bool, value: ListReel | ListEnti) -> Any:
     """Sum a list."""
@@ -282,22 +245,12 @@ def somm(running: bool, value: ListReel | ListEnti) -> Any:
     return ListEnti(sums)
 
 
-@INVE.form(
-    _LIST,
-    gives=Like("value"),
-    syntax="LIS2 = INVE LIS1 ;",
-    en="Of a list: its items in reverse order.",
-)
+@INVE.form(_LIST, gives=Like("value"))
 def _reverse(value: AnyList) -> Any:
     return taken(value, list(range(len(value) - 1, -1, -1)))
 
 
-@COPI.form(
-    _LIST,
-    gives=Like("value"),
-    syntax="LIS2 = COPI LIS1 ;",
-    en="Of a list: a list of its own, that REMP changes without changing the first.",
-)
+@COPI.form(_LIST, gives=Like("value"))
 def _copy(value: AnyList) -> Any:
     return taken(value, list(range(len(value))))
 

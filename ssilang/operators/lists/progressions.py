@@ -275,15 +275,6 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
     ),
     *_items("FLOTTANT"),
     family="lists",
-    en="List of reals. A PAS S B goes from A to B by steps of about S (adjusted to hit B); "
-    "NPAS N gives N more values; GEOM R makes the steps grow by R; N * X repeats. SINU, LINE, "
-    "EXPO, LOGA give a function of a list, TABL the numbers of a table in the order of its "
-    "integer indices.",
-    syntax="LREE1 = PROG X1 X2 ... (PAS S1 (GEOM R1) X3 | PAS S1 (GEOM R1) NPAS N1) "
-    "(N2 * X4) ... ;\n"
-    "LREE1 = PROG 'SINU' F1 ('PHAS' P1) ('AMPL' A1) LREE2 ;\n"
-    "LREE1 = PROG 'LINE' | 'EXPO' | 'LOGA' ('A' A1) ('B' B1) LREE2 ;\n"
-    "LREE1 = PROG 'TABL' TAB1 ;",
     reads_itself=_FREE,
 )
 def prog(call: Call) -> ListReel:
@@ -340,15 +331,7 @@ def _function_of_list(call: Call, word: str) -> ListReel:
     return ListReel(np.exp(line) if word == "EXPO" else np.log(line))
 
 
-@operator(
-    "LECT",
-    *_items("ENTIER"),
-    family="lists",
-    en="List of integers. A PAS S B goes from A to B by steps of S, NPAS N gives N more "
-    "values, N * I repeats.",
-    syntax="LENT1 = LECT I1 I2 ... (PAS S1 I3 | PAS S1 NPAS N1) (N2 * I4) ... ;",
-    reads_itself=_FREE,
-)
+@operator("LECT", *_items("ENTIER"), family="lists", reads_itself=_FREE)
 def lect(call: Call) -> ListEnti:
     """Read integers."""
     items = _read_items(call, ("ENTIER",))
@@ -363,8 +346,6 @@ def lect(call: Call) -> ListEnti:
     "MOTS",
     many("words", "MOT", "ENTIER", en="words, or N * word", range=ANY_NUMBER),
     family="lists",
-    en="List of words; N * MOT1 repeats.",
-    syntax="LMOT1 = MOTS (N1 *) MOT1 (MOT2 ...) ;",
     reads_itself=_FREE,
 )
 def mots(call: Call) -> ListMots:
@@ -394,8 +375,6 @@ def mots(call: Call) -> ListMots:
     many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
     family="lists",
     full_name="SUITE",
-    en="List of nodal fields.",
-    syntax="LCHP1 = SUIT (CHPO1 CHPO2 ...) ;",
 )
 def suit(fields: tuple[Any, ...]) -> ListChpo:
     """Collect fields."""
@@ -409,9 +388,6 @@ def suit(fields: tuple[Any, ...]) -> ListChpo:
     "ENUM",
     many("objects", en="objects of one type, or N * object"),
     family="lists",
-    en="List of objects of one type; N * OBJ1 repeats, TABL takes those of a table in the "
-    "order of its integer indices.",
-    syntax="LOBJ1 = ENUM (N1 *) OBJ1 (OBJ2 ...) ; LOBJ1 = ENUM 'TABL' TAB1 ;",
     reads_itself=_FREE,
 )
 def enum(call: Call) -> ListObje:

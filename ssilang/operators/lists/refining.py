@@ -15,21 +15,7 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.mesh.changes.refining import refined
 
-RAFF = shared(
-    "RAFF",
-    "lists",
-    en="A list with each interval cut: into N1 equal parts; into parts whose size is as near as "
-    "can be to FLOT1; or with N1 negative into about -N1 parts whose sizes go geometrically "
-    "from one interval to the next. Equal values that follow one another are repeated "
-    "likewise.\n"
-    "A mesh (SEG2 TRI3 QUA4 TET4 CUB8 PRI6) with a field of sizes: cells are cut into 2, 4 or "
-    "8 until no edge is longer than the size wanted, neighbours differing by one cut at most. "
-    "Nodes that then hang in the middle of an edge or a face of a coarser cell are held by "
-    "SURE cells of the mesh (the node, then those that it follows; ELEM 'SURE' takes them); "
-    "RELA with a model of the mesh makes the relations that tie them.",
-    syntax="LREE2 = RAFF LREE1 N1 | FLOT1 ;\nGEO2 = RAFF GEO1 CHPO1 ;",
-    full_name="RAFFINER",
-)
+RAFF = shared("RAFF", "lists", full_name="RAFFINER")
 _LIST = arg("value", "LISTREEL", en="list", range=ANY_NUMBER)
 
 RAFF.form(

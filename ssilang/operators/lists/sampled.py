@@ -22,10 +22,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
     ),
     arg("values", "LISTREEL", en="samples", range=ANY_NUMBER),
     family="lists",
-    en="Every other value of a list ('DIRE', the default), the first kept; or a list with a "
-    "zero ('INVE') or the mean of the two neighbours ('IVIN') put after each value, up to an "
-    "even length 2 n or, for odd n, 2 n - 1.",
-    syntax="LIST1 = DIAD ('DIRE' | 'INVE' | 'IVIN') LIST2 ;",
 )
 def diad(way: str, values: ListReel) -> ListReel:
     """Halve or double the sampling."""
@@ -47,8 +43,6 @@ def diad(way: str, values: ListReel) -> ListReel:
     opt("a", "FLOTTANT", default=1.0, en="factor", range=ANY_NUMBER),
     opt("b", "FLOTTANT", default=1.0, en="second factor", range=ANY_NUMBER),
     family="lists",
-    en="Dot product of two lists (or of one with itself) times two numbers.",
-    syntax="X1 = LTL LREEL1 (LREEL2) (X2 (X3)) ;",
 )
 def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float) -> float:
     """Dot product."""
@@ -75,11 +69,6 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
         en="beyond its ends the signal is mirrored, or zero",
     ),
     family="signals",
-    en="Convolution of a signal with a response: value k is the sum over j of response j times "
-    "signal k - j. The list gives the response for j = 0, 1 ... of a symmetric one, or with "
-    "'NPNE' N1 all of it from j = -N1. Beyond its ends the signal is mirrored ('SYME', the "
-    "default) or zero ('PADD').",
-    syntax="LREEL1 = CVOL LREEL2 LREEL3 ('NPNE' N1) ('SYME' | 'PADD') ;",
 )
 def cvol(
     call: Call, signal: ListReel, response: ListReel, before: int | None, ends: str
@@ -138,11 +127,6 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
     arg("values", "LISTREEL", en="arguments", range=ANY_NUMBER),
     family="lists",
     full_name="FONCTION",
-    en="Special functions of the values of a list: Bessel's J0 J1 Y0 Y1 ('BESSEL'), Fresnel's "
-    "integrals of cos(t)/sqrt(2 pi t) ('FRESNEL' 'CX') or sin(t)/sqrt(2 pi t) ('SX') from 0 "
-    "to x, the gamma function ('GAMMA').",
-    syntax="LREEL1 = FONC 'BESSEL' 'J0' | 'J1' | 'Y0' | 'Y1' LREEL2 ;\n"
-    "LREEL1 = FONC 'FRESNEL' 'CX' | 'SX' LREEL2 ; LREEL1 = FONC 'GAMMA' LREEL2 ;",
 )
 def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
     """Special functions."""
@@ -156,14 +140,7 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
     return ListReel(_special(kind, name, x))
 
 
-@operator(
-    "ZLEG",
-    arg("degree", "ENTIER", en="degree", range=NOT_NEGATIVE),
-    family="lists",
-    en="Points of Gauss-Lobatto on (-1, 1): the zeros of the derivative of Legendre's "
-    "polynomial of degree N1 and the two ends, and their weights: N1 + 1 of each.",
-    syntax="LREEL1 LREEL2 = ZLEG N1 ;",
-)
+@operator("ZLEG", arg("degree", "ENTIER", en="degree", range=NOT_NEGATIVE), family="lists")
 def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:
     """Lobatto's quadrature."""
     if not 1 <= degree <= 500:

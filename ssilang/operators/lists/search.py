@@ -66,10 +66,6 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     gives="ENTIER|LISTENTI",
     family="lists",
     full_name="POSITION",
-    en="Place of an item in a list (of a word in a word, of a point in a mesh of points), 0 "
-    "if it is not there. 'TOUS' gives all places; a list of items gives the first place of "
-    "each. 'NOCA' forgets the case; a real at the end is the absolute tolerance.",
-    syntax="N1 | LENT1 = POSI OBJ1 'DANS' LIS1 (FLOT1) ('NOCA') ('TOUS') ;",
 )
 def posi(
     call: Call, item: Any, where: Any, every: bool, fold: bool, tolerance: float | None
@@ -206,12 +202,6 @@ def _sort_by_cost(
     _OTHERS,
     opt("table", "TABLE", en="refused: a table of lists stands before the list"),
     gives=Like("value", ("others",)),
-    syntax="LIS2 = ORDO LIS1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;\n"
-    "LIS3 LIS4 ... = ORDO LIS1 LIS2 ... ('CROI' | 'DECR') ('ABSO') ('NOCA') ;\n"
-    "X1 LIS2 ... = ORDO LIS1 ... 'COUT' LIS3 ('HONG' | 'COMP') ;",
-    en="Of lists: increasing order ('DECR': decreasing), 'ABSO' by absolute values, 'NOCA' "
-    "whatever the case, 'UNIQ' without doubles; further lists follow the first one's order. "
-    "'COUT' gives the least total cost, then the lists in the permutation that has it.",
 )
 def _sort_lists(
     call: Call,
@@ -258,14 +248,7 @@ _TABLE = main("table", "TABLE", en="table of lists")
 _INDEX_EN = "index of the list to sort by, or a list beside the table"
 
 
-@ORDO.form(
-    *_COST,
-    *_ORDER,
-    _TABLE,
-    opt("index", en="changes nothing: all lists follow"),
-    gives=ANY,
-    syntax="X1 TAB2 = ORDO TAB1 'COUT' LIS3 ('HONG' | 'COMP') ;",
-)
+@ORDO.form(*_COST, *_ORDER, _TABLE, opt("index", en="changes nothing: all lists follow"), gives=ANY)
 def _sort_table_by_cost(
     call: Call, table: Table, cost: Chosen, **_: object
 ) -> tuple[float | int, Table]:
@@ -281,15 +264,7 @@ def _sort_table_by_cost(
 
 # an index may be spelt like a keyword: it is one where no other index stands
 @ORDO.form(_TABLE, lead("index", en=_INDEX_EN), *_ORDER, _DISTINCT)
-@ORDO.form(
-    _TABLE,
-    *_ORDER,
-    _DISTINCT,
-    arg("index", en=_INDEX_EN),
-    syntax="TAB2 = ORDO TAB1 OBJ1 ('CROI' | 'DECR') ('ABSO') ('NOCA') ('UNIQ' (FLOT1)) ;",
-    en="Of a table of lists: all sorted as the list at index OBJ1; 'UNIQ' where it is the only "
-    "list. A list beside the table sorts those of its length in the same way.",
-)
+@ORDO.form(_TABLE, *_ORDER, _DISTINCT, arg("index", en=_INDEX_EN))
 def _sort_table(
     call: Call,
     table: Table,
@@ -328,9 +303,6 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("value", ("others",)),
-    syntax="OBJ3 (OBJ4 ...) = UNIQ OBJ1 (OBJ2 ...) (FLOT1) ('NOCA') ;",
-    en="Of lists and meshes: without doubles, the first ones kept; as many results as operands. "
-    "Cells are doubles on the same nodes, whatever their order and colour.",
 )
 def _unique(
     value: Sortable | Mesh,

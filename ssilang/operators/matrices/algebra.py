@@ -172,15 +172,10 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix")
         "antisymmetric part",
     ),
     gives=by("what", {"MAIL": "MAILLAGE", "COMP": "LISTMOTS", "DIAG": "CHPOINT"}, "RIGIDITE"),
-    syntax="GEO1 = EXTR RIG1 'MAIL' ('NOMU' | 'MULT' | 'UNIL') ;\n"
-    "RIG2 = EXTR RIG1 'RIGI' 'NOMU' | 'MULT' | 'UNIL' ;\nRIG2 = EXTR RIG1 'SYME' | 'ANTI' ;\n"
-    "LISTMOTS1 = EXTR RIG1 'COMP' ('DUAL') ;\nCHPO1 = EXTR RIG1 'DIAG' ;\n"
-    "RIG2 = EXTR RIG1 MOT1 MOT2 | LISTMOTS1 LISTMOTS2 ;",
-    en="Of a matrix: its mesh (without or with only the nodes of multipliers), its element "
-    "matrices or its conditions, its symmetric or antisymmetric part, the names of its unknowns, "
-    "its diagonal, or the terms of some unknowns and equations.",
 )
-def extract(call: Call, matrix: Matrix, what: Chosen) -> Mesh | Matrix | ListMots | NodeField:
+def extract_from_matrix(
+    call: Call, matrix: Matrix, what: Chosen
+) -> Mesh | Matrix | ListMots | NodeField:
     """A part of a matrix."""
     if what.word == "RIGI" and what["part"] is None:
         raise call.error("operators.matrices.extr-rigi-wants-word")
@@ -210,13 +205,7 @@ def extract_term(call: Call, matrix: Matrix, unknown: str, equation: str | None)
     return parts.named_part(matrix, {unknown.upper().rstrip()}, {equation.upper().rstrip()})
 
 
-@REDU.form(
-    _MATRIX,
-    arg("mesh", "MAILLAGE", en="cells that stay"),
-    syntax="RIG2 = REDU RIG1 GEO1 ;",
-    en="A matrix keeps the element matrices of the cells of the mesh, and the conditions on its "
-    "nodes.",
-)
+@REDU.form(_MATRIX, arg("mesh", "MAILLAGE", en="cells that stay"))
 def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
     """A matrix on fewer cells."""
     return parts.on_mesh(matrix, mesh)
@@ -225,14 +214,7 @@ def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
 _CHANGED = arg("matrix", "RIGIDITE", en="matrix")
 
 
-@CHAN.form(
-    said("TYPE"),
-    _CHANGED,
-    arg("kind", "MOT", en="its new kind"),
-    of=("RIGIDITE",),
-    syntax="RIG2 = CHAN 'TYPE' RIG1 MOT1 ;",
-    en="The same matrix of another kind ('RIGIDITE', 'MASSE', 'AMORTISS').",
-)
+@CHAN.form(said("TYPE"), _CHANGED, arg("kind", "MOT", en="its new kind"), of=("RIGIDITE",))
 def change_kind(matrix: Matrix, kind: str) -> Matrix:
     """Another kind."""
     name = kind.upper().rstrip()
@@ -240,13 +222,7 @@ def change_kind(matrix: Matrix, kind: str) -> Matrix:
     return Matrix(matrix.table, blocks, matrix.relations, name)
 
 
-@CHAN.form(
-    said("DEPE"),
-    _CHANGED,
-    of=("RIGIDITE",),
-    syntax="RIG2 = CHAN 'DEPE' RIG1 ;",
-    en="Relations to be eliminated by RESO: RESO eliminates all it can, so they stay as they are.",
-)
+@CHAN.form(said("DEPE"), _CHANGED, of=("RIGIDITE",))
 def dependent(matrix: Matrix) -> Matrix:
     """The matrix itself."""
     return matrix
@@ -256,10 +232,6 @@ def dependent(matrix: Matrix) -> Matrix:
     said("COND"),
     arg("matrix", "RIGIDITE", en="relations, alone or with a stiffness"),
     of=("RIGIDITE",),
-    syntax="RIG2 RIG3 = CHAN 'COND' RIG1 ;",
-    en="COND gives of relations the matrix of dependence T, which gives all unknowns of RIG1 by "
-    "those that the relations leave free (CHPO * RIG2, CMCT), and the one that condenses forces "
-    "(CHPO * RIG3). Unknowns that RIG1 does not have stay out of both products.",
 )
 def condensing(matrix: Matrix) -> tuple[Matrix, Matrix]:
     """Matrix of dependence and its dual."""
@@ -284,13 +256,6 @@ _FOUR = (
     _CHANGED,
     *_SHAPE,
     of=("RIGIDITE",),
-    syntax="RIG2 = CHAN 'INCO' RIG1 LISTMOTS1 LISTMOTS2 LISTMOTS3 LISTMOTS4 | MOT1 MOT2 MOT3 MOT4 "
-    "| 'COMP' ('SYME' | 'ANTI' | 'QUEL') ('DUPL') ;",
-    en="Gives the unknowns (first two lists: old, new names) and equations (last two) of a matrix "
-    "other names (or old names in the first two lists, new ones in the last two);"
-    " 'COMP' puts an I (imaginary part) before all of them, if there are no "
-    "conditions. The result counts as unsymmetric unless 'SYME' is said. 'DUPL' gives each "
-    "condition a multiplier of its own, so that it stands beside that from which it is made.",
 )
 def imaginary_names(
     call: Call, imaginary: bool, matrix: Matrix, shape: str | None, own: bool
@@ -389,12 +354,7 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
 
 
 @operator(
-    "XTMX",
-    arg("field", "CHPOINT", en="X"),
-    arg("matrix", "RIGIDITE", en="M"),
-    family="matrix",
-    en="Quadratic form X^T M X of a field and a matrix.",
-    syntax="X1 = XTMX CHPO1 RIG1 ;",
+    "XTMX", arg("field", "CHPOINT", en="X"), arg("matrix", "RIGIDITE", en="M"), family="matrix"
 )
 def xtmx(field: NodeField, matrix: Matrix) -> float:
     return _form(field, matrix, field)
@@ -406,27 +366,18 @@ def xtmx(field: NodeField, matrix: Matrix) -> float:
     arg("left", "CHPOINT", en="Y"),
     arg("matrix", "RIGIDITE", en="M"),
     family="matrix",
-    en="Bilinear form Y^T M X of two fields (X first) and a matrix.",
-    syntax="X1 = YTMX CHPO1 CHPO2 RIG1 ;",
 )
 def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
     return _form(left, matrix, right)
 
 
-@operator(
-    "DIMN",
-    arg("matrix", "RIGIDITE", en="matrix"),
-    family="matrix",
-    full_name="DIMNOYAU",
-    en="Dimension of the kernel of a matrix with its relations: the number of free motions.",
-    syntax="N1 = DIMN RIG1 ;",
-)
+@operator("DIMN", arg("matrix", "RIGIDITE", en="matrix"), family="matrix", full_name="DIMNOYAU")
 def dimn(matrix: Matrix) -> int:
     """Dimension of the kernel."""
     return int(linear_system(matrix).free_motions.shape[1])
 
 
-@DIME.form(main("matrix", "RIGIDITE", en="matrix"), en="Of a matrix: its number of unknowns.")
+@DIME.form(main("matrix", "RIGIDITE", en="matrix"))
 def unknowns(matrix: Matrix) -> int:
     """Number of unknowns."""
     return numbering_of(matrix).size

@@ -66,12 +66,6 @@ def _sign(words: Sequence[str]) -> Keyword:
         en="terms row by row, all or the lower triangle",
         range=ANY_NUMBER,
     ),
-    syntax="RIG1 = MANU 'RIGI' ('TYPE' MOT1) GEO1 LMOT1 ... ('DUAL' LMOT2 ...) ('ANTI' | 'QUEL') "
-    "LREEL1 ... ;",
-    en="Matrix by hand. The same element matrix on all cells of a mesh: names of the unknowns of a "
-    "node (or one list a node), then its terms row by row, all or the lower triangle, in one list "
-    "or one a row. A field gives a diagonal, or the column (row) of one unknown. A list of fields "
-    "gives the columns of a matrix on modal unknowns.",
 )
 def repeated(
     call: Call,
@@ -113,8 +107,6 @@ def repeated(
     arg("name", "MOT", kind="component", en="unknown or equation"),
     many("lists", "LISTMOTS", en="other names of the field"),
     of=("CHPOINT",),
-    syntax="RIG1 = MANU 'RIGI' CHPO1 'COLO' | 'LIGN' ('SYME' | 'ANTI' | 'QUEL') P1 MOT2 "
-    "('DUAL' | 'PRIM' MOT3) (LMOT1 LMOT2) ('TYPE' MOT1) ;",
 )
 def one_column(
     shape: str,
@@ -145,7 +137,6 @@ def one_column(
     flag("diagonal", "DIAG", en="a diagonal"),
     arg("field", "CHPOINT", en="terms of the diagonal"),
     of=("CHPOINT",),
-    syntax="RIG1 = MANU 'RIGI' CHPO1 ('DIAG') ('TYPE' MOT1) ;",
 )
 def diagonal(kind: str | None, diagonal: bool, field: NodeField) -> Matrix:
     """A diagonal matrix."""
@@ -158,7 +149,6 @@ def diagonal(kind: str | None, diagonal: bool, field: NodeField) -> Matrix:
     arg("fields", "LISTCHPO", en="columns"),
     arg("mesh", "MAILLAGE", en="points of the modes"),
     of=("LISTCHPO",),
-    syntax="RIG1 = MANU 'RIGI' LCHPO1 GEO1 ('TYPE' MOT1) ;",
 )
 def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
     """A matrix on modal unknowns, from its columns."""
@@ -166,12 +156,7 @@ def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
     return from_columns(mesh.nodes, mesh.node_ids, columns, _kind(kind, "MONODROM"))
 
 
-@MANU.form(
-    said("SUPE", "MULT"),
-    many("places", "POINT", "MAILLAGE", at_least=1, en="points"),
-    syntax="GEO1 = MANU 'SUPE' | 'MULT' P1 (P2 ...) | GEO2 ;",
-    en="'SUPE' and 'MULT' make one cell of all the points given, to carry a matrix by hand.",
-)
+@MANU.form(said("SUPE", "MULT"), many("places", "POINT", "MAILLAGE", at_least=1, en="points"))
 def one_cell(call: Call, word: str, places: tuple[Mesh | Point, ...]) -> Mesh:
     """One cell of all the points."""
     nodes = np.concatenate([nodes_of(p) for p in places])
@@ -197,11 +182,6 @@ def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
     opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
     opt("dual", "MOT", kind="component", en="dual, else the same"),
     family="matrix",
-    en="Matrix whose product with a nodal field smooths it: each node takes the mean of its "
-    "neighbours nearer than X1, weighed by (1 - d / X1) ** X2 and by the field CHPO1 (the "
-    "nodes' volumes, say); weights not above X3 are dropped. The words name the unknown "
-    "(SCAL) and the dual (the same).",
-    syntax="RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2)) ;",
 )
 def mfil(
     call: Call,
@@ -226,9 +206,6 @@ def mfil(
     arg("fields", "LISTCHPO", en="fields v"),
     arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
     family="matrix",
-    en="Full matrix of damping a1 v1 v1T + a2 v2 v2T + ... of fields v and numbers a, behind "
-    "M_DAMPIN and M_DAMP_K.",
-    syntax="RIG1 = ZXXT LCHP1 LREE1 ;",
 )
 def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
     """Sum of the outer products."""
@@ -241,9 +218,6 @@ def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
     arg("field", "CHPOINT", en="v"),
     opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
     family="matrix",
-    en="Stiffness a v v^T of a nodal field v (forces, or displacements): one full element on "
-    "all its nodes.",
-    syntax="RIG1 = XXT CHPO1 (X1) ;",
 )
 def xxt(field: NodeField, factor: float) -> Matrix:
     """Outer product."""
@@ -257,8 +231,6 @@ def xxt(field: NodeField, factor: float) -> Matrix:
     arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
     family="matrix",
     full_name="CABLE",
-    en="Stiffness of cables (SEG2) whose force is X1 at a lengthening of X2 percent.",
-    syntax="RIG1 = CABL GEO1 X1 X2 ;",
 )
 def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
     """Cables."""

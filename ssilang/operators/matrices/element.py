@@ -112,10 +112,6 @@ def _additional(
     *_IGNORED,
     family="matrix",
     full_name="RIGIDITE",
-    en="Stiffness matrix: of a model with its parameters (or Hooke matrices and geometric "
-    "parameters), or springs added at nodes: 'DEPL' on all translations, 'ROTA' on all "
-    "rotations, or on the named unknowns; every node gets the whole value.",
-    syntax="RIG1 = RIGI MODL1 MAT1 (CAR1) ;\nRIG1 = RIGI ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
 )
 def rigi(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
@@ -156,18 +152,7 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
     return [] if block is None else [block]
 
 
-@operator(
-    "MASS",
-    MODEL,
-    PARAMETERS,
-    *_IGNORED,
-    family="matrix",
-    full_name="MASSE",
-    en="Mass matrix: consistent one of a model with its parameters (RHO), or masses added at "
-    "nodes: 'DEPL' on all translations, 'ROTA' inertia on all rotations, or on the named "
-    "unknowns; every node gets the whole value.",
-    syntax="MAS1 = MASS MODL1 MAT1 (CAR1) ;\nMAS1 = MASS ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
-)
+@operator("MASS", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="MASSE")
 def mass(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
 ) -> Matrix:
@@ -183,17 +168,7 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
     return _additional(call, "MASSE", names, amount, place)
 
 
-@operator(
-    "LUMP",
-    MODEL,
-    PARAMETERS,
-    *_IGNORED,
-    family="matrix",
-    en="Diagonal mass matrix: of a model (rows summed for linear elements, diagonal scaled "
-    "to keep the mass for the others), or of a full matrix (rows summed; the unknowns of the "
-    "list keep their diagonal term).",
-    syntax="MAS1 = LUMP MODL1 MAT1 (CAR1) ;\nMAS2 = LUMP MAS1 (LMOT1) ;",
-)
+@operator("LUMP", MODEL, PARAMETERS, *_IGNORED, family="matrix")
 def lump(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
 ) -> Matrix:
@@ -219,14 +194,6 @@ def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
     *_IGNORED,
     family="matrix",
     full_name="AMORTISSEMENT",
-    en="Damping matrix: of a model whose parameters hold the viscosity VISQ (a stiffness "
-    "with VISQ for modulus); of the absorbing boundary GEO1 of a model (Lysmer: RHO VP along "
-    "the normal, RHO VS across, from YOUN NU RHO); or dashpots added at nodes: 'DEPL' on all "
-    "translations, 'ROTA' on all rotations, or on the named unknowns. 'COROTATIF': damping "
-    "that turns with beams at OMEG about their axis, with the circulatory stiffness beside it.",
-    syntax="AMO1 = AMOR MODL1 MAT1 ; AMO1 RIG1 = AMOR MODL1 MAT1 'COROTATIF' ;\n"
-    "AMO1 = AMOR MODL1 GEO1 MAT1 ;\n"
-    "AMO1 = AMOR ('DEPL') ('ROTA') | NOM1 ... VAL1 GEO1 ;",
 )
 def amor(
     call: Call,
@@ -280,17 +247,7 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
     return _additional(call, "AMORTISSEMENT", names, amount, place)
 
 
-@operator(
-    "HOOK",
-    MODEL,
-    PARAMETERS,
-    *_IGNORED,
-    family="matrix",
-    full_name="HOOKE",
-    en="Field of the elastic (Hooke) matrices of a model, component MAHO; RIGI, SIGM and ELAS "
-    "take it in the place of the parameters.",
-    syntax="HOO1 = HOOK MODL1 MAT1 (CAR1) ;",
-)
+@operator("HOOK", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="HOOKE")
 def hook(
     call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
 ) -> CellField:
@@ -311,9 +268,6 @@ def hook(
     _BUCKLING,
     family="matrix",
     full_name="KSIGMA",
-    en="Geometric stiffness of a stress field; with 'FLAM' it has the type MASSE that VIBR "
-    "wants: made from the opposite stresses, its eigenvalues are the critical load factors.",
-    syntax="RIG1 = KSIG MODL1 SIG1 (CAR1) ('FLAM') ;",
 )
 def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool) -> Matrix:
     """Geometric stiffness."""
@@ -335,11 +289,6 @@ _WHOLE = flag("whole", "ASYM", en="the unsymmetric part too")
     _BUCKLING,
     _WHOLE,
     family="matrix",
-    en="How the forces of a pressure change when the sides that carry it move and turn "
-    "(follower pressure): derivative of the nodal forces, symmetric part unless 'ASYM'. The "
-    "pressure, a nodal field or a field in cells, is positive along the sides' own normals. "
-    "'FLAM' gives the type MASSE for a buckling analysis with VIBR.",
-    syntax="RIG1 = KP MODL1 | CHPO1 | CHAM1 ('FLAM') ('ASYM') ;",
 )
 def kp(
     call: Call, model: Model, pressure: NodeField | CellField, buckling: bool, whole: bool
@@ -356,10 +305,6 @@ def kp(
     opt("direction", "POINT", en="its direction, else the sides' normals"),
     _BUCKLING,
     _WHOLE,
-    syntax="RIG1 = KP MODL1 X1 (VEC1) ('FLAM') ('ASYM') ;",
-    en="With a number X1: of a pressure that grows by X1 for each unit of way along VEC1, the "
-    "change of forces as the sides move in it. Without VEC1 it grows along the sides' own normals: "
-    "springs of X1 for each unit of area (Winkler's soil).",
 )
 def kp_of_gradient(
     call: Call,

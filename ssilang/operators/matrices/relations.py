@@ -133,19 +133,6 @@ _SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, 
     key("dual", "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"),
     family="relations",
     full_name="RELATION",
-    en="Linear relations, to add to the matrix of a system; DEPI gives their value (default 0). "
-    "A sum of terms makes one relation for each node of the meshes (all of the same number of "
-    "nodes, or of one); with 'MINI' the sum stays at or above the value, with 'MAXI' at or "
-    "below. A field makes one relation, its values times the unknowns of their names; 'DUAL' "
-    "gives the force on the body for a multiplier of one. 'CORI' moves a mesh as a rigid body: "
-    "'DEPL' keeps the distances of its nodes, which may not lie in a plane; 'DEPL' 'ROTA' "
-    "ties it to a centre that turns, the first node of GEO1 (beams, shells, or a point of its "
-    "own), and GEO2 are those of its nodes that have no rotations. 'ENSE' gives all nodes the "
-    "same value, 'ACCRO' hooks nodes onto the cells that they lie in, "
-    "'GLIS' does so but along the line, 'MILI' holds middle nodes between the corners.",
-    syntax="RIG1 = RELA ('MINI' | 'MAXI') (X1) MOT1 GEO1 + | - (X2) MOT2 GEO2 ... ;\n"
-    "RIG1 = RELA ... (X1) 'DEPL' | 'ROTA' ('DIRE' VEC1) GEO1 + | - ... ;\n"
-    "RIG1 = RELA ('MINI' | 'MAXI') CHPO1 ('DUAL' CHPO2) ;",
 )
 def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
     """One relation, from a field of factors."""
@@ -158,11 +145,7 @@ def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
     return as_matrix(replace(rows, dual=replace(reaction, coefficients=-reaction.coefficients)))
 
 
-@rela.form(
-    arg("model", "MMODEL", en="model with hanging nodes"),
-    _SIDE,
-    syntax="RIG1 = RELA MODL1 ;",
-)
+@rela.form(arg("model", "MMODEL", en="model with hanging nodes"), _SIDE)
 def of_hanging_nodes(call: Call, model: Model, sense: str | None) -> Matrix | None:
     """Ties of the hanging nodes of a model."""
     return tie_relations(model, workspace(call.session).nodes)
@@ -200,7 +183,6 @@ _HOST = arg("host", "MAILLAGE", en="cells that hold them")
         "POINT",
         en="GEO2: its nodes without rotations, such as the side of a solid",
     ),
-    syntax="RIG1 = RELA 'CORI' 'DEPL' ('NOVERIF') GEO1 | 'DEPL' 'ROTA' GEO1 (GEO2) ;",
 )
 def rigid_with_rotations(
     call: Call,
@@ -239,7 +221,6 @@ def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
     said("ENSE"),
     arg("unknown", "MOT", kind="component", en="unknown"),
     arg("mesh", "MAILLAGE", en="nodes"),
-    syntax="RIG1 = RELA 'ENSE' MOT1 GEO1 ;",
 )
 def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     """The same value at all nodes."""
@@ -254,7 +235,6 @@ def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     choice("strong", ("FORT",), optional=False, en="onto a model"),
     arg("host", "MMODEL", en="model that holds them"),
     arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie"),
-    syntax="RIG1 = RELA 'ACCRO' 'FORT' MODL2 GEO1 | MODL1 ;",
 )
 def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model | Point) -> Matrix:
     """Nodes hooked onto the cells of a model."""
@@ -263,14 +243,7 @@ def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model |
     return as_matrix(tied.hooked(nodes, host.mesh, names, 1e-5))
 
 
-@rela.form(
-    said("ACCRO"),
-    _GUEST,
-    _HOST,
-    _UNKNOWNS,
-    _TOLERANCE,
-    syntax="RIG1 = RELA GEO1 'ACCRO' | 'GLIS' GEO2 (LISTMOTS1) (FLOT1) ;",
-)
+@rela.form(said("ACCRO"), _GUEST, _HOST, _UNKNOWNS, _TOLERANCE)
 def hooked(
     call: Call, guest: Mesh | Point, host: Mesh, words: ListMots | None, tolerance: float
 ) -> Matrix:
@@ -294,12 +267,7 @@ def _unknowns(call: Call, words: ListMots | None) -> tuple[str, ...]:
     return tuple(str(w).rstrip() for w in words.values)
 
 
-@rela.form(
-    said("MILI"),
-    _UNKNOWNS,
-    arg("mesh", "MAILLAGE", en="quadratic cells"),
-    syntax="RIG1 = RELA 'MILI' (LISTMOTS1) GEO1 ;",
-)
+@rela.form(said("MILI"), _UNKNOWNS, arg("mesh", "MAILLAGE", en="quadratic cells"))
 def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
     """Middle nodes held between the corners."""
     mode = workspace(call.session).mode

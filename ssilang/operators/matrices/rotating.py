@@ -25,13 +25,6 @@ _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s", usual=NOT_Z
     PARAMETERS,
     _VECTOR,
     family="matrix",
-    en="Stiffness of a body in a turning frame, to be added to that of its elements: "
-    "'CENTRIFUGE' for the rotation vector w (rho w x (w x u), negative across the axis), "
-    "'EULER' for the rate of the vector (rho dw/dt x u, antisymmetric). Continuous elements, "
-    "bars, beams and pipes (whose mass stands on their line), shells (on their surface). In "
-    "axisymmetry and Fourier: 'CENTRIFUGE' about the axis, by the vector's second component "
-    "(1 without a vector).",
-    syntax="RIG1 = KENT 'CENTRIFUGE' | 'EULER' MODL1 MAT1 (VEC1) ;",
 )
 def kent(
     call: Call,
@@ -71,10 +64,6 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
     _VECTOR,
     family="matrix",
     full_name="CORIOLIS",
-    en="Coriolis' forces in a frame that turns at the vector w, as an antisymmetric damping: "
-    "2 rho w x v. Beside it stands the centrifugal stiffness of KENT. Continuous elements, "
-    "bars, beams and pipes (whose mass stands on their line), shells (on their surface).",
-    syntax="RIG1 = CORI MODL1 MAT1 VEC1 ;",
 )
 def cori(
     call: Call,
@@ -92,17 +81,7 @@ def cori(
     return Matrix(shown.mesh.nodes, blocks, (), kind)
 
 
-@operator(
-    "GYRO",
-    MODEL,
-    PARAMETERS,
-    family="matrix",
-    full_name="GYROSCOPIQUE",
-    en="Gyroscopic coupling of beams that turn about their own axis at the speed OMEG (rad/s, "
-    "a parameter), in a fixed frame: an antisymmetric matrix on the velocities, counted as a "
-    "damping.",
-    syntax="RIG1 = GYRO MODL1 MAT1 ;",
-)
+@operator("GYRO", MODEL, PARAMETERS, family="matrix", full_name="GYROSCOPIQUE")
 def gyro(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Turning beams."""
     shown, material = present(call, model), joined(fields)

@@ -25,25 +25,7 @@ from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing
 
-SUPE = shared(
-    "SUPE",
-    "matrix",
-    full_name="SUPER",
-    en="Super-elements. 'RIGIDITE': the stiffness of a body condensed onto master unknowns: those "
-    "of all unknowns at the nodes of a mesh, of another matrix, or of a field's components. "
-    "The "
-    "conditions in the matrix stay on the condensed one, their unknowns being masters too, so "
-    "that they can be loaded by DEPI and may be unilateral; with 'NOMU' they hold inside. "
-    "EXTR SUP1 'RIGI' gives the condensed stiffness. 'CHARGE': the loads on the masters "
-    "that do "
-    "what the loads on the body do. 'DEPLA': the displacement of the whole body from that of "
-    "the masters and its loads ('NOER' is accepted). 'MASSE': the mass that the masters asked "
-    "for feel, the conditions in the matrix holding; with 'LCHP' the displacement of the body "
-    "for a unit of each of them comes first.",
-    syntax="SUP1 = SUPE 'RIGIDITE' ('NOMU') RIG1 | GEO1 | RIG2 | CHPO1 ;\n"
-    "CHPO2 = SUPE 'CHARGE' SUP1 CHPO1 ;\nCHPO3 = SUPE 'DEPLA' SUP1 CHPO1 (CHPO2) ('NOER') ;\n"
-    "(LCHP1) MAS2 = SUPE 'MASSE' SUP1 MAS1 ('LCHP') ;",
-)
+SUPE = shared("SUPE", "matrix", full_name="SUPER")
 _ELEMENT = arg("element", "SUPERELE", en="super-element")
 _ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing")
 
@@ -120,11 +102,8 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
         en="condensed stiffness, stiffness, conditions or mesh of the masters",
     ),
     gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"),
-    syntax="RIG1 = EXTR SUP1 'RIGI' | 'RIGT' | 'BLOQ' ;\nGEO1 = EXTR SUP1 'ELEM' ;",
-    en="Of a super-element: its condensed stiffness, the stiffness of the whole body, the "
-    "conditions in it, or the mesh of its masters.",
 )
-def extract(call: Call, element: SuperElement, what: str | None) -> Matrix | Mesh:
+def extract_from_superelement(call: Call, element: SuperElement, what: str | None) -> Matrix | Mesh:
     """A part of a super-element."""
     if what is None:
         raise call.error("operators.matrices.extr-of-superele-wants-word", element, words=_PARTS)
@@ -143,10 +122,6 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     arg("matrix", "RIGIDITE", en="relations C"),
     arg("diagonal", "CHPOINT", en="M^-1"),
     family="matrix",
-    en="Condensation. With relations C and a field holding the inverse of a diagonal M: the "
-    "matrix C M^-1 C^T on the multipliers LX. With a matrix K and relations: the matrix "
-    "without the unknowns that the relations give by the others.",
-    syntax="RIG3 = CMCT RIG1 CHPO1 ; RIG3 = CMCT RIG1 RIG2 ;",
 )
 def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
     """On the multipliers."""

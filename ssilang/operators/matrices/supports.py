@@ -164,22 +164,7 @@ class _Held:
         return away[:, :dim]
 
 
-@operator(
-    "BLOQ",
-    *_held(_CENTRE),
-    _SUPPORT,
-    when=IN_PLANE,
-    family="relations",
-    full_name="BLOQUE",
-    en="Holds unknowns of the nodes of a mesh: zero, or the value that DEPI gives. With 'MINI' "
-    "they stay at or above it, with 'MAXI' at or below. 'DEPL' and 'ROTA' name all "
-    "displacements and rotations of the mode; 'DIRE' holds along a vector (or a field of "
-    "vectors), 'RADI' and 'ORTHO' along or across the line from a point (2D) or an axis (3D).",
-    syntax="RIG1 = BLOQ ('MINI' | 'MAXI') MOT1 (MOT2 ...) | LISTMOTS1 GEO1 ;\n"
-    "RIG1 = BLOQ ('DEPL') ('ROTA') ('DIRE' VEC1 | CHPO1) GEO1 ;\n"
-    "RIG1 = BLOQ 'RADI' | 'ORTHO' P1 (P2) GEO1 ;\n"
-    "RIG1 = BLOQ TAB1 ;  (LIAISONS_STATIQUES)",
-)
+@operator("BLOQ", *_held(_CENTRE), _SUPPORT, when=IN_PLANE, family="relations", full_name="BLOQUE")
 def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
     """Conditions on single nodes."""
     held, nodes = _Held(call, **said), nodes_of(support)
@@ -248,10 +233,6 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
     ),
     family="relations",
     full_name="DEPIMPOSE",
-    en="Values imposed on conditions made by BLOQ, RELA ...: one number for all, or a field of "
-    "the held unknowns. With 'RELA' a field SCAL gives the value of relations between unknowns "
-    "of one node. Add the result to the second member of RESO.",
-    syntax="CHPO1 = DEPI RIG1 FLOT1 | CHPO2 | 'RELA' CHPO3 ;\nDEPI TAB1 ;  (LIAISONS_STATIQUES)",
 )
 def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> NodeField:
     """Values of conditions."""
@@ -315,20 +296,7 @@ def _mirror(
     return as_matrix(made.mirror_rows(ws.nodes, near, normal, names, turns, mirrored))
 
 
-_PLANE_SYNTAX = "RIG1 = {} ('DEPL') ('ROTA') P1 P2 (P3 in 3D) GEO1 (FLOT1) ;"
-
-
-@operator(
-    "SYMT",
-    *_plane(2),
-    when=IN_PLANE,
-    family="relations",
-    full_name="SYMT",
-    en="Conditions of symmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): no "
-    "displacement across it ('DEPL'), no rotation about axes in it ('ROTA'). FLOT1 is the "
-    "distance up to which a node counts (default a tenth of the density).",
-    syntax=_PLANE_SYNTAX.format("SYMT"),
-)
+@operator("SYMT", *_plane(2), when=IN_PLANE, family="relations", full_name="SYMT")
 def symt(call: Call, **said: Any) -> Matrix:
     """Symmetry."""
     return _mirror(call, **said, mirrored=True)
@@ -337,16 +305,7 @@ def symt(call: Call, **said: Any) -> Matrix:
 symt.form(*_plane(3), when=IN_SPACE)(symt.forms[0].function)
 
 
-@operator(
-    "ANTI",
-    *_plane(2),
-    when=IN_PLANE,
-    family="relations",
-    full_name="ANTISYMETRIE",
-    en="Conditions of antisymmetry at the nodes of a mesh that lie on a line (2D) or plane (3D): "
-    "no displacement within it, no rotation about its normal.",
-    syntax=_PLANE_SYNTAX.format("ANTI"),
-)
+@operator("ANTI", *_plane(2), when=IN_PLANE, family="relations", full_name="ANTISYMETRIE")
 def anti(call: Call, **said: Any) -> Matrix:
     """Antisymmetry."""
     return _mirror(call, **said, mirrored=False)
@@ -369,9 +328,6 @@ _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMB
     when=IN_PLANE,
     family="relations",
     full_name="APPUI",
-    en="Linear springs to the ground at the nodes of a mesh, on the unknowns named or along a "
-    "direction (as in BLOQ), of stiffness FLOT1 each.",
-    syntax="RIG1 = APPU MOT1 ... | ('DEPL') ('ROTA') ('DIRE' VEC1) | 'RADI' P1 (P2) FLOT1 GEO1 ;",
 )
 def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:
     """Springs to the ground."""

@@ -32,9 +32,6 @@ from ssilang.operators.numbers.noise import session_generator
     arg("matrix", "RIGIDITE", en="matrix"),
     family="fields",
     full_name="CHPOINT",
-    en="Nodal field on the unknowns of a matrix: the same value everywhere ('UNIFORME'), or "
-    "random values between 0 and 1 ('ALEATOIRE').",
-    syntax="CHPO1 = CHPO 'ALEATOIRE' | 'UNIFORME' X1 RIG1 ;",
 )
 def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     """Field on the unknowns of a matrix."""
@@ -65,10 +62,6 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most"),
     family="matrix",
     full_name="ORTHOGONALISER",
-    en="Field made orthogonal, for a matrix K, to fields U of a list that are so among "
-    "themselves: X - sum (X K U) / (U K U) U. The list of reals holds the U K U; a second "
-    "list of fields may hold the K U. A precision asks for further passes, N1 at most.",
-    syntax="CHPO1 = ORTH ('SEMBLABLE') CHPO2 LCHPO1 LREEL1 (LCHPO2) RIG1 (X1 (N1)) ;",
 )
 def orth(
     call: Call,

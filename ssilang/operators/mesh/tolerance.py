@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.language.registry import opt
+from ssilang.language.registry import When, opt
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import Workspace
+from ssilang.operators.workspace import Workspace, workspace
 
 DISTANCE = opt(
     "distance",
@@ -25,3 +25,9 @@ def tolerance_of(ws: Workspace, given: float | None, positions: FloatArray) -> f
     if ws.density > 0.0:
         return 0.1 * ws.density
     return 1e-9 * float(np.ptp(positions, axis=0).max(initial=0.0))
+
+
+# Forms that are meant in the plane, or in space.
+
+IN_PLANE = When(lambda s: workspace(s).dimension < 3, "in the plane")
+IN_SPACE = When(lambda s: workspace(s).dimension == 3, "in space")

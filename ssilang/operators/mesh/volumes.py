@@ -107,17 +107,6 @@ _CUTS = (
     opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
     family="mesh",
     full_name="VOLUME",
-    en="Volume inside a closed surface, filled with tetrahedra (pyramids on quadrangles) when "
-    "nothing else is said. Volume swept by a surface: along a vector ('TRAN'), about an axis "
-    "('ROTA', degrees), parallel to itself along a line ('GENE'), or from one surface to "
-    "another of the same structure. N1 > 0: that many equal layers; N1 < 0: that many, graded; "
-    "without N1 the mesh sizes decide (DINI and DFIN replace them); 'PROG' gives the positions "
-    "of the layers. A volume in place of a surface is grown from its face 2. With a thickness "
-    "(or a nodal field of thicknesses) and a direction, a shell is made solid in one layer. "
-    "FACE gives the faces.",
-    syntax="VOL1 = SURF1 VOLU ('VERB') ;\nVOL1 = SURF1 VOLU (N1) ('DINI' D1) ('DFIN' D2) "
-    "('PROG' LR1) 'TRAN' VEC1 | 'ROTA' FLOT1 AXE1 AXE2 | 'GENE' LIG1 | SURF2 ;\n"
-    "VOL1 = SURF1 VOLU EPAI|CHPO1 POIN1 ;",
 )
 def volu(
     call: Call,
@@ -255,9 +244,6 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
     "PAVE",
     many("faces", "MAILLAGE", en="six faces, opposite ones one after the other"),
     family="mesh",
-    en="Bricks inside six faces meshed as grids of quadrangles (DALL), opposite faces one "
-    "after the other.",
-    syntax="VOL1 = PAVE SURF1 SURF2 SURF3 SURF4 SURF5 SURF6 ;",
 )
 def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
     """Fill a block."""

@@ -166,11 +166,6 @@ pjba = operator(
     BASIS,
     gives=Like("thing"),
     family="modal",
-    en="Projects on the shapes of a modal basis (and static shapes): forces or loads give FALF "
-    "(and FBET) at the points that mark the shapes, matrices give the matrix X^T K X there, a "
-    "list of fields the products with each shape (with a matrix: X^T M u).",
-    syntax="OBJ2 = PJBA CHPO1 | CHAR1 | RIG1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
-    "LCHP2 = PJBA LCHP1 TAB1 (N1) (RIG1) ;",
 )(_pjba)
 
 
@@ -332,13 +327,6 @@ operator(
     opt("shocks", "TABLE", en="points of shocks: . i . 'POINT' and . 'NORMALE'"),
     opt("field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI"),
     family="modal",
-    en="Pseudo-modes: the static response to forces, to a unit force at each point of shock along "
-    "its normal, to displacements of supports ('SEISME' and a field of DEPI) or to a unit "
-    "acceleration of the base ('SEISME' 'UX': forces - M d), minus what the modes of the table "
-    "hold of it. With free motions the response is taken at half "
-    "the first frequency, or at 'FREQ'.",
-    syntax="TAB2 = PSMO RIG1 (MASS1) TAB1 (TAB3) ('FREQ' F1) ('SEISME' ('UX') ('UY') ('UZ')) "
-    "(CHPO1 | LCHP1) ;",
 )(_psmo)
 
 
@@ -367,9 +355,6 @@ operator(
     arg("matrix", "RIGIDITE", en="conditions"),
     arg("place", "MAILLAGE", en="points"),
     family="modal",
-    en="Table LIAISONS_STATIQUES of the points of a mesh, and their unknowns, on which the "
-    "conditions of a matrix act.",
-    syntax="TAB1 = IDLI RIG1 GEO1 ;",
 )(_idli)
 
 

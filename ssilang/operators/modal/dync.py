@@ -251,14 +251,4 @@ operator(
     arg("harmonics", "ENTIER", range=POSITIVE, en="number of harmonics"),
     arg("samples", "ENTIER", range=POSITIVE, en="instants of a period"),
     family="modal",
-    en="Branches of periodic motions of modes with links, by harmonic balance and continuation "
-    "along the arc: the response to a harmonic load ('TYPE' 'FORC': loads at the indices 0, "
-    "+j for cos jwt, -j for sin jwt of the table CHARGEMENT, times w^2 if its 'BALOURD' is 1) "
-    "from the frequency of INITIAL to 'VAL_FIN', or nonlinear normal modes ('NNM') from a "
-    "small 'ENERGIE' on, without damping; the energy is that of motion, modes and links at "
-    "the first instant. Frequencies are in rad/s. Links are those of DYNE whose force follows "
-    "from the present motion. REPONSE has FREQUENCE, COEFFICIENTS . j . POINT, "
-    "NORME_DEPLACEMENT, STABILITE (1: unstable), Floquet exponents (by integration over one "
-    "period); BIFURCATION the points LP, BP, PD and NS, each sought to the last digits.",
-    syntax="TAB1 = DYNC TMOD (TCHR) (TLIAI) (TAMOR) TINI TNUM NHBM NFFT ;",
 )(_dync)

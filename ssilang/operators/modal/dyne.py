@@ -365,32 +365,12 @@ _FORM = operator(
         en="one step of so many is kept, all without it",
     ),
     family="modal",
-    en="Time stepping on modes: De Vogelaere (fourth order), central differences, average "
-    "acceleration or Fox-Goodwin, from rest, from initial values or going on from a run "
-    "(INITIAL); loads on the modes (CHARGEMENT, index 'BASE_A', made by PJBA or SEIS), "
-    "damping, and links (LIAISON): POINT_PLAN, POINT_POINT, POINT_CERCLE with friction or "
-    "without, POINT_CERCLE_MOBILE, CERCLE_PLAN_FROTTEMENT, CERCLE_CERCLE_FROTTEMENT, plastic "
-    "springs and hinges between points, lines (LIGNE_LIGNE_FROTTEMENT: nodes and another line; "
-    "LIGNE_CERCLE_FROTTEMENT: a line and circles about it), COUPLAGE_DEPLACEMENT, "
-    "COUPLAGE_VITESSE and POLYNOMIALE. A mode CORPS_RIGIDE turns a body by any angle. "
-    "Contacts push "
-    "against the normal, which points "
-    "into the obstacle, where the motion along it is beyond the gap. The table of results has "
-    "one entry a saved step (DEPLACEMENT, VITESSE ... on ALFA), TEMPS_DE_SORTIE, lists of the "
-    "links asked for, and REPRISE to go on. A step too long for the scheme is refused.",
-    syntax="TAB1 = DYNE 'DE_VOGELAERE' | 'DIFFERENCES_CENTREES' | 'ACCELERATION_MOYENNE' | "
-    "'FOX_GOODWIN' TBASE | TRIGMASS (TAMOR) (TLIAI) (TCHAR) (TINIT) N1 FLOT1 (N2) (TSORT) ;",
 )(_dyne)
 
 
 @_FORM.form(
     choice("scheme", ("DE_VOGELAERE",), optional=False, en="how time is stepped"),
     arg("table", "TABLE", en="table PASAPAS"),
-    syntax="DYNE 'DE_VOGELAERE' TAB11 ;",
-    en="Of a table PASAPAS: models MODAL and LIAISON of MODELE with CARACTERISTIQUES, loads "
-    "projected on the modes (CHARGEMENT), DEPLACEMENTS . 0 and VITESSES . 0, NOMBRE_PAS, "
-    "PAS_DE_TEMPS and PAS_DE_SORTIE; TEMPS, DEPLACEMENTS, VITESSES and LIAISONS are written into "
-    "it.",
 )
 def _of_models(call: Call, scheme: bool, table: Table) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""

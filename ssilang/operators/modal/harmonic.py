@@ -64,12 +64,6 @@ operator(
     opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
     family="modal",
     full_name="IMPEDANCE",
-    en="Matrix of harmonic motions u exp(i w t) on real and imaginary parts (UX and IUX, FX and "
-    "IFX ...): of a stiffness (K), a mass (- w^2 M) or a damping (i w C), w = 1 if it is not "
-    "given; 'QUEL' gives the factors of the four blocks. A second matrix serves the imaginary "
-    "rows.",
-    syntax="RIG1 = IMPE RIG2 (RIG3) (W1) ('MASSE' | 'RAIDEUR' | 'AMORTISSEMENT' | 'QUELCONQUE' "
-    "LREEL1) (LOG1) ;",
 )(_impe)
 
 
@@ -105,9 +99,4 @@ operator(
     opt("pairs", "ENTIER", range=POSITIVE, en="number of couples, all without it"),
     family="modal",
     full_name="VIBC",
-    en="All complex modes of a small system (usually projected on real modes by PJBA), "
-    "[K + i w C - w^2 M] x = 0 with w = 2 pi f: couples f, - conj f by increasing modulus, or "
-    "the N1 first couples. With the basis of the projection the shapes are physical. A "
-    "positive imaginary part of f means decay.",
-    syntax="BAS2 = VIBC MASS1 RIG1 (AMOR1) (BAS1) (N1) ;",
 )(_vibc)

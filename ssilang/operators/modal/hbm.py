@@ -47,13 +47,7 @@ def known_names(entries: Entries) -> Names:
     return names_of(given, harmonics)
 
 
-@operator(
-    "ZHBM",
-    arg("table", "TABLE", en="table of HBM"),
-    family="modal",
-    en="Matrices of harmonic balance of the table of HBM, which is the procedure to call.",
-    syntax="ZHBM TAB1 ;",
-)
+@operator("ZHBM", arg("table", "TABLE", en="table of HBM"), family="modal")
 def zhbm(call: Call, table: Table) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
     entries = Entries(call, table, "HBM")
@@ -154,8 +148,6 @@ class Motion:
     arg("table", "TABLE", en="table of HBM_POST"),
     arg("results", "LISTMOTS", en="MAXI, TEMP, VITE"),
     family="modal",
-    en="Results in time of the table of HBM_POST, which is the procedure to call.",
-    syntax="ZHPO TAB1 LMOT1 ;",
 )
 def zhpo(call: Call, table: Table, results: ListMots) -> None:
     """Maxima, motions and velocities from the coefficients."""

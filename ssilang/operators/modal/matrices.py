@@ -148,21 +148,3 @@ def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
         for m, f, xi in zip(masses, frequencies, ratios.values, strict=True)
     ]
     return _diagonal(modes, values, "AMORTISSEMENT")
-
-
-rigi.extend_help(
-    "RIG1 = RIGI TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
-    "RIG1 = RIGI TAB1 (TAB2) ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
-    "Of a modal basis: generalised stiffnesses on the diagonal, on ALFA at the modes' points. Of "
-    "static shapes, on BETA, with modes or without: the works of their FORCE and REACTION.",
-)
-mass.extend_help(
-    "MASS1 = MASS TAB1 ;  (BASE_MODALE, BASE_DE_MODES)\n"
-    "MASS1 = MASS TAB1 (TAB2) MASS2 ;  (BASE_MODALE, LIAISONS_STATIQUES, in either order)",
-    "Of a modal basis: generalised masses on the diagonal. With a mass matrix of the body: its "
-    "projection on modes (ALFA), on static shapes (BETA) or on both.",
-)
-amor.extend_help(
-    "AMOR1 = AMOR TAB1 LREEL1 ;  (BASE_MODALE)",
-    "Of a modal basis: 2 x m w on the diagonal, reduced dampings x in per cent, one a mode.",
-)

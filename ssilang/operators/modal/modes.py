@@ -259,15 +259,4 @@ operator(
     family="modal",
     full_name="VIBRATION",
     gives=by("solution", {True: "SOLUTION"}, "TABLE"),
-    en="Natural modes, [K - (2 pi f)^2 M] x = 0, of frequencies near the given ones (PROC: for "
-    "each frequency of a list, so many; SIMU, IRAM: so many near one) or in an interval "
-    "(INTE; BASS or HAUT keeps so many from one end). Table BASE_MODALE: . 'MODES' . i holds "
-    "FREQUENCE (negative if unstable, unless FAUX is given), MASSE_GENERALISEE, "
-    "DEFORMEE_MODALE (largest displacement 1), DEPLACEMENTS_GENERALISES . 1 to 3 and "
-    "POINT_REPERE. Unilateral conditions count as equalities. A damping matrix or an "
-    "unsymmetric stiffness gives complex modes (IRAM), mirror images (- conj f) included.",
-    syntax="TAB1 = VIBR 'PROCHE' LREEL1 (LENTI1) RIG1 MASS1 (LOG1) ;\n"
-    "TAB1 = VIBR 'INTERVALLE' F1 F2 ('BASSE' | 'HAUTE' N1) ('MULT') RIG1 MASS1 ;\n"
-    "TAB1 = VIBR 'SIMULTANE' F1 N1 RIG1 MASS1 ;\n"
-    "TAB1 = VIBR 'IRAM' F1 N1 RIG1 MASS1 (AMO1) ('LM') ;\nSOL1 = VIBR ... 'SOLU' ;",
 )(_vibr)

@@ -274,14 +274,6 @@ reco = operator(
     _LOAD,
     opt("time", "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER),
     family="modal",
-    en="Field u = sum of the shapes of a basis times the contributions ALFA (and BETA) that a "
-    "field holds at the points that mark them; of results in time (DYNE, PASAPAS) at an "
-    "instant: 'DEPL', 'VITE', 'ACCE', 'CONT' for stresses (SIGS gives those of the shapes) or "
-    "'REAC' for reactions (REAC gives those of the shapes). "
-    "With a load, the pseudo-modes of the basis that its forces drive are added.",
-    syntax="CHPO2 = RECO CHPO1 TAB1 (TAB2 ...) | MODL1 MAT1 ;\n"
-    "OBJ2 = RECO TDYNE | TPASA TAB1 | MODL1 MAT1 FLOT1 (CHAR1) ('DEPL' | 'VITE' | 'ACCE' | "
-    "'CONT' | 'REAC') ;\nLCHP2 = RECO LCHP1 TAB1 (N1) ;",
 )(_reco)
 
 

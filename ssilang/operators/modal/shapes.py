@@ -110,11 +110,6 @@ nnor = operator(
     gives=Like("thing"),
     family="modal",
     full_name="NNOR",
-    en="Divides a field by its largest value (of the components named, or without them), or by "
-    "its Euclidean norm (of a matrix: square root of X^T M X). Of a modal table: all shapes, "
-    "with generalised masses and displacements that follow.",
-    syntax="OBJ2 = NNOR ('INFI') OBJ1 (('AVEC') | 'SANS' LISTMOTS1) ;\n"
-    "OBJ2 = NNOR 'EUCL' OBJ1 (RIG1) ;",
 )(_nnor)
 
 
@@ -155,14 +150,7 @@ def _known(table: Table) -> list[Shape]:
 # --- gaps ------------------------------------------------------------------------------------
 
 
-@operator(
-    "JEU",
-    arg("matrix", "RIGIDITE", en="relations"),
-    family="relations",
-    en="Second member of relations between displacements so that they speak of positions: the sum "
-    "of coefficients times (coordinate + displacement) is held at zero, above or below it.",
-    syntax="CHPO1 = JEU RIG1 ;",
-)
+@operator("JEU", arg("matrix", "RIGIDITE", en="relations"), family="relations")
 def jeu(matrix: Matrix) -> NodeField:
     """Values -C x of the relations."""
     return geometric_gaps(matrix)

@@ -4,22 +4,104 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from ssilang.kernel.curves.curve import Curve, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import Chosen, arg, key, main, many, opt, said, select
+from ssilang.language.registry import (
+    Chosen,
+    arg,
+    choice,
+    key,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
-from ssilang.operators.modal.loads import sigs, with_stresses
+from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.matrices import modal_stiffness
 from ssilang.operators.modal.modes import Solution, directions, filled
 from ssilang.operators.statics.loads_in_time import tire
+from ssilang.operators.tables.indices import copied
 from ssilang.operators.workspace import workspace
+
+# SEIS SIGS: seismic loads on modal bases, stresses of modes.
+
+_AXES = ("UX", "UY", "UZ")
+
+
+@operator(
+    "SEIS",
+    arg("curve", "EVOLUTIO", en="acceleration of the ground"),
+    arg("table", "TABLE", en="basis"),
+    arg("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
+    choice("direction", _AXES, optional=False, en="direction of the ground"),
+    family="modal",
+    full_name="SEISME",
+)
+def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) -> Load:
+    """Seismic load."""
+    shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
+    if not shapes:
+        raise call.error("operators.modal.table-without-modes", table)
+    values = {}
+    for shape in shapes:
+        along = shape.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
+        number = along.get(_AXES.index(direction) + 1) if isinstance(along, Table) else None
+        if not isinstance(number, int | float):
+            raise call.error("operators.modal.mode-no-generalised-displacements", table)
+        values[shape.mark.node] = -factor * float(number)
+    nodes = np.array(sorted(values))
+    part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
+    field = NodeField(shapes[0].mark.nodes, {"FALF": part}, "DISCRET")
+    return Load((LoadPart("MECA", field, curve),))
+
+
+@operator(
+    "SIGS",
+    arg("model", "MMODEL", en="model"),
+    many("material", "MCHAML", at_least=1, en="parameters"),
+    arg("table", "TABLE", en="shapes"),
+    family="modal",
+    full_name="SIGSOL",
+)
+def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
+    """Stresses of modes."""
+    made, found = with_stresses(present(call, model), joined(material), table)
+    if not found:
+        raise call.error("operators.modal.no-mode-no-shape", table)
+    return made
+
+
+def with_stresses(model: Model, material: CellField, table: Table) -> tuple[Table, int]:
+    """The table, and those in it, copied with the stresses; and how many were computed."""
+    made, found = copied(table), 0
+    for shape, entry in (("DEFORMEE_MODALE", "CONTRAINTE_MODALE"), ("DEFORMEE", "CONTRAINTE")):
+        field = table.get(Mot(shape))
+        if isinstance(field, NodeField):
+            blocks = tuple(families.stress(z, material, field) for z in model.zones)
+            made.set(Mot(entry), CellField(blocks, "CONTRAINTES"))
+            return made, 1
+    for index, value in table.items():
+        if isinstance(value, Table):
+            inner, count = with_stresses(model, material, value)
+            found += count
+            if count:
+                made.set(index, inner)
+    return made, found
+
 
 _MAIN = arg("solution", "SOLUTION", en="modes")
 
@@ -34,10 +116,8 @@ _MAIN = arg("solution", "SOLUTION", en="modes")
     opt("z", "FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
     arg("shape", "CHPOINT", en="shape"),
     opt("stresses", "MCHAML", en="its stresses"),
-    syntax="SOL1 = MANU 'MODE' ('NUME' N1) FLOT1 FLOT2 (FLOT3 FLOT4 FLOT5) CHPO1 (CHEL1) ;",
-    en="MODE: an object SOLUTION of one mode, with a point of its own that marks it.",
 )
-def by_hand(
+def mode_by_hand(
     call: Call,
     number: int | None,
     frequency: float,
@@ -69,7 +149,7 @@ def join_solutions(first: Solution, second: Solution) -> Solution:
     return Solution((*first.modes, *second.modes))
 
 
-@DIME.form(main("solution", "SOLUTION", en="modes"), en="Of a SOLUTION: its number of modes.")
+@DIME.form(main("solution", "SOLUTION", en="modes"))
 def count_modes(solution: Solution) -> int:
     """Number of modes."""
     return len(solution.modes)
@@ -94,9 +174,6 @@ _ALONG = {"QX": 1, "QY": 2, "QZ": 3}
         en="which mode, the last without it",
     ),
     gives="FLOTTANT|ENTIER|POINT|CHPOINT|MCHAML",
-    syntax="OBJ1 = TIRE SOL1 MOT1 ('RANG' | 'CAS' | 'NUME' N1) ;",
-    en="Of a SOLUTION: frequency (FREQ), generalised mass (MGEN) and displacements (QX QY QZ), "
-    "point that marks it (POIN), shape (DEPL), stresses (CONT) of a mode.",
 )
 def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -> Any:
     """What one mode holds."""
@@ -125,8 +202,6 @@ def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -
     arg("model", "MMODEL", en="model"),
     many("material", "MCHAML", at_least=1, en="parameters"),
     _MAIN,
-    syntax="SOL2 = SIGS MODL1 MAT1 (CAR1) SOL1 ;",
-    en="Of a SOLUTION: its modes with their stresses.",
 )
 def stressed(
     call: Call, model: Model, material: tuple[CellField, ...], solution: Solution
@@ -141,9 +216,3 @@ def stiffness_of_modes(call: Call, solution: Solution) -> Matrix:
     """Generalised stiffnesses on the diagonal."""
     made: Matrix = modal_stiffness(call, solution.table, None)
     return made
-
-
-rigi.extend_help(
-    "RIG1 = RIGI SOL1 ;  (SOLUTION)",
-    "Of a SOLUTION: generalised stiffnesses on the diagonal.",
-)

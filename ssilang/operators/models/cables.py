@@ -39,12 +39,6 @@ _ENTRIES = {
     opt("before", "MCHAML", en="not built"),
     family="model",
     full_name="PRECONTRAINTE",
-    en="Tensions EFFX of prestressing cables (bars BARR on SEG2, no branches) pulled by F1 at "
-    "one end: the last point of each cable, or the points given; pulled at both ends, a cable "
-    "has the larger tension. With a table, losses by friction (FF per radian, PHIF per metre: "
-    "exp(-FF alpha - PHIF s)), by slip of the anchorage (GANC) and by relaxation (RMU0, FPRG "
-    "in Pa, RH10 in per cent at 1 000 hours); defaults 0.18, 0.002, 0, 0.43, 1.7E9, 2.5.",
-    syntax="PRE1 = PREC MODL1 MAT1 F1 (TAB1) (MAIL1 | P1) ;",
 )
 def prec(
     call: Call,
@@ -115,15 +109,7 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
     return found
 
 
-@operator(
-    "IMPF",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    family="model",
-    full_name="IMPF",
-    en="The mesh itself: Cast3M gave this operator up, and friction needs it no more (MODE "
-    "'CONTACT' 'FROTTANT' does without).",
-    syntax="GEO1 = IMPF GEO2 ;",
-)
+@operator("IMPF", arg("mesh", "MAILLAGE", en="mesh"), family="model", full_name="IMPF")
 def impf(mesh: Mesh) -> Mesh:
     """The mesh, unchanged."""
     return mesh

@@ -90,21 +90,6 @@ _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, 
     _SECOND,
     family="stress",
     full_name="RTENS",
-    en="Stresses or strains of continuous elements and flat shells in another frame: along a "
-    "vector (in space two: the first axis and a vector of the plane of the first two), in the "
-    "axes of orthotropy of a field of parameters, or in polar ('POLA' centre), cylindrical "
-    "('CYLI' centre, point of the axis) or spherical ('SPHE') coordinates, or those of a "
-    "torus ('TORI': 'CART' as 'CYLI'; 'CIRC': along the large circle, along the small one "
-    "whose centre is the third point, outwards), or by a field of matrices of rotation "
-    "(components UX,X UX,Y ... as those of GRAD). The components keep their names. In shells "
-    "the first axis is the projection of the first vector, or of the direction around the "
-    "axis; the side that counts as upper stays the element's. A nodal field of vectors is "
-    "turned to the frame of the vectors.",
-    syntax="CHAM3 = RTEN CHAM1 MODL1 | VEC1 (VEC2) | CHAM2 ;\n"
-    "CHAM3 = RTEN CHAM1 MODL1 'POLA' P1 | 'CYLI' P1 P2 | 'SPHE' P1 P2 | "
-    "'TORI' ('CART') P1 P2 | 'TORI' 'CIRC' P1 P2 P3 ;\n"
-    "CHAM3 = RTEN CHAM1 MODL1 GRAD1 ('RTAR' | 'RART') ;\n"
-    "CHPO2 = RTEN CHPO1 VEC1 (VEC2) ;",
 )
 def rten(
     call: Call,
@@ -215,8 +200,6 @@ def _round(call: Call, frame: Chosen) -> Frames:
     arg("model", "MMODEL", en="model"),
     many("fields", "MCHAML", at_least=1, en="parameters"),
     family="model",
-    en="Axes of orthotropy of a material as a field in cells: V1X V1Y (V1Z) V2X ....",
-    syntax="CHAM1 = VLOC MODL1 MAT1 ;",
 )
 def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Axes of orthotropy."""
@@ -247,11 +230,6 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
         en="side of a shell: that of the normal, the middle (default) or the other",
     ),
     family="stress",
-    en="Stress at the point DY DZ of the section of beams (local axes): SMXX = EFFX / SECT + "
-    "MOMY DZ / INRY - MOMZ DY / INRZ; stresses SMXX SMYY SMXY (or strains) of shells in their "
-    "own frame at the side of the normal ('SUPE'), in the middle ('MOYE', default) or at the "
-    "other side ('INFE').",
-    syntax="CHAM2 = CALP MODL1 SIG1 CAR1 ('SUPE' | 'MOYE' | 'INFE') ;",
 )
 def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
     """Skin stress of beams."""
@@ -268,15 +246,7 @@ def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     return on_zones(present(call, model), field.title, make)
 
 
-@operator(
-    "FREN",
-    arg("line", "MAILLAGE", en="lines"),
-    family="mesh",
-    full_name="FRENET",
-    en="Frenet frame along lines, as a nodal field: tangent TX TY (TZ), normal NX NY (NZ) and, "
-    "in 3D, binormal BX BY BZ. In 2D the normal is the tangent turned by a quarter turn.",
-    syntax="CHPO1 = FREN LIG1 ;",
-)
+@operator("FREN", arg("line", "MAILLAGE", en="lines"), family="mesh", full_name="FRENET")
 def fren(session: Session, line: Mesh) -> NodeField:
     """Frenet frame."""
     ids, frames = frenet_frames(line)
@@ -302,10 +272,6 @@ _BEAMS = ("beam", "timoshenko", "pipe")
     arg("model", "MMODEL", en="model"),
     flag("unit", "NORM", en="of length 1"),
     family="models",
-    en="At the integration points of a model, the normal of its shells and the tangent of its "
-    "beams, components VX VY (VZ), or VR VZ about an axis; as long as the Jacobian there, or "
-    "of length 1 with 'NORM'. Other elements give nothing.",
-    syntax="CHAM1 = VSUR MODL1 ('NORM') ;",
 )
 def vsur(model: Model, unit: bool) -> CellField:
     """Vectors of shells and beams."""

@@ -18,14 +18,15 @@ from ssilang.kernel.interface.laws.parameter_table import check_given as check_j
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
+from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
+from ssilang.kernel.materials.plastic.tension_curve import hardening_of
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.near import nearest_names
 from ssilang.language.registry import Chosen, HelpTable, arg, each, many, operator, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.models.reduction import reference_to_curve, tension_to_hardening
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.vocabulary import words
 
@@ -88,19 +89,6 @@ def _tables(language: str) -> Sequence[HelpTable]:
     family="model",
     full_name="MATERIAU",
     aliases=("MATR",),
-    en="Field of the parameters of a model: name and value, as many as wanted.\n"
-    "What each law takes stands in the tables below, and on the page of the law (`ssilang help "
-    "CAM_CLAY`); what an element takes, sections included, on that of the element. Geometric "
-    "parameters (SECT INRY INRZ TORS SECY SECZ VECT DIM3 ...) may be given here too, or by "
-    "CARA. Joints of two points (JOI1) take forces where the others take tractions.\n"
-    "A value is a number, a field in cells, a curve (parameter that depends on another field) "
-    "or, for VECT, a point. Numbers outside of the range of a parameter, and laws whose "
-    "parameters do not go together, are refused.\n"
-    "Beams ELASTIQUE SECTION take the model of their section and its material: the section "
-    "lies in x y, x along the beam's local axis y; its fibres take ALPY ALPZ (and points "
-    "SECT). DIRECTION V1 (V2) or RADIAL P1 (P2), then PARALLELE, PERPENDICULAIRE or INCLINE "
-    "angle, give the axes of orthotropy (of JOI1: V1 is the normal).",
-    syntax="MAT1 = MATE MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
     tables=_tables,
 )
 def mate(call: Call, **said: Any) -> CellField:
@@ -120,17 +108,7 @@ def material_names(zone: Zone) -> tuple[str, ...]:
     return (*names, *(other for name, other in INSTEAD.items() if name in names))
 
 
-@operator(
-    "CARA",
-    _MODEL,
-    _PAIRS,
-    family="model",
-    full_name="CARACTERISTIQUE",
-    aliases=("CARB",),
-    en="Field of geometric parameters of a model: DIM3 (thickness of plane stress), SECT "
-    "(bars), SECT INRY INRZ TORS SECY SECZ VECT DX DY DZ (beams), EPAI (joints).",
-    syntax="CAR1 = CARA MODL1 NOM1 VAL1 (NOM2 VAL2 ...) ;",
-)
+@operator("CARA", _MODEL, _PAIRS, family="model", full_name="CARACTERISTIQUE", aliases=("CARB",))
 def cara(call: Call, model: Model, pairs: list[tuple[str, Any]]) -> CellField:
     """Parameters of the section."""
     return _parameters(call, lambda zone: geometric_names(zone).all, False, model, [], None, pairs)
@@ -347,3 +325,74 @@ def _blocks(zone: Zone, given: Values) -> list[CellFieldBlock]:
         CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
         for support, components in supports.items()
     ]
+
+
+# Curves in MATE: TRAC in place of ECRO, cyclic soil by GGAM or by the strain GAMR.
+
+_PERCENT = 1e-2
+"""Shear strain at half of Gmax beyond which no soil is known: plastic clay has 5e-3."""
+
+
+def reference_to_curve(
+    call: Call, values: dict[str, tuple[NDArray[Any], Support]], said: dict[str, Any]
+) -> None:
+    """Replace GAMR by the curve GGAM that it means; look at curves that are given.
+
+    A field of GAMR counts by its mean in each cell.
+
+    Raises
+    ------
+    MaterialError
+        If both are given, or for curves that no soil has.
+    """
+    if "GAMR" in values:
+        table, _ = values.pop("GAMR")
+        if "GGAM" in values:
+            raise call.error("operators.models.reduction-given-twice", said["GAMR"])
+        if table.dtype == object:
+            raise call.error("operators.models.gamr-is-a-number", said["GAMR"])
+        references = table.mean(axis=1)
+        different, place = np.unique(references, return_inverse=True)
+        curves = np.array([hyperbola(float(g)) for g in different], dtype=object)
+        values["GGAM"] = curves[place][:, None], "GRAVITE"
+        _warn_of_percent(call, said["GAMR"], float(different[-1]))
+    elif "GGAM" in values:
+        for curve in {id(v): v for v in values["GGAM"][0].flat}.values():
+            if not isinstance(curve, Curve):
+                raise MaterialError("kernel.plasticity.parameter-curve", name="GGAM")
+            strains, ratios = break_points(curve)
+            half = float(np.interp(-0.5, -ratios, strains))
+            _warn_of_percent(call, said["GGAM"], half if ratios[-1] <= 0.5 else 0.0)
+
+
+def _warn_of_percent(call: Call, value: Any, half: float) -> None:
+    """Warn of strains that are percentages."""
+    if half > _PERCENT:
+        warning = call.error("operators.models.strains-in-percent", value, half=half)
+        warning.warns = True
+        call.session.report(warning)
+
+
+def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> None:
+    """Replace TRAC by the ECRO that it means.
+
+    Raises
+    ------
+    MaterialError
+        If ECRO is given too, or if YOUN is missing or not one number.
+    """
+    if "TRAC" not in values:
+        return
+    table, support = values.pop("TRAC")
+    if "ECRO" in values:
+        raise MaterialError("operators.models.hardening-given-twice")
+    given = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
+    if given.dtype == object or not given.size or (given != given.flat[0]).any():
+        raise MaterialError("operators.models.trac-needs-one-youn")
+    if not all(isinstance(v, Curve) for v in table.flat):
+        raise MaterialError("operators.models.trac-is-a-curve")
+    made = {id(v): hardening_of(v, float(given.flat[0])) for v in table.flat}
+    curves = np.empty(table.shape, dtype=object)
+    for place, curve in np.ndenumerate(table):
+        curves[place] = made[id(curve)]
+    values["ECRO"] = curves, support

@@ -100,68 +100,7 @@ _SETTINGS = (
     choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
 )
-MODE = shared(
-    "MODE",
-    "model",
-    full_name="MODELISER",
-    aliases=("MODL",),
-    en="Gives a mesh its finite elements and its law.\n"
-    "The formulation is MECANIQUE; the law is ELASTIQUE, followed by ISOTROPE (default), "
-    "ORTHOTROPE, ANISOTROPE or UNIDIRECTIONNEL; joints also have JOINT_SDM. Continuous "
-    "elements and bars may add PLASTIQUE and PARFAIT, ISOTROPE (default), J2 or CINEMATIQUE "
-    "(von Mises), DRUCKER_PARFAIT, DRUCKER_PRAGER or RH_COULOMB (rounded Mohr-Coulomb), "
-    "CAM_CLAY, "
-    "IWAN or IWAN_PRESSION (cyclic soil), or "
-    "FLUAGE NORTON (creep); shells DKT the laws of von Mises with INTEGRE N1, points across "
-    "their thickness. Beams TIMO "
-    "are ELASTIQUE SECTION where their section is a model of fibres (POJS on points, TRIS, "
-    "QUAS) given by MATE, and add PLASTIQUE SECTION where fibres yield (PARFAIT_UNI: along the "
-    "fibre; BETON_BAEL: concrete without tension; ACIER_UNI, BETON_UNI: steel and concrete in "
-    "cycles; or von Mises); bars have these laws too. MODAL and "
-    "STATIQUE make a point stand for a mode or a static shape. IMPEDANCE puts a spring and a "
-    "dashpot on a point (POI1) or between two (SEG2): ELASTIQUE (default), VOIGT (side by "
-    "side), REUSS (one behind the other), COMPLEXE (functions of the frequency), on all "
-    "translations (on rotations too with CPLE), on the unknowns of one or two lists of words, "
-    "or with MODAL or STATIQUE on the share of that shape. Without a name of element, cells "
-    "get the continuous element of their name, SEG2 and SEG3 bars (BARR, BAR3) in plane and "
-    "space; POUT, TIMO, TUYA, CERC (rings on points), "
-    "DKT, COQ2, COQ4, COQ6, COQ8, SHB8 (shell of cubes) and the joints are to be named "
-    "(Q4RI, ICQ4, BBAR choose "
-    "another integration; POLY takes the elements of a mesh of polygons). "
-    "The hypothesis is that of OPTI MODE.\n"
-    "The formulation CONTACT (UNILATERAL) keeps two sides, the second mesh given after it, "
-    "from going into each other: MESC (default: no node of the second into the first), SYME, "
-    "FAIB (in the mean over each cell of the second), MORT (mean weighted at its nodes). Lines "
-    "(SEG2) have the other body on their right, surfaces (TRI3, QUA4) on the side of their "
-    "normal. PASAPAS and RIGI take such models. FROTTANT COULOMB instead of UNILATERAL adds "
-    "Coulomb's friction (MATE: MU, COHE), FROTTANT FROCABLE ties a cable of bars across its "
-    "line to the body meshed by GEO2 and lets it slide along with the friction of BPEL 99 "
-    "(MATE: FF, PHIF); both are for PASAPAS.\n"
-    "The formulation CHARGEMENT PRESSION makes a model of loaded sides, for PRES and BSIG.\n"
-    "The formulation LIAISON makes a link of DYNE on a point, for tables PASAPAS.\n"
-    "CONS names the constituent, DPGE gives the point that carries the motion of the "
-    "section in generalised plane strain, LIBRE or LIE says if the axes of JOI1 follow.\n"
-    "Joints are integrated at GAUSS points (default) or, by LOBATTO, at the nodes of faces "
-    "SEG2 SEG3 TRI3 QUA4, which avoids oscillating tractions in very stiff joints. After "
-    "JOINT_SDM, CISAILLEMENT_ELASTIQUE keeps shear elastic when the joint is open, "
-    "FROTTEMENT_SYMETRIQUE makes the tangent of Coulomb's friction (FROT) symmetric: the "
-    "same solution in more iterations. Other laws of joints are JOINT_DILATANT, COULOMB, "
-    "and for one point MACRO_SEMELLE, MACRO_DISQUE, MACRO_RESSORTS (footings), APPUI_PLOMB, "
-    "APPUI_PENDULE (bearings of isolated structures).",
-    syntax="MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('ISOTROPE') "
-    "('PLASTIQUE' (LOI1) | 'FLUAGE' 'NORTON') (ELEM1 ...) "
-    "('INTEGRE' N1) ('CONS' MOT1) ('DPGE' P1) ('LIBRE' | 'LIE') "
-    "('GAUSS' | 'LOBATTO') ;\n"
-    "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ('CISAILLEMENT_ELASTIQUE') "
-    "('FROTTEMENT_SYMETRIQUE') (JOI1 ...) ;\n"
-    "MODL1 = MODE GEO1 'MECANIQUE' 'ELASTIQUE' ('MODAL' | 'STATIQUE') 'IMPEDANCE' "
-    "('ELASTIQUE' | 'VOIGT' | 'REUSS' | 'COMPLEXE') (LMOT1 (LMOT2)) ;\n"
-    "MODL1 = MODE GEO1 'CONTACT' ('UNILATERAL') GEO2 ('MESC' | 'SYME' | 'FAIB' | 'MORT') ;\n"
-    "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'COULOMB' GEO2 ('MESC' ...) ;\n"
-    "MODL1 = MODE GEO1 'CONTACT' 'FROTTANT' 'FROCABLE' (MODL2) GEO2 ;\n"
-    "MODL1 = MODE GEO1 'CHARGEMENT' 'PRESSION' (ELEM1 ...) ;\n"
-    "MODL1 = MODE GEO1 'LIAISON' 'POINT_PLAN' | 'POINT_POINT' | ... ('FROTTEMENT' | ...) ;",
-)
+MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
 
 
 @MODE.form(

@@ -37,14 +37,6 @@ _IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
     when=_IN_SPACE,
     gives=by("checked", {True: ("LISTREEL",) * 3 + ("TABLE",)}, ("LISTREEL",) * 3),
     family="model",
-    en="Moments of a section of fibres (elements POJS, TRIS, QUAS) that is bent step by step "
-    "from its virgin state: curvatures about the local axis y (LREE4, in space only) and z "
-    "(LREE5), normal force LREE6 (positive in tension), each list with one value a step. "
-    "Gives the moments about y (in space only) and z, and the strain of the line of the beam. "
-    "FLOT1 is the error allowed on the normal force, relative to the sum of the forces of the "
-    "fibres without sign. 'VERIF' adds a table of tables with the fields of each step on the "
-    "section: CONTRAINTES, VARIABLES_INTERNES, DEFORMATION.",
-    syntax="(LREE1) LREE2 LREE3 (TAB1) = MOCU (LREE4) LREE5 LREE6 MODL1 MAT1 FLOT1 ('VERIF') ;",
 )
 def mocu(
     call: Call,

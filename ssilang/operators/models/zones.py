@@ -48,11 +48,8 @@ _WORD = arg("word", "MOT", en="word to remove")
 @ENLE.form(
     main("model", "MMODEL", en="model"),
     select("what", {"FORM": [_WORD], "COMP": [_WORD]}, en="zones of a formulation or a behaviour"),
-    syntax="MODL2 = ENLE MODL1 'FORM' | 'COMP' MOT1 ;",
-    en="Of a model: without the zones of a formulation (FORM) or a behaviour (COMP); the model "
-    "itself if there are none.",
 )
-def without(call: Call, model: Model, what: Chosen | None) -> Model:
+def model_without(call: Call, model: Model, what: Chosen | None) -> Model:
     """A model without some zones."""
     if what is None:
         raise call.error("operators.models.what-to-remove", model)
@@ -70,10 +67,8 @@ def without(call: Call, model: Model, what: Chosen | None) -> Model:
     arg("model", "MMODEL", en="model"),
     arg("constituent", "MOT", en="its new constituent"),
     of=("MMODEL",),
-    syntax="MODL2 = CHAN 'CONS' MODL1 MOT1 ;",
-    en="CONS changes the constituent of a model.",
 )
-def change_constituent(call: Call, model: Model, constituent: str) -> Model:
+def change_constituent_of_model(call: Call, model: Model, constituent: str) -> Model:
     """Another constituent."""
     if len({z.constituent for z in model.zones}) > 1:
         raise call.error("operators.models.several-constituents", model)
@@ -157,14 +152,6 @@ def _names(kind: str, en: str) -> list[Entry]:
         },
         "LISTMOTS",
     ),
-    syntax="OBJ1 = EXTR MODL1 'MAIL' | 'ZONE' ;\n"
-    "MODL2 = EXTR MODL1 'FORM' | 'CONS' | 'ELEM' | 'COMP' MOT1 ... ;\n"
-    "LMOT1 = EXTR MODL1 'CONT' | 'DEFO' | 'DEPL' | 'FORC' | 'MATE' | 'GEOM' | 'GRAD' | 'CONP' "
-    "| 'VARI' ;",
-    en="Of a model: its mesh (MAIL), a table of its zones and their meshes (ZONE), the zones of a "
-    "formulation, constituent or element, or the names of the components of its stresses (CONT), "
-    "strains (DEFO), displacements (DEPL), forces (FORC), parameters (MATE, GEOM), gradients "
-    "(GRAD), principal stresses (CONP), internal variables of a plastic law (VARI).",
 )
 def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
@@ -219,14 +206,14 @@ _FIRST = main("first", "MMODEL", en="model")
 _SECOND = arg("second", "MMODEL", en="other model")
 
 
-@DIFF.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 DIFF MOD2 ;", en="Of models: zones of one only.")
+@DIFF.form(_FIRST, _SECOND)
 def difference_of_models(first: Model, second: Model) -> Model:
     """Zones of one of two models only."""
     left = [z for z in first.zones if not _found_in(z, second)]
     return Model((*left, *(z for z in second.zones if not _found_in(z, first))))
 
 
-@INTE.form(_FIRST, _SECOND, syntax="MOD3 = MOD1 INTE MOD2 ;", en="Of models: zones that both hold.")
+@INTE.form(_FIRST, _SECOND)
 def intersection_of_models(first: Model, second: Model) -> Model:
     """Common zones of two models."""
     common = tuple(z for z in first.zones if _found_in(z, second))
@@ -257,13 +244,6 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
     opt("given", "MCHAML", en="thickness or section of shells and beams"),
     family="models",
     full_name="TAILLE",
-    en="'DIAMETRE_MIN': the smallest length of each element, at its middle, component L: "
-    "between two nodes, or from a node to a side that does not hold it. It limits the time "
-    "step "
-    "of explicit schemes. Shells and beams have a second component L2H = L^2 / h, to which the "
-    "time of bending waves is in proportion, h being the thickness of CARA1 or that of the "
-    "rectangle that has the larger radius of gyration of the section.",
-    syntax="MCHAML1 = TAIL 'DIAMETRE_MIN' MODL1 (MCHAML2) ;",
 )
 def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:
     """Smallest lengths of elements."""

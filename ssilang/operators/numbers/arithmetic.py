@@ -257,31 +257,12 @@ def _sum_of_table(sign: str, call: Call, table: Table) -> Any:
     return total
 
 
-_FURTHER = {
-    "*": "\nCHAM3 = CHAM1 * CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nSIG1 = HOO1 * EPS1 MODL1 ;",
-    "/": "\nCHAM3 = (MODL1) CHAM1 / CHAM2 (LMOT1 LMOT2 LMOT3 (LREE1)) ;\nCHAM2 = CHAM1 / EVOL1 ;",
-}
-_TEXTS = {
-    "+": "Sum of two objects.",
-    "-": "Difference of two objects.",
-    "*": (
-        "Product of two objects. Of fields with three lists of names: component by component (in "
-        "cells with a factor each); of matrices of Hooke by strains, with the model: stresses."
-    ),
-    "/": (
-        "Quotient; of two integers it is an integer, cut towards zero. A field by a curve: its "
-        "values through the curve's function, as with *."
-    ),
-    "**": "Power.",
-}
-for _sign, _en in _TEXTS.items():
+for _sign in ("+", "-", "*", "/", "**"):
     operator(
         _sign,
         arg("left", en="what stands before it"),
         arg("right", en="what stands behind it"),
         gives=ANY,
         family="arithmetic",
-        en=_en + " Phrases run from left to right, without precedence: 1 + 2 * 3 is 9.",
-        syntax=f"OBJ3 = OBJ1 {_sign} OBJ2 ;" + _FURTHER.get(_sign, ""),
         reads_itself="the types of its two operands choose a rule, which may read more",
     )(lambda call, s=_sign: compute(s, call))

@@ -106,32 +106,16 @@ def _told(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
     return equal(sign, call, first, second, tolerance) == (sign == "EGA")
 
 
-def _register_equality(sign: str, en: str, example: str) -> None:
+for _sign in ("EGA", "NEG"):
     operator(
-        sign,
+        _sign,
         _FIRST,
         _SECOND,
         opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
         gives="LOGIQUE",
         family="comparisons",
-        full_name=sign,
-        en=en + " The second of two numbers is converted to the type of the first; points are "
-        "equal when closer than a tolerance (a tenth of their density at first); trailing "
-        "blanks of words do not count. Words are compared in the order EGA MOT1 MOT2.",
-        syntax=f"LOG1 = OBJ1 {sign} OBJ2 (FLOT1) ;",
-    )(partial(_told, sign))
-
-
-_register_equality(
-    "EGA",
-    "Whether two objects are equal.",
-    "SI (EGA 'AA' 'AA  ') ; MESS 'same' ; FINSI ;",
-)
-_register_equality(
-    "NEG",
-    "Whether two objects are not equal.",
-    "SI (3 NEG 4) ; MESS 'different' ; FINSI ;",
-)
+        full_name=_sign,
+    )(partial(_told, _sign))
 
 
 def _compare_numbers(sign: str, call: Call, first: Any, second: Any) -> bool:
@@ -140,14 +124,7 @@ def _compare_numbers(sign: str, call: Call, first: Any, second: Any) -> bool:
     return _ORDERS[sign](first, second)
 
 
-_TEXTS = {"<": "smaller", ">": "larger", "<EG": "smaller or equal", ">EG": "larger or equal"}
-for _sign, _en in _TEXTS.items():
-    operator(
-        _sign,
-        _FIRST,
-        _SECOND,
-        gives="LOGIQUE",
-        family="comparisons",
-        en=f"Whether the first number is {_en} than the second.",
-        syntax=f"LOG1 = VAL1 {_sign} VAL2 ;",
-    )(partial(_compare_numbers, _sign))
+for _sign in _ORDERS:
+    operator(_sign, _FIRST, _SECOND, gives="LOGIQUE", family="comparisons")(
+        partial(_compare_numbers, _sign)
+    )

@@ -61,10 +61,6 @@ def _whole(call: Call, values: Any) -> Any:
     gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
     full_name="ENTIER",
-    en="Integer of a real, of each item of a list or value of a field, or written in a word: "
-    "cut ('TRONCATURE', by default), below ('INFERIEUR'), above ('SUPERIEUR'), nearest "
-    "('PROCHE').",
-    syntax="OBJ2 = ENTI ('TRONCATURE' | 'INFERIEUR' | 'SUPERIEUR' | 'PROCHE') OBJ1 ;",
 )
 def enti(call: Call, way: str, value: Any) -> Any:
     """Round."""
@@ -95,8 +91,6 @@ def enti(call: Call, way: str, value: Any) -> Any:
     gives="FLOTTANT|LISTREEL",
     family="numbers",
     full_name="FLOTTANT",
-    en="Real of an integer, of each item of a list, or written in a word.",
-    syntax="OBJ2 = FLOT OBJ1 ;",
 )
 def flot(call: Call, value: Any) -> Any:
     """Convert to reals."""
@@ -111,8 +105,6 @@ def flot(call: Call, value: Any) -> Any:
     "VERI",
     arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=CARRIED),
     family="numbers",
-    en="Whether a real, or all values of a field, are numbers (neither infinite nor undefined).",
-    syntax="LOG1 = VERI X1 | CHPO1 ;",
 )
 def veri(value: Any) -> bool:
     """Test for numbers."""

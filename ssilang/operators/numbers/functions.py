@@ -101,44 +101,24 @@ def _sign(x: Any) -> Any:
     return np.where(x < 0, -1, 1).astype(np.asarray(x).dtype)
 
 
-_FUNCTIONS: dict[str, tuple[Function, str, str, str]] = {
-    "ABS": (np.abs, "Absolute value.", "ABS (-3)", ""),
-    "SIGN": (_sign, "Sign: 1, or -1 below zero.", "SIGN -2.5", ""),
-    "SIN": (_of_degrees(np.sin), "Sine of degrees.", "SIN 30.", ""),
-    "COS": (_of_degrees(np.cos), "Cosine of degrees.", "COS 60.", ""),
-    "TAN": (_of_degrees(np.tan), "Tangent of degrees.", "TAN 45.", ""),
-    "ASIN": (
-        _degrees(_within("ASIN", np.arcsin, -1, 1, False)),
-        "Arc sine, in degrees.",
-        "ASIN 0.5",
-        "",
-    ),
-    "ACOS": (
-        _degrees(_within("ACOS", np.arccos, -1, 1, False)),
-        "Arc cosine, in degrees.",
-        "ACOS 0.5",
-        "",
-    ),
-    "SINH": (np.sinh, "Hyperbolic sine.", "SINH 1.", ""),
-    "COSH": (np.cosh, "Hyperbolic cosine.", "COSH 1.", ""),
-    "TANH": (np.tanh, "Hyperbolic tangent.", "TANH 1.", ""),
-    "ASIH": (np.arcsinh, "Inverse hyperbolic sine.", "ASIH 1.", ""),
-    "ACOH": (
-        _within("ACOH", np.arccosh, 1, np.inf, False),
-        "Inverse hyperbolic cosine.",
-        "ACOH 2.",
-        "",
-    ),
-    "ATAH": (
-        _within("ATAH", np.arctanh, -1, 1, False),
-        "Inverse hyperbolic tangent.",
-        "ATAH 0.5",
-        "",
-    ),
-    "EXP": (_exponential, "Exponential.", "EXP 1.", ""),
-    "LOG": (_within("LOG", np.log, 0, np.inf, True), "Natural logarithm.", "LOG 10.", ""),
-    "ERF": (_erf, "Gauss's error function.", "ERF 0.5", ""),
-    "ERFC": (_erfc, "Complementary error function.", "ERFC 0.5", ""),
+_FUNCTIONS: dict[str, Function] = {
+    "ABS": np.abs,
+    "SIGN": _sign,
+    "SIN": _of_degrees(np.sin),
+    "COS": _of_degrees(np.cos),
+    "TAN": _of_degrees(np.tan),
+    "ASIN": _degrees(_within("ASIN", np.arcsin, -1, 1, False)),
+    "ACOS": _degrees(_within("ACOS", np.arccos, -1, 1, False)),
+    "SINH": np.sinh,
+    "COSH": np.cosh,
+    "TANH": np.tanh,
+    "ASIH": np.arcsinh,
+    "ACOH": _within("ACOH", np.arccosh, 1, np.inf, False),
+    "ATAH": _within("ATAH", np.arctanh, -1, 1, False),
+    "EXP": _exponential,
+    "LOG": _within("LOG", np.log, 0, np.inf, True),
+    "ERF": _erf,
+    "ERFC": _erfc,
 }
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
@@ -156,14 +136,12 @@ def _run(name: str, function: Function, value: Any) -> Any:
     return mapped(function, value)
 
 
-for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
+for _name, _function in _FUNCTIONS.items():
     operator(
         _name,
         _VALUE,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
-        en=_en + " Of a number, of each item of a list, ordinate of a curve or value of a field.",
-        syntax=f"OBJ2 = {_name} OBJ1 ;",
     )(partial(_run, _name, _function))
 
 
@@ -171,9 +149,6 @@ for _name, (_function, _en, _example, _more) in _FUNCTIONS.items():
     "IFRE",
     arg("limit", "FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
     family="functions",
-    en="Fresnel's integrals, from 0 to a limit, of cos(t) / sqrt(2 pi t) and of "
-    "sin(t) / sqrt(2 pi t).",
-    syntax="FLOT1 FLOT2 = IFRE FLOT3 ;",
 )
 def ifre(limit: float) -> tuple[float, float]:
     """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
@@ -191,9 +166,6 @@ def ifre(limit: float) -> tuple[float, float]:
     opt("second", *OPERANDS, en="denominator", range=CARRIED),
     gives=_REALS,
     family="functions",
-    en="Arc tangent in degrees, between -90 and 90; with two objects, of their quotient, "
-    "between -180 and 180.",
-    syntax="OBJ3 = ATG OBJ1 (OBJ2) ;",
 )
 def atg(call: Call, first: Any, second: Any) -> Any:
     """Arc tangent of one or two objects."""

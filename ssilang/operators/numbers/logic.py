@@ -31,21 +31,13 @@ union(("LOGIQUE", "LOGIQUE"))(_both)
     arg("first", "LOGIQUE", en="logical value"),
     arg("second", "LOGIQUE", en="another one"),
     family="comparisons",
-    en="True when one of two logical values is, or both.",
-    syntax="LOG3 = LOG1 OU LOG2 ;",
 )
 def ou(first: bool, second: bool) -> bool:
     """Disjunction."""
     return first or second
 
 
-@operator(
-    "NON",
-    arg("value", "LOGIQUE", en="logical value"),
-    family="comparisons",
-    en="Negation of a logical value.",
-    syntax="LOG2 = NON LOG1 ;",
-)
+@operator("NON", arg("value", "LOGIQUE", en="logical value"), family="comparisons")
 def non(value: bool) -> bool:
     """Negation."""
     return not value
@@ -57,8 +49,6 @@ def non(value: bool) -> bool:
     arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
     family="comparisons",
     full_name="MULTIPLE",
-    en="Whether the first integer is a multiple of the second.",
-    syntax="LOG1 = MULT N1 N2 ;",
 )
 def mult(first: int, second: int) -> bool:
     """Divisibility."""

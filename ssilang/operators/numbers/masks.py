@@ -43,18 +43,7 @@ _LIMITS = {
 }
 """What the values of an object may be compared with, by its type."""
 
-MASQ = shared(
-    "MASQ",
-    "numbers",
-    en="Ones where a relation with a number, or with the values of an object of the same "
-    "kind, is met, zeros elsewhere; with 'SOMME' their number. 'EXISTE' tells where a field "
-    "in cells has a component.",
-    syntax="OBJ2 = OBJ1 MASQ 'SUPERIEUR' | 'EGSUPE' | 'EGALE' | 'EGINFE' | 'INFERIEUR' | "
-    "'DIFFERENT' ('SOMME') X1 | OBJ3 ;\n"
-    "OBJ2 = OBJ1 MASQ 'COMPRIS' ('SOMME') X1 X2 | OBJ3 OBJ4 ;\n"
-    "OBJ2 = OBJ1 MASQ 'EXISTE' (MOT1) ;",
-    full_name="MASQUE",
-)
+MASQ = shared("MASQ", "numbers", full_name="MASQUE")
 
 
 _EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]}
@@ -149,14 +138,7 @@ def _existing(value: CellField, component: str | None) -> CellField:
     return CellField(tuple(blocks), value.title)
 
 
-BORN = shared(
-    "BORN",
-    "numbers",
-    en="Values cut at an upper bound ('MAXIMUM'), a lower one ('MINIMUM') or both ('COMPRIS'). "
-    "Of a field, component by component; of curves, curve by curve: those named are kept.",
-    syntax="OBJ2 = BORN OBJ1 ((MOT1 | N1) 'MAXIMUM' X2 | 'MINIMUM' X1 | 'COMPRIS' X1 X2) ... ;",
-    full_name="BORNER",
-)
+BORN = shared("BORN", "numbers", full_name="BORNER")
 _HIGH = arg("high", "ENTIER", "FLOTTANT", en="upper bound", range=ANY_NUMBER)
 _LOW = arg("low", "ENTIER", "FLOTTANT", en="lower bound", range=ANY_NUMBER)
 _BOUND = select(

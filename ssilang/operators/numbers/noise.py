@@ -38,16 +38,7 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     return generator
 
 
-BRUI = shared(
-    "BRUI",
-    "numbers",
-    en="Random values without correlation: Gauss (mean, deviation), uniform (mean, half "
-    "width), exponential; as a list, a curve over given times or a field on a mesh; Poisson as "
-    "a list of integers. A run repeated gives the same values; a last integer skips terms.",
-    syntax="OBJ1 = BRUI 'BLAN' 'GAUS' | 'UNIF' | 'EXPO' X1 X2 N2 | LREE1 (COUL1) | GEO1 (N3) ; "
-    "LENT1 = BRUI 'BLAN' 'POIS' N1 N2 (N3) ;",
-    full_name="BRUIT",
-)
+BRUI = shared("BRUI", "numbers", full_name="BRUIT")
 _NOISE = key("noise", "BLAN", optional=False, en="white noise")
 _SKIP = opt("skip", "ENTIER", range=NOT_NEGATIVE, en="terms that the generator, begun again, skips")
 

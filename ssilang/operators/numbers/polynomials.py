@@ -18,16 +18,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel, Mot
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 
-RACP = shared(
-    "RACP",
-    "numbers",
-    en="Real roots of a polynomial A0 + A1 X + A2 X**2 ..., in increasing order; with "
-    "'IMAGINAIRE' real and imaginary parts of all roots; with 'INTE' the first real root in "
-    "an interval (the word VIDE if there is none).",
-    syntax="LREE2 (LREE3) = RACP ('IMAGINAIRE') LREE1 | A0 A1 A2 (A3) (A4) ; "
-    "X1 = RACP 'INTE' X2 X3 LREE1 ;",
-    full_name="RACPOL",
-)
+RACP = shared("RACP", "numbers", full_name="RACPOL")
 _POLYNOMIAL = (
     flag("bairstow", "BAIR", en="changes nothing"),
     opt("listed", "LISTREEL", en="coefficients by power", range=ANY_NUMBER),
@@ -94,9 +85,6 @@ def _real_roots(roots: ComplexArray) -> FloatArray:
     arg("a2", "FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
     arg("a3", "FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
     family="numbers",
-    en="The three roots of A0 + A1 X + A2 X**2 + A3 X**3, each as real and imaginary part; "
-    "real roots first, in growing order.",
-    syntax="XR1 XI1 XR2 XI2 XR3 XI3 = DEG3 A0 A1 A2 A3 ;",
 )
 def deg3(
     call: Call, a0: float, a1: float, a2: float, a3: float

@@ -26,19 +26,7 @@ def _clocks(session: Session) -> dict[str, tuple[float, float]]:
     return found
 
 
-TEMP = shared(
-    "TEMP",
-    "session",
-    en="Prints the time passed since TEMP was called last. 'ZERO' starts the count again; "
-    "'HORL' and 'CPU' give wall and processor time in milliseconds since ZERO. 'IMPR' 'APPE' "
-    "prints how often each operator ran since ZERO. 'NOEC' gives a table: in 'TEMPS_HORLOGE' "
-    "and 'TEMPS_CPU' the milliseconds since the run began ('INITIAL') and since the last call "
-    "('DERNIER_APPEL'), in 'APPELS' how often each operator ran, a list of one number. "
-    "Phrases of numbers alone run no operator.",
-    syntax="TEMP ('ZERO' | 'IMPR' ('APPE') | 'PLAC') ; N1 = TEMP 'CPU' | 'HORL' ; "
-    "TAB1 = TEMP 'NOEC' ;",
-    full_name="TEMPS",
-)
+TEMP = shared("TEMP", "session", full_name="TEMPS")
 _REST = many("rest", "*", "TEXTE", en="changes nothing")
 
 
@@ -124,10 +112,6 @@ def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> 
     choice("part", ("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
     opt("seconds", "FLOTTANT", range=NOT_NEGATIVE),
     family="session",
-    en="Date and hour as a word, or one part of it; 'EPOCH': seconds, to measure by "
-    "difference; 'CONVERSION': seconds written as days, hours, minutes and seconds.",
-    syntax="MOT1 = DATE ('LETTRE') ; N1 = DATE 'ANNEE' | 'MOIS' | 'JOUR' | 'HEURE' | 'MINUTE' "
-    "| 'SECONDE' ; X1 = DATE 'EPOCH' ; MOT1 = DATE 'CONVERSION' X1 ;",
 )
 def date(call: Call, letters: bool, part: str | None, seconds: float | None) -> Any:
     """Tell the date."""

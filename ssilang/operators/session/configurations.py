@@ -31,14 +31,6 @@ class Configuration:
     gives=by("model", {None: "CONFIGUR"}, ("CONFIGUR", "MCHAML")),
     family="mesh",
     full_name="FORME",
-    en="Moves all nodes: to the coordinates of a configuration if one is given, then by a "
-    "field of displacements if one is given. Gives the configuration that is then in force; "
-    "alone it only gives the present one. With a model and its parameters, gives these too: "
-    "the local axes of beams and pipes have turned by the mean of the rotations of the cell's "
-    "nodes in that field (a rotation of any size), those of joints JOI1 whose model says LIE "
-    "with the segment between the nodes: about it by the part along it of that mean, then the "
-    "shortest way to where it goes (where both nodes are at one place, by the mean).",
-    syntax="(CONF2 (CAR2) =) FORM (CONF1) (CHPO1) (MODL1 CAR1) ;",
 )
 def form(
     call: Call,

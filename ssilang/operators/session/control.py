@@ -20,8 +20,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
     gives=(),
     family="control",
     full_name="QUITTER",
-    en="Leaves the named loop (an outer one too) or the running procedure.",
-    syntax="QUIT NOM1 ;",
 )
 def quitter(session: Session, name: str) -> NoReturn:
     """Leave a loop or a procedure."""
@@ -31,36 +29,18 @@ def quitter(session: Session, name: str) -> NoReturn:
 
 
 @operator(
-    "ITER",
-    named("name", en="loop that goes on"),
-    gives=(),
-    family="control",
-    full_name="ITERER",
-    en="Goes on with the next turn of the named loop.",
-    syntax="ITER NOM1 ;",
+    "ITER", named("name", en="loop that goes on"), gives=(), family="control", full_name="ITERER"
 )
 def iterer(name: str) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
 
 
-ASSI = shared(
-    "ASSI",
-    "control",
-    full_name="ASSISTANT",
-    en="Has an assistant carry out the phrase that follows: here one process does all, so the "
-    "phrase simply runs.",
-    syntax="OBJ1 ... = ASSI N1 PHRASE ;",
-)
+ASSI = shared("ASSI", "control", full_name="ASSISTANT")
 
 
 @ASSI.form(
-    said("TOUS"),
-    gives=ANY,
-    by_hand="the phrase is run once for each object of the tables in it",
-    syntax="TAB2 ... = ASSI 'TOUS' PHRASE ;",
-    en="TOUS: the phrase runs for each index of the tables ESCLAVE in it, with their objects at "
-    "that index in their place; results are tables ESCLAVE.",
+    said("TOUS"), gives=ANY, by_hand="the phrase is run once for each object of the tables in it"
 )
 def assi_all(call: Call, word: str) -> tuple[Table, ...] | None:
     """Run the phrase for all objects of its tables."""
@@ -104,13 +84,7 @@ def assi(number: int | None) -> None:
     """The phrase goes on."""
 
 
-@operator(
-    "FIN",
-    gives=(),
-    family="control",
-    en="Ends the run; with a name, ends the block that REPE opened.",
-    syntax="FIN ; FIN NOM1 ;",
-)
+@operator("FIN", gives=(), family="control")
 def fin() -> NoReturn:
     """End the run."""
     raise StopRun
@@ -121,8 +95,6 @@ def fin() -> NoReturn:
     many("text", "*", "TEXTE", en="whatever is said"),
     family="control",
     full_name="COMMENTAIRE",
-    en="A comment up to the end of the statement; a line with * in column 1 is one too.",
-    syntax="COMM ... ;",
 )
 def comm(text: tuple[Any, ...]) -> None:
     """Swallow the statement."""
@@ -149,9 +121,6 @@ def _argument_marks(call: Call) -> list[tuple[str, bool, str, Any]]:
     "ARGU",
     family="control",
     full_name="ARGUMENT",
-    en="Inside a procedure: reads further arguments. NOM1*TYPE1 is mandatory, NOM1/TYPE1 "
-    "optional; without type any object is taken.",
-    syntax="ARGU NOM1*TYPE1 NOM2/TYPE2 ... ;",
     reads_itself="its items are names and types, with * or / between",
 )
 def argu(call: Call) -> None:
@@ -175,14 +144,7 @@ def argu(call: Call) -> None:
         frame.assign(name, ANNULE if operand is None else operand.value)
 
 
-@operator(
-    "RESP",
-    many("results", en="results, in order"),
-    family="control",
-    full_name="RESPRO",
-    en="Inside a procedure: gives results, delivered before those of FINP.",
-    syntax="RESP OBJ1 OBJ2 ... ;",
-)
+@operator("RESP", many("results", en="results, in order"), family="control", full_name="RESPRO")
 def resp(session: Session, results: tuple[Any, ...]) -> None:
     """Queue results."""
     session.frame.results.extend(r for r in results if r is not ANNULE)

@@ -93,9 +93,6 @@ def _group(call: Call) -> list[Any] | None:
     many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",
-    en="Empty objects to begin unions with, several at once, or in a table ('TABULER', at the "
-    "indices of a list); of an object that is not a word: whether it is empty.",
-    syntax="OBJ1 ... = VIDE ('TABULER' (LIS1)) MOT1(/MOT2)(*N1) ... ; LOG1 = VIDE OBJ1 ;",
     reads_itself="types, sub-types and numbers are joined by / and *",
 )
 def vide(call: Call) -> Any:

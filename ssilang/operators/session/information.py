@@ -21,9 +21,6 @@ from ssilang.operators.vocabulary.pages import help_text, near_name
     arg("said", "MOT", en="operator, procedure or word"),
     family="session",
     full_name="INFORMATION",
-    en="Prints the help of an operator, of a procedure of the standard library, of a law, an "
-    "element, a parameter, a component or an option; of another word, what help knows of it.",
-    syntax="INFO NAME1 ;",
 )
 def info(call: Call, said: str) -> None:
     """Print the page of the word that follows."""
@@ -34,27 +31,13 @@ def info(call: Call, said: str) -> None:
     call.session.print(text)
 
 
-@operator(
-    "NOTI",
-    opt("said", "MOT", en="changes nothing"),
-    family="session",
-    full_name="NOTICE",
-    en="Prints the list of all operators and procedures, a line each.",
-    syntax="NOTI (MOT1) ;",
-)
+@operator("NOTI", opt("said", "MOT", en="changes nothing"), family="session", full_name="NOTICE")
 def noti(session: Session, said: str | None) -> None:
     """Print the overview; the word that may follow chooses nothing here."""
     session.print(overview(standard_procedures().values(), session.language))
 
 
-@operator(
-    "AIDE",
-    arg("said", "MOT", en="text looked for"),
-    family="session",
-    en="List of the operators and procedures whose help contains a text; the list is printed "
-    "if it is not empty.",
-    syntax="LISMO1 = AIDE MOT1 ;",
-)
+@operator("AIDE", arg("said", "MOT", en="text looked for"), family="session")
 def aide(session: Session, said: str) -> ListMots:
     """Search the help in both languages, whatever the case."""
     pages = [operator_page(o) for n, o in sorted(OPERATORS.items()) if n == o.name]
@@ -70,14 +53,7 @@ def aide(session: Session, said: str) -> ListMots:
     return ListMots(found)
 
 
-SOUC = shared(
-    "SOUC",
-    "session",
-    en="Flag of doubts: without argument, whether it is raised; with an ENTIER, raises it to "
-    "that level (it only grows; 0 lowers it).",
-    syntax="LOG1 = SOUC ; SOUC N1 ;",
-    full_name="SOUCI",
-)
+SOUC = shared("SOUC", "session", full_name="SOUCI")
 
 
 @SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", range=NOT_NEGATIVE))

@@ -30,14 +30,7 @@ from ssilang.operators.files.outputs import forbidden_path, run_output
 from ssilang.operators.lists.search import equal_items
 
 
-@operator(
-    "TYPE",
-    arg("value", "*", "TEXTE", en="any object"),
-    family="objects",
-    terminal=True,
-    en="The type of an object, as a word of 8 characters.",
-    syntax="MOT1 = TYPE OBJ1 ;",
-)
+@operator("TYPE", arg("value", "*", "TEXTE", en="any object"), family="objects", terminal=True)
 def type_word(value: Any) -> Mot:
     """Name the type."""
     return Mot(type_of(value).ljust(8))
@@ -51,13 +44,6 @@ def type_word(value: Any) -> Mot:
     ),
     family="objects",
     full_name="EXISTE",
-    en="Whether a name holds an object (a missing optional argument does not), a table has an "
-    "index, a field a component or a zone, a list an item, a loading a name (of a type), a "
-    "model a zone; behind * whether the object is of a type, or the name that of a file.",
-    syntax="LOG1 = EXIS OBJ1 ; LOG1 = EXIS TAB1 OBJ1 ; LOG1 = EXIS CHP1 MOT1 ; "
-    "LOG1 = EXIS LREE1 FLOT1 (FLOT2) ;\nLOG1 ... = EXIS LMOT1 MOT1 | LMOT2 ('ET' | 'OU') ; "
-    "LOG1 = EXIS CHAR1 MOT1 (MOT2) ; LOG1 = EXIS MODL1 MOT1 MOT2 ;\n"
-    "LOG1 = EXIS NOM1 * TYP1 ; LOG1 = EXIS MOT1 * 'FICHIER' ;",
     gives="LOGIQUE",
     reads_itself="its first operand may be a name without object, its second any index of a table",
 )
@@ -191,13 +177,7 @@ _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
 }  # fmt: skip
 
 
-OUBL = shared(
-    "OUBL",
-    "objects",
-    en="Forgets a name, or an index of a table.",
-    syntax="OUBL NOM1 ; OUBL TAB1 OBJ1 ;",
-    full_name="OUBLIER",
-)
+OUBL = shared("OUBL", "objects", full_name="OUBLIER")
 
 
 @OUBL.form(
@@ -218,8 +198,6 @@ def _forget_name(session: Session, name: str) -> None:
     many("objects", "*", "TEXTE", en="objects no longer used"),
     family="objects",
     full_name="DETRUIRE",
-    en="Does nothing: memory is freed when no name holds an object any more.",
-    syntax="DETR OBJ1 ;",
 )
 def detr(objects: tuple[Any, ...]) -> None:
     """Accept and ignore."""
@@ -231,8 +209,6 @@ def detr(objects: tuple[Any, ...]) -> None:
     many("ignored", "*", "TEXTE", en="changes nothing"),
     family="objects",
     full_name="MENAGE",
-    en="Frees memory that no object uses any more.",
-    syntax="MENA ('OBLI') (N1) ;",
 )
 def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
@@ -248,8 +224,6 @@ def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
     lead("value", "*", "TEXTE", en="object that gets it"),
     family="objects",
     full_name="NOMMER",
-    en="Gives an object a name that is written or computed: the content of a word counts.",
-    syntax="NOMM NOM1 OBJ1 ;",
 )
 def nomm(call: Call, name: Any, value: Any) -> None:
     """Assign to a computed name."""
@@ -271,9 +245,6 @@ def nomm(call: Call, name: Any, value: Any) -> None:
     gives=ANY,
     family="objects",
     full_name="OBJET",
-    en="Makes an object and runs its constructor, a method made by DEBM; what stands behind "
-    "are the constructor's arguments. Methods run by OBJ1%NAME, elements are %NAME inside.",
-    syntax="OBJ1 = OBJE METH1 (ARG1 ...) ;",
     reads_itself="the constructor reads its arguments itself",
 )
 def obje(call: Call) -> tuple[Any, ...]:
@@ -291,8 +262,6 @@ def obje(call: Call) -> tuple[Any, ...]:
     arg("method", "PROCEDUR", en="what it does"),
     family="objects",
     full_name="METHODE",
-    en="Gives an object a method under a name.",
-    syntax="OBJ1%METHODE NOM1 METH1 ;",
 )
 def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None:
     """Attach a method."""
@@ -307,8 +276,6 @@ def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None
     many("objects", "OBJET", en="heir, unless it is the present object, and whose methods it gets"),
     family="objects",
     full_name="HERITE",
-    en="Gives an object all the methods of another one.",
-    syntax="OBJ1%HERITE OBJ2 ;",
 )
 def heri(call: Call, objects: tuple[Objet, ...]) -> None:
     """Inherit methods."""

@@ -285,13 +285,6 @@ def _donn(call: Call, word: str) -> None:
     ),
     family="session",
     full_name="OPTION",
-    en="Sets options of the calculation; several may stand in one statement, values quoted or "
-    "not. An option keeps its value until it is set again; VALE reads it back. 'UNIT' says in "
-    "which units the deck is ('SI' 'KN-M' 'MN-M' 'N-MM'): materials given behind it are "
-    "looked at, and what is written says its units.",
-    syntax="OPTI 'DIME' N1 'MODE' MODE1 (MODE2) 'ELEM' TYPE1 'DENS' FLOT1 'COUL' COUL1 ... ;\n"
-    "OPTI 'TRAC' UNITE 'FTRA' FICHIER ; OPTI 'SORT' FICHIER ; OPTI 'SAUV' FICHIER ; "
-    "OPTI 'REST' FICHIER ; OPTI 'ACQU' FICHIER ; OPTI 'DONN' FICHIER ; OPTI 'UNIT' SYSTEME ;",
     gives=(),
     reads_itself="each option reads its value, a word even where a variable bears its name",
 )
@@ -366,9 +359,6 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     family="session",
     full_name="VALEUR",
     terminal=True,
-    en="Current value of an option of OPTI; 'MODE' 'FOUR' gives the harmonic, 'ERMA' the "
-    "largest number of the errors that did not stop the run (OPTI ERRE IGNORE), 0 without any.",
-    syntax="VAL1 = VALE MOT1 ; N1 = VALE 'ERMA' ;",
 )
 def vale(call: Call, said: str, harmonic: bool) -> Any:
     """Read an option back."""
@@ -403,8 +393,6 @@ def _worst_error(call: Call) -> int:
     arg("size", "FLOTTANT", en="mesh size", unit="m", range=POSITIVE),
     family="mesh",
     full_name="DENSITE",
-    en="Sets the mesh size that points made from now on carry (as OPTI DENS does).",
-    syntax="DENS FLOT1 ;",
 )
 def dens(session: Session, size: float) -> None:
     """Set the density in force."""

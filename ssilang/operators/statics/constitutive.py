@@ -92,17 +92,7 @@ _VARIABLES = arg("variables", "MCHAML", en="internal variables")
 _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
 
 
-@operator(
-    "COMP",
-    *_TWO_STATES,
-    family="stress",
-    full_name="COMPORTEMENT",
-    en="The constitutive laws of a model over a step: from the state at the start (stresses, "
-    "internal variables, inelastic strains, strains, parameters, joined by ET) and at the end "
-    "(strains, parameters), one field with the stresses, internal variables and inelastic "
-    "strains at the end. Elastic and plastic bodies, joints (whose strain is the jump).",
-    syntax="CHE1 = COMP MODL1 CHE2 CHE3 ;",
-)
+@operator("COMP", *_TWO_STATES, family="stress", full_name="COMPORTEMENT")
 def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
     """Integrate the laws."""
     step = _Step(start, end)
@@ -166,17 +156,7 @@ def _flow(
 
 
 for _name, _full in (("ECOU", "ECOULE"), ("PLAS", "PLAS")):
-    operator(
-        _name,
-        *_FLOW,
-        family="stress",
-        full_name=_full,
-        en="The constitutive laws over a step of strain: from stresses and internal variables "
-        "at the start, the step of strain and the parameters, in this order, the stresses and "
-        "internal variables at the end and the step of inelastic strain. Joints take the step "
-        "of jump; their open points start from the largest opening.",
-        syntax=f"SIG1 VAR1 DEPS1 = {_name} MODL1 SIG2 VAR2 EPS3 CAR1 (TAB1) (X1) ;",
-    )(_flow)
+    operator(_name, *_FLOW, family="stress", full_name=_full)(_flow)
 
 
 # ---- tangents -------------------------------------------------------------------------------
@@ -264,19 +244,7 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
     return element_matrices(zone, layout, values, "RIGIDITE")
 
 
-@operator(
-    "KTAN",
-    *_STATE,
-    _SYMMETRIC,
-    family="matrix",
-    en="Tangent stiffness of a model at a state given by stresses, internal variables and "
-    "parameters, in this order: elastic inside the surfaces, elastoplastic at the points "
-    "within 'PREC' (1.E-3, a share of the stress) of them; of joints by their state. 'SYME' "
-    "keeps the symmetric part. 'PERT': the stiffness of a step between two states as COMP "
-    "takes them, by perturbing its strain (C1 times the step, 1.E-3; at least C2, C1 / 100).",
-    syntax="RIG1 = KTAN MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ('SYME') ;\n"
-    "RIG1 = KTAN 'PERT' MODL1 CHE1 CHE2 ('C1' X1) ('C2' X2) ('SYME') ;",
-)
+@operator("KTAN", *_STATE, _SYMMETRIC, family="matrix")
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     """Tangent stiffness."""
     read = _state_read(call, **state)
@@ -334,15 +302,7 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
     return D
 
 
-@operator(
-    "HOTA",
-    *_STATE,
-    family="stress",
-    full_name="HOTANGE",
-    en="Field of tangent Hooke matrices at a state given by stresses, internal variables and "
-    "parameters, in this order (as KTAN finds them); RIGI and SIGM take it for parameters.",
-    syntax="CHEL1 = HOTA MODL1 SIG1 VAR1 MAT1 ('PREC' X1) ('DT' X2) ;",
-)
+@operator("HOTA", *_STATE, family="stress", full_name="HOTANGE")
 def hota(call: Call, **state: Any) -> CellField:
     """Tangent Hooke matrices."""
     read = _state_read(call, **state)
@@ -350,16 +310,7 @@ def hota(call: Call, **state: Any) -> CellField:
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 
 
-@operator(
-    "CRIT",
-    *_STATE,
-    family="stress",
-    full_name="CRITERE",
-    en="Yield criterion of stresses with internal variables and parameters, in this order: "
-    "negative inside, zero on the surface, in the unit of the stress. Von Mises and "
-    "Drucker-Prager laws, joints.",
-    syntax="CHEL1 = CRIT MODL1 SIG1 VAR1 CAR1 ;",
-)
+@operator("CRIT", *_STATE, family="stress", full_name="CRITERE")
 def crit(call: Call, **state: Any) -> CellField:
     """Yield criterion."""
     read = _state_read(call, **state)
@@ -375,15 +326,7 @@ def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
     return CellFieldBlock(zone.cells, {"SCAL": values}, "STRESSES", zone.element, zone.constituent)
 
 
-@operator(
-    "MOTA",
-    *_STATE,
-    family="stress",
-    en="Tangent moduli of equivalent stress on equivalent plastic strain, of von Mises laws: "
-    "the hardening slope where a point has yielded and stands on the surface (to a precision, "
-    "1.E-3), Young's modulus elsewhere.",
-    syntax="CHEL1 = MOTA MODL1 SIG1 VAR1 MAT1 (X1) ;",
-)
+@operator("MOTA", *_STATE, family="stress")
 def mota(call: Call, **state: Any) -> CellField:
     """Tangent moduli."""
     read = _state_read(call, **state)

@@ -122,13 +122,7 @@ def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)
 
 
-@operator(
-    "ZCON",
-    arg("table", "TABLE", en="table of CONTINU"),
-    family="modal",
-    en="Continuation of the table of CONTINU, which is the procedure to call.",
-    syntax="ZCON TAB1 ;",
-)
+@operator("ZCON", arg("table", "TABLE", en="table of CONTINU"), family="modal")
 def zcon(call: Call, table: Table) -> None:
     """Harmonic balance where 'HBM' says so, else loads on a structure."""
 

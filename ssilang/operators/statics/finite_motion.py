@@ -65,10 +65,6 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
     ),
     family="stress",
     full_name="POLAIRE",
-    en="Polar decomposition F = R U of a field of gradients: F itself ('GEOM', the default) "
-    "or F - 1 ('DEPL', what GRAD gives of a displacement). R is a rotation, U a symmetric "
-    "stretch; both are fields of gradients.",
-    syntax="R1 U1 = POLA MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
 )
 def pola(
     call: Call, model: Model, fields: tuple[CellField, ...], what: str
@@ -114,29 +110,13 @@ def _carried(
     return on_zones(present(call, model), field.title, make)
 
 
-@operator(
-    "PICA",
-    *_CARRIED,
-    family="stress",
-    en="Stresses of Piola-Kirchhoff (second kind) changed into Cauchy's, or strains of "
-    "Green-Lagrange into Almansi's, for the displacement DEP1 from the present mesh. 'JAUM' "
-    "turns from the frame that follows the matter to the general one; 'UTIL' changes nothing.",
-    syntax="CH2 = PICA ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-)
+@operator("PICA", *_CARRIED, family="stress")
 def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the reference to the present configuration."""
     return _carried(call, model, fields, frame, True)
 
 
-@operator(
-    "CAPI",
-    *_CARRIED,
-    family="stress",
-    en="Stresses of Cauchy changed into Piola-Kirchhoff's (second kind), or strains of Almansi "
-    "into Green-Lagrange's: the inverse of PICA. 'JAUM' turns from the general frame to the "
-    "one that follows the matter; 'UTIL' changes nothing.",
-    syntax="CH2 = CAPI ('JAUM' | 'UTIL') MODL1 CH1 DEP1 ;",
-)
+@operator("CAPI", *_CARRIED, family="stress")
 def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
     """From the present to the reference configuration."""
     return _carried(call, model, fields, frame, False)
@@ -147,16 +127,7 @@ _STRESS_AND_GRADIENT = many(
 )
 
 
-@operator(
-    "WORK",
-    MODEL,
-    _STRESS_AND_GRADIENT,
-    family="stress",
-    en="Trace of the product of a field of stresses and a field of gradients, in continuous "
-    "elements; in bars, beams and flat shells that of the forces along the line or surface "
-    "(EFFX; N11 N22 N12), per length or surface.",
-    syntax="WORK1 = WORK MODL1 SIG1 GRAD1 ;",
-)
+@operator("WORK", MODEL, _STRESS_AND_GRADIENT, family="stress")
 def work_of(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Work of stresses on gradients."""
     zones = present(call, model)
@@ -186,18 +157,7 @@ def _stress_and_gradient(
     return stress, gradient
 
 
-@operator(
-    "FOFI",
-    MODEL,
-    _STRESS_AND_GRADIENT,
-    family="stress",
-    full_name="FOFISS",
-    en="Nodal forces of stresses S on the gradients of a displacement u: their work in v is "
-    "the integral of S_ij du_k/dx_i dv_k/dx_j, as BSIG for the part of the strain of second "
-    "order. In bars, beams and flat shells S are the forces along the line or surface (EFFX; "
-    "N11 N22 N12).",
-    syntax="FORC1 = FOFI MODL1 SIG1 GRDEP1 (CAR1) ;",
-)
+@operator("FOFI", MODEL, _STRESS_AND_GRADIENT, family="stress", full_name="FOFISS")
 def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     """Forces of stresses on gradients."""
     zones = present(call, model)
@@ -214,13 +174,7 @@ def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     return total(forces[0].table, forces)
 
 
-@operator(
-    "TAGR",
-    arg("gradient", "MCHAML", en="gradients"),
-    family="stress",
-    en="Transposed field of gradients: UX,Y and UY,X change places.",
-    syntax="GRAD1 = TAGR GRAD2 ;",
-)
+@operator("TAGR", arg("gradient", "MCHAML", en="gradients"), family="stress")
 def tagr(call: Call, gradient: CellField) -> CellField:
     """Transpose gradients."""
     blocks = []

@@ -29,13 +29,7 @@ if TYPE_CHECKING:
 _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 
-@operator(
-    "ZFRE",
-    arg("table", "TABLE", en="table of PASAPAS"),
-    family="statics",
-    en="Sweep of frequencies of the table of PASAPAS, which is the procedure to call.",
-    syntax="ZFRE TAB1 ;",
-)
+@operator("ZFRE", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
 def zfre(call: Call, table: Table) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
     from ssilang.kernel.statics.frequency import sweep

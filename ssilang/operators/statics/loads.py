@@ -70,15 +70,7 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
 
 
 @operator(
-    "FORC",
-    arg("vector", "POINT", en="force", unit="N"),
-    _PLACE,
-    family="load",
-    full_name="FORCE",
-    en="Nodal field of a force, shared equally by the nodes of a place: a vector (its "
-    "coordinates are the components, given before the place) or named components FX FY FZ "
-    "(FR FZ FT in axisymmetry).",
-    syntax="FOR1 = FORC | VEC1 | MOT1 VAL1 ... GEO1 ;\nFORC TAB1 ;  (LIAISONS_STATIQUES)",
+    "FORC", arg("vector", "POINT", en="force", unit="N"), _PLACE, family="load", full_name="FORCE"
 )
 def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     """A force by its vector."""
@@ -121,9 +113,6 @@ def unit_forces(call: Call, table: Table) -> None:
     _PLACE,
     family="load",
     full_name="MOMENT",
-    en="Nodal field of a moment, shared equally by the nodes of a place: a vector in space, "
-    "or named components MX MY MZ (MT in axisymmetry).",
-    syntax="FOR1 = MOME | VEC1 | MOT1 VAL1 ... GEO1 ;",
 )
 def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     """A moment by its vector."""
@@ -178,19 +167,6 @@ _FACES = opt("faces", "MAILLAGE", en="sides")
     ),
     family="load",
     full_name="PRESSION",
-    en="Nodal forces of a pressure on sides of continuous elements, pushing into them when "
-    "positive. The pressure is a number on a mesh of sides, a nodal field with one component "
-    "(on the outer sides of the model whose nodes all have a value), or a field in cells "
-    "over sides. On shells ('COQU') it pushes along their normal ('NORM'), to the side that a "
-    "vector shows or to that of a point ('POIN'). On shells of bricks ('SHB8') it pushes into "
-    "the face of the first four nodes ('INTERNE') or of the last four ('EXTERNE'). In pipes "
-    "('TUYA') the parameter PRES pushes on closed ends. With a model CHARGEMENT PRESSION: the "
-    "field of pressure, whose forces BSIG gives along the sides' own normals.",
-    syntax="FOR1 = PRES 'MASS' MODL1 | VAL1 GEO1 | CHPO1 | CHAM1 ;\n"
-    "FOR1 = PRES 'COQU' MODL1 | VAL1 | CHPO1 | CHAM1 'NORM' | VEC1 | 'POIN' P1 (CAR1) ;\n"
-    "FOR1 = PRES 'SHB8' MODL1 | VAL1 | CHPO1 'INTERNE' | 'EXTERNE' ;\n"
-    "FOR1 = PRES 'TUYA' MODL1 CAR1 ;\n"
-    "CHAM2 = PRES MODL1 | MOT1 VAL1 (GEO1) | CHAM1 ;",
 )
 def pres(call: Call, model: Model, kind: str | None, load: Chosen) -> NodeField | CellField:
     """Pressure on sides of continuous elements, or the field of a model of loads."""
@@ -321,13 +297,6 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
     _FACES,
     _THICKNESS,
     family="load",
-    en="Nodal forces of a force per area on sides of continuous elements ('MASS'), or per "
-    "length of beams and bars ('POUT'; with 'PROJ' per length projected on the plane normal "
-    "to a vector). The density is a vector or a nodal field FX FY FZ (with moments MX MY MZ "
-    "along beams). CAR1 gives the thickness DIM3 in plane stress.",
-    syntax="FOR1 = FSUR 'MASS' MODL1 | VEC1 GEO1 | CHPO1 (CAR1) ;\n"
-    "FOR1 = FSUR 'COQU' MODL1 | VEC1 | CHPO1 (CAR1) ;\n"
-    "FOR1 = FSUR 'POUT' MODL1 | VEC1 | CHPO1 ('PROJ' VEC2) ;",
 )
 def fsur(
     call: Call,
@@ -376,10 +345,6 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
     ),
     _THICKNESS,
     family="load",
-    en="Nodal forces of a force per volume in continuous elements and shells DKT COQ3 COQ4: "
-    "nodal field or field in cells with components FX FY FZ (weight, centrifugal force ...). "
-    "CAR1 gives the thickness EPAI of shells, DIM3 in plane stress.",
-    syntax="FOR1 = CNEQ MODL1 | CHPO1 | CHAM1 (CAR1) ;",
 )
 def cneq(model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]) -> NodeField:
     """Volume forces."""

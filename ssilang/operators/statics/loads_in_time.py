@@ -60,12 +60,6 @@ _PATH = group(  # behind the name, which may be this word
     _PATH,
     family="loads",
     full_name="CHARGEMENT",
-    en="Loading: a field times a curve in time (constant without curve), or a field at each "
-    "of listed times (a table of times and a table of fields, indexed 0 1 2 ...), under a name "
-    "of 4 characters such as MECA (forces), DIMP (imposed displacements), T, PRES. Loadings "
-    "join by ET.",
-    syntax="CHAR1 = CHAR (MOT1) CHPO1 | CHAM1 (EVOL1) ('LIE' | 'LIBRE') ;\n"
-    "CHAR1 = CHAR (MOT1) TAB1 TAB2 ;",
 )
 def char(
     call: Call,
@@ -158,8 +152,6 @@ def char_in_steps(
     _LINK,
     _MOVES,
     _PATH,
-    syntax="CHAR1 = CHAR (MOT1) LREE1 LOBJ1 ;",
-    en="The same by a list of times and a list of objects (ENUM, SUIT).",
 )
 def char_in_lists(
     call: Call,
@@ -232,9 +224,6 @@ _TIME = arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
     family="loads",
     full_name="TIRER",
     gives="|".join(_HELD),
-    en="What a loading is at a time: the sum of all its parts, those of a name, or a table by "
-    "names ('TABL').",
-    syntax="CHP1 = TIRE CHAR1 X1 (MOT1) ; TAB1 = TIRE CHAR1 X1 'TABL' ;",
 )
 def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
     """Evaluate a loading."""
@@ -308,12 +297,6 @@ _PART = arg("name", "MOT", en="name of parts")
         },
         "CHARGEME",
     ),
-    syntax="CHAR2 = EXTR CHAR1 'CHAR' (N1) | MOT1 | LMOT1 | 'LIE' | 'LIBR' ; "
-    "CHP1 = EXTR CHAR1 'CHAM' (N1) ; EVOL1 = EXTR CHAR1 'EVOL' (N1) ; LMOT1 = EXTR CHAR1 'COMP' ;\n"
-    "LREE1 = EXTR CHAR1 'LREE' (N1) ; LOBJ1 = EXTR CHAR1 'LOBJ' (N1) ; "
-    "TAB1 TAB2 = EXTR CHAR1 MOT1 'TABL' ;",
-    en="Of a loading: a part by number or name, its field, its curve, its times and objects "
-    "('LREE', 'LOBJ'), the names of all parts.",
 )
 def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     """A part of a loading, by a word."""
@@ -379,14 +362,7 @@ def _tables(part: LoadPart) -> tuple[Table, Table]:
     return times_table, fields_table
 
 
-@CHAN.form(
-    said("TABL"),
-    _LOAD,
-    _PART,
-    of=("CHARGEME",),
-    syntax="CHAR2 = CHAN 'TABL' CHAR1 MOT1 ;",
-    en="TABL gives the parts of a loading that have a name as fields at listed times.",
-)
+@CHAN.form(said("TABL"), _LOAD, _PART, of=("CHARGEME",))
 def in_steps(call: Call, load: Load, name: str) -> Load:
     """Parts of a name as fields at listed times."""
     chosen = _named(call, load, [name])
@@ -410,18 +386,13 @@ def _times(part: LoadPart) -> list[float]:
     return [] if curve is None else [float(t) for t in curve.parts[0].abscissas]
 
 
-@DIME.form(_MAIN, en="Of a loading: its number of parts.")
+@DIME.form(_MAIN)
 def count_parts(load: Load) -> int:
     """Number of parts."""
     return len(load.parts)
 
 
-@ENLE.form(
-    _MAIN,
-    _PART,
-    syntax="CHAR2 = ENLE CHAR1 MOT1 ;",
-    en="Of a loading: without the parts of a name.",
-)
+@ENLE.form(_MAIN, _PART)
 def without_parts(call: Call, load: Load, name: str) -> Load:
     """A loading without the parts of a name."""
     gone = _named(call, load, [name])

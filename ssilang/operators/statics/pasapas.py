@@ -24,7 +24,6 @@ from ssilang.language.registry import arg, operator
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
-from ssilang.operators.dynamics.dynamic import integrated
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
@@ -44,9 +43,13 @@ from ssilang.operators.statics.bodies import (
     plastic_bodies,
     warn_of_strains,
 )
-from ssilang.operators.statics.initial_stress import linear_blocks, offset_load, stress_offsets
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies, pressure_law, procedure_law
-from ssilang.operators.statics.pasapas_contact import sides_of
+from ssilang.operators.statics.pasapas_contact import (
+    linear_blocks,
+    offset_load,
+    sides_of,
+    stress_offsets,
+)
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
@@ -66,13 +69,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator(
-    "ZPAS",
-    arg("table", "TABLE", en="table of PASAPAS"),
-    family="statics",
-    en="Load steps of the table of PASAPAS, which is the procedure to call.",
-    syntax="ZPAS TAB1 ;",
-)
+@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
 def zpas(call: Call, table: Table) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
@@ -184,10 +181,7 @@ def _stretch(
                 history = run_bulk(problem, *made, observers, line, dynamic, keeper, full)
             elif dynamic:
                 full = work.flag("NEWTON_COMPLET")
-                if full or work is not entries:  # a procedure of the script's steps in its own turn
-                    history = integrate(problem, observers, line, full, keeper=keeper)
-                else:
-                    history = integrated(entries.call.session, problem, observers, line, keeper)
+                history = integrate(problem, observers, line, full, keeper=keeper)
             else:
                 history = step_statics(problem, observers, line, keeper)
     finally:

@@ -325,8 +325,6 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     arg("unit", "CHPOINT", en="step by the load", unit="m"),
     arg("asked", "FLOTTANT", en="strain asked for", range=ANY_NUMBER),
     family="statics",
-    en="Equation of strains behind PILOINDI, which is the procedure to call.",
-    syntax="FLOT2 = ZPIL TAB1 CHPO1 CHPO2 CHPO3 CHPO4 FLOT1 ;",
 )
 def zpil(
     call: Call,

@@ -167,18 +167,6 @@ RESO = operator(
     family="solve",
     full_name="RESO",
     gives=Like("loads"),
-    en="Solves K u = F with the conditions in the matrix: equalities exactly, 'MINI' and 'MAXI' "
-    "by active sets. Forces FX, FY, MZ ... and imposed values of DEPI add up in the second "
-    "member; the solution holds UX, UY, RZ ... and the multipliers LX (K u + C^T LX = F). One "
-    "solution for each second member; a LISTCHPO gives a LISTCHPO. Free motions that the "
-    "loads drive are an error that names them. 'NOID' leaves that part of the loads out, "
-    "'SOUC' too with a warning; 'NOUNIL' takes unilateral conditions for equalities; 'STAB' "
-    "adds to the diagonal what makes the matrix positive; 'ELIM' 0 keeps all conditions in a "
-    "saddle point; 'ENSE' also gives the number of free motions and the nodes that pin them.",
-    syntax="CHPO1 (CHPO2 ...) = RESO RIG1 CHPO3 (CHPO4 ...) ('NOID') ('NOUNIL') ('STAB') ('SOUC') "
-    "('ELIM' N1) ;\n"
-    "CHPO1 NB1 MAIL1 = RESO RIG1 CHPO3 'ENSE' ;\n"
-    "LCHPO2 = RESO RIG1 LCHPO1 ;\n(TAB2 =) RESO RIG1 TAB1 ;  (LIAISONS_STATIQUES)",
 )(_reso)
 
 
@@ -275,12 +263,6 @@ operator(
     family="solve",
     full_name="REACTION",
     gives=Like("solution"),
-    en="Forces that the conditions in a matrix apply on the body, - C^T LX, from a solution of "
-    "RESO, DYNAMIC or PASAPAS with its multipliers. All conditions of RIG1 count and add up "
-    "at the nodes that they share, such as the master of a rigid body: the force of one BLOQ "
-    "or RELA is had by giving REAC that one alone, as it was when the solution was made. A "
-    "table of modes or of static shapes is completed by REACTION_MODALE or REACTION.",
-    syntax="CHPO2 = REAC RIG1 CHPO1 ;\nTAB2 = REAC RIG1 TAB1 ;",
 )(_reac)
 
 
@@ -288,12 +270,4 @@ def _diag(matrix: Matrix) -> int:
     return negative_eigenvalues(matrix)
 
 
-operator(
-    "DIAG",
-    _MATRIX,
-    family="solve",
-    full_name="DIAGNEG",
-    en="Number of negative eigenvalues of a matrix on the motions that its conditions allow: "
-    "zero if it is stable.",
-    syntax="N1 = DIAG RIG1 ;",
-)(_diag)
+operator("DIAG", _MATRIX, family="solve", full_name="DIAGNEG")(_diag)

@@ -85,11 +85,6 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
     ),
     family="stress",
     full_name="SIGMA",
-    en="Elastic stresses of a displacement field, at the points of 'STRESSES': SMXX SMYY SMZZ "
-    "SMXY ... in continuous elements (global axes), EFFX in bars, EFFX EFFY ... MOMZ in beams "
-    "(local axes), SMSN SMN in joints. 'QUAD' adds the strains of second order. Hooke "
-    "matrices may stand for the parameters.",
-    syntax="SIG1 = SIGM ('NOER') ('LINE' | 'QUAD') MODL1 MAT1 (CAR1) DEP1 ;",
 )
 def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> CellField:
     """Stresses."""
@@ -119,12 +114,6 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
     ),
     family="stress",
     full_name="EPSILON",
-    en="Strains of a displacement field, at the points of 'STRESSES': EPXX EPYY EPZZ GAXY ... "
-    "in continuous elements (shears are engineering strains), EPSS in bars, EPS GXY ... CZ in "
-    "beams, jumps DRSN DRN in joints. 'QUAD' adds the terms of second order. With a field of "
-    "gradients F ('GEOM') or F - 1 ('DEPL') instead: the strain ln(F^T F) / 2.",
-    syntax="EPS1 = EPSI ('LINE' | 'QUAD') MODL1 DEP1 (CAR1) ('NOER') ;\n"
-    "EPS1 = EPSI MODL1 GRAD1 ('GEOM' | 'DEPL') ;",
 )
 def epsi(
     call: Call, model: Model, fields: Fields, silent: bool, measure: str, gradient: str
@@ -160,11 +149,6 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     NO_ERROR,
     family="stress",
     full_name="BSIGMA",
-    en="Nodal forces in balance with a field of stresses: the integral of B^T sigma; on a "
-    "model CHARGEMENT PRESSION, the forces of a field of pressure along the sides' normals. "
-    "The small springs by which RIGI holds the rotation of shells about their normal (1.E-5 of "
-    "the bending stiffness) have no stress: their moments are missing here.",
-    syntax="FOR1 = BSIG ('NOER') MODL1 SIG1 (CAR1) ;",
 )
 def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) -> NodeField:
     """Internal forces."""
@@ -181,8 +165,6 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
     family="stress",
     full_name="ELASTICITE",
-    en="Elastic stresses of strains, or strains of stresses, whichever the first field holds.",
-    syntax="CHAM2 = ELAS MODL1 CHAM1 MAT1 (CAR1) ;",
 )
 def elas(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Hooke's law, either way."""
@@ -219,17 +201,7 @@ def _state(model: Model, field: CellField) -> str:
     return ""
 
 
-@operator(
-    "EPTH",
-    MODEL,
-    _THERMAL,
-    family="stress",
-    en="Thermal strains ALPH (T - TALP) of a temperature T (nodal field, or field in cells). "
-    "On shells TINF T TSUP are those of the lower skin, the middle and the upper skin (the "
-    "normal's side): a parabola across the thickness, of which thin shells take the mean "
-    "(TINF + 4 T + TSUP) / 6 and the curvature ALPH (TSUP - TINF) / EPAI.",
-    syntax="EPS1 = EPTH MODL1 MAT1 | CHPO1 | CHAM1 ;",
-)
+@operator("EPTH", MODEL, _THERMAL, family="stress")
 def epth(call: Call, model: Model, fields: Fields) -> CellField:
     """Thermal strains."""
     material, field = _thermal(call, fields)
@@ -251,16 +223,7 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
     return cell_block(zone, families.family_of(zone).strain_names(zone), values)
 
 
-@operator(
-    "THET",
-    MODEL,
-    _THERMAL,
-    family="stress",
-    full_name="THETA",
-    en="Stresses D ALPH (T - TALP) of the thermal strains of a temperature T: to be taken off "
-    "the stresses of SIGM; BSIG of them gives the thermal load.",
-    syntax="SIG1 = THET MODL1 MAT1 | CHPO1 | CHAM1 ;",
-)
+@operator("THET", MODEL, _THERMAL, family="stress", full_name="THETA")
 def thet(call: Call, model: Model, fields: Fields) -> CellField:
     """Thermal stresses."""
     material, field = _thermal(call, fields)

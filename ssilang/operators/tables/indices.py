@@ -26,14 +26,7 @@ from ssilang.language.values import (
 from ssilang.operators.dispatch import COPI, DIME, ENLE, united
 from ssilang.operators.numbers.arithmetic import rule
 
-TABL = shared(
-    "TABL",
-    "tables",
-    en="A new table; a word becomes its sub-type (index SOUSTYPE). Behind a table: that same "
-    "table, under a further name.",
-    syntax="TAB1 = TABL (MOT1) ; TAB1 = TABL TAB2 ;",
-    full_name="TABLE",
-)
+TABL = shared("TABL", "tables", full_name="TABLE")
 
 
 @TABL.form(arg("table", "TABLE", en="table that gets a further name"))
@@ -46,14 +39,7 @@ def _new(subtype: str) -> Table:
     return Table(str(subtype))
 
 
-INDE = shared(
-    "INDE",
-    "tables",
-    en="Table (1 to n) of the indices of a table; with a type word such as *MAILLAGE, table "
-    "of the named objects of that type, by name.",
-    syntax="TAB1 = INDE TAB2 ; TAB1 = INDE MOT1 ;",
-    full_name="INDEX",
-)
+INDE = shared("INDE", "tables", full_name="INDEX")
 
 
 @INDE.form(arg("table", "TABLE", en="table whose indices are wanted"))
@@ -82,17 +68,12 @@ def _named(call: Call, star: bool, said: str) -> Table:
     return made
 
 
-@DIME.form(main("table", "TABLE", en="table"), en="Of a table: its number of indices.")
-def _size(table: Table) -> int:
+@DIME.form(main("table", "TABLE", en="table"))
+def _table_size(table: Table) -> int:
     return len(table)
 
 
-@ENLE.form(
-    main("table", "TABLE", en="table"),
-    arg("index", "*", "TEXTE", en="index to leave out"),
-    syntax="TAB2 = ENLE TAB1 OBJ1 ;",
-    en="Of a table: a new table without an index.",
-)
+@ENLE.form(main("table", "TABLE", en="table"), arg("index", "*", "TEXTE", en="index to leave out"))
 def _without(call: Call, table: Table, index: Any) -> Table:
     if not table.has(index):
         raise call.error("no-index", index=index, known=[k for k, _ in table.items()])
@@ -109,12 +90,8 @@ def copied(table: Table) -> Table:
     return made
 
 
-@COPI.form(
-    main("table", "TABLE", en="table"),
-    syntax="TAB2 = COPI TAB1 ;",
-    en="Of a table: a new table with the same values; what it gets is its own.",
-)
-def _copy(table: Table) -> Table:
+@COPI.form(main("table", "TABLE", en="table"))
+def _copy_table(table: Table) -> Table:
     return copied(table)
 
 
@@ -151,12 +128,7 @@ for _kind in ("ENTIER", "FLOTTANT"):
 
 
 @operator(
-    "OTER",
-    arg("table", "TABLE", en="table"),
-    arg("index", en="index to remove"),
-    family="tables",
-    en="Removes an index from a table, in place.",
-    syntax="OTER TAB1 OBJ1 ;",
+    "OTER", arg("table", "TABLE", en="table"), arg("index", en="index to remove"), family="tables"
 )
 def oter(call: Call, table: Table, index: Any) -> None:
     """Forget an index."""
@@ -165,15 +137,7 @@ def oter(call: Call, table: Table, index: Any) -> None:
     table.remove(index)
 
 
-@operator(
-    "ETG",
-    arg("table", "TABLE", en="objects at 1, 2 ..."),
-    gives=ANY,
-    family="objects",
-    en="Union (ET) of the objects that a table of sub-type 'ESCLAVE' holds at the indices 1, 2 "
-    "...: PART makes such tables. A mesh gets the cells in the order of the table.",
-    syntax="OBJ2 = ETG TAB1 ;",
-)
+@operator("ETG", arg("table", "TABLE", en="objects at 1, 2 ..."), gives=ANY, family="objects")
 def etg(call: Call, table: Table) -> Any:
     """Union of a table's objects."""
     if table.subtype != "ESCLAVE":

@@ -307,17 +307,7 @@ def _all_names(session: Session, kind: str) -> str:
     return "\n".join([session.told("operators.texts.named", count=len(rows), kind=kind), *rows])
 
 
-LIST = shared(
-    "LIST",
-    "output",
-    en="Prints what an object holds ('RESUME': less); without object, the names in use; "
-    "*TYPE, those of one type. A number behind a list of numbers: values in a line (10 reals, "
-    "20 integers); behind a table: how deep the tables that it holds are printed (10 at most); "
-    "behind a procedure: the line, or the first and the last line.",
-    syntax="LIST ('RESU') OBJ1 (N1 (N2)) ; LIST ; LIST *MOT1 ;",
-    full_name="LISTE",
-    terminal=True,
-)
+LIST = shared("LIST", "output", full_name="LISTE", terminal=True)
 
 
 @LIST.form(lead("value", "TEXTE", en="a text, as it stands"))

@@ -15,15 +15,7 @@ from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text
 from ssilang.operators.workspace import workspace
 
 
-@operator(
-    "MESS",
-    *TEXT,
-    family="output",
-    full_name="MESSAGE",
-    en="Prints words and numbers on one line, written as CHAI writes them.",
-    syntax="MESS ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-    reads_itself=TEXT_IS_FREE,
-)
+@operator("MESS", *TEXT, family="output", full_name="MESSAGE", reads_itself=TEXT_IS_FREE)
 def mess(call: Call) -> None:
     """Print one line."""
     call.session.print(read_text(call, apart=True))
@@ -73,15 +65,7 @@ def _flat(values: Sequence[Any]) -> str:
     return " ".join(words)
 
 
-ERRE = shared(
-    "ERRE",
-    "output",
-    en="Reports an error and stops the run: a text, or the number of a message with the "
-    "objects that fill it. ERRE 0 reports nothing; a negative number prints the message and "
-    "goes on.",
-    syntax="ERRE MOT1 ; ERRE N1 ('AVEC' OBJ1 OBJ2 ...) ;",
-    full_name="ERREUR",
-)
+ERRE = shared("ERRE", "output", full_name="ERREUR")
 
 
 @ERRE.form(
@@ -139,8 +123,6 @@ def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
     opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
     choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
     family="output",
-    en="Prints blank lines ('PAGE': one).",
-    syntax="SAUT (N1) 'LIGN' | 'PAGE' ;",
 )
 def saut(call: Call, count: int, what: str | None) -> None:
     """Print blank lines."""
@@ -148,15 +130,7 @@ def saut(call: Call, count: int, what: str | None) -> None:
         call.session.print("")
 
 
-@operator(
-    "TITR",
-    *TEXT,
-    family="output",
-    full_name="TITRE",
-    en="Sets the title of the pictures and curves made from now on.",
-    syntax="TITR OBJ1 (OBJ2 ...) ;",
-    reads_itself=TEXT_IS_FREE,
-)
+@operator("TITR", *TEXT, family="output", full_name="TITRE", reads_itself=TEXT_IS_FREE)
 def titr(call: Call) -> None:
     """Set the title."""
     workspace(call.session).title = read_text(call)

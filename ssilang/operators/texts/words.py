@@ -142,17 +142,7 @@ def filling(values: Sequence[Any]) -> dict[str, object]:
 
 
 @operator(
-    "CHAI",
-    *TEXT,
-    family="words",
-    full_name="CHAINE",
-    terminal=True,
-    en="Joins words and numbers into one word, without blanks between. Reals are written by "
-    "the last FORMAT (a Fortran format, (1PE12.5) at first), integers too by an I format. "
-    "Behind an item, *N puts its end at column N, /N its beginning; <N and >N count from the "
-    "end of what is written already.",
-    syntax="MOT1 = CHAI ('FORMAT' MOT2) OBJ1 (*N1 | /N1 | <N1 | >N1) (OBJ2 ...) ;",
-    reads_itself=TEXT_IS_FREE,
+    "CHAI", *TEXT, family="words", full_name="CHAINE", terminal=True, reads_itself=TEXT_IS_FREE
 )
 def chai(call: Call) -> Mot:
     """Write operands into one word."""
@@ -165,8 +155,6 @@ def chai(call: Call) -> Mot:
     gives="MOT|PROCEDUR",
     family="words",
     terminal=True,
-    en="A word, also when it is the name of an operator or a procedure.",
-    syntax="MOT1 = MOT MOT2 ;",
 )
 def mot(text: Mot | Procedure) -> Any:
     """Give a word back; a bare name of a procedure stays a procedure."""
@@ -174,11 +162,7 @@ def mot(text: Mot | Procedure) -> Any:
 
 
 @CHAN.form(
-    said("MAJU", "MINU"),
-    arg("text", "MOT", "LISTMOTS", en="words to change"),
-    gives=Like("text"),
-    syntax="MOT2 = CHAN 'MAJU' | 'MINU' MOT1 ;",
-    en="MAJU and MINU change the case of a word.",
+    said("MAJU", "MINU"), arg("text", "MOT", "LISTMOTS", en="words to change"), gives=Like("text")
 )
 def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
     change = str.upper if word == "MAJU" else str.lower
@@ -199,9 +183,6 @@ def _letters(call: Call, text: str, places: ListEnti) -> Mot:
     main("text", "MOT", en="word"),
     arg("first", "ENTIER", en="first character", range=POSITIVE),
     opt("last", "ENTIER", en="last character, the end by default", range=POSITIVE),
-    syntax="MOT2 = EXTR MOT1 N1 (N2) ; MOT2 = EXTR MOT1 LISTENTI1 ; TAB1 = EXTR 'TYPE1' ;",
-    en="Of a word: characters N1 to N2 (to the end without N2). With a type word alone: table of "
-    "all named objects of that type.",
 )
 def _extract_word(call: Call, text: str, first: int, last: int | None) -> Mot:
     end = len(text) if last is None else last
@@ -238,7 +219,7 @@ def _named(call: Call, kind: str) -> Table:
     return found
 
 
-@DIME.form(main("text", "MOT", en="word"), en="Of a word: its number of characters.")
+@DIME.form(main("text", "MOT", en="word"))
 def _length(text: str) -> int:
     return len(text)
 

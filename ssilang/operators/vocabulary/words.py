@@ -232,7 +232,7 @@ def known_components() -> tuple[str, ...]:
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
     from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
-    from ssilang.kernel.interface.bed_results import AT_PLACES, OF_WHOLE
+    from ssilang.kernel.interface.bed import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES
 
     names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ssilang.io.archive.soundness import _AGREEMENTS, flaw_of
+from ssilang.io.archive.decoding import _AGREEMENTS, flaw_of
 from ssilang.kernel.curves.curve import CurvePart
 from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeValues

@@ -10,7 +10,7 @@ import pytest
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Part, SeriesWriter
-from ssilang.io.vtk.pvd import read_pvd
+from ssilang.io.vtk.series import read_pvd
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

@@ -17,7 +17,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Part, SeriesWriter
-from ssilang.io.vtk.cells import ORDERS
+from ssilang.io.vtk.grid import ORDERS
 from ssilang.io.vtk.growing import GrowingFile
 from ssilang.io.vtk.hdf5 import BRANCHES
 from ssilang.io.vtk.labels import Labels, labels_of

@@ -11,8 +11,7 @@ import pytest
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Encoding, grid_of, write_vtu
-from ssilang.io.vtk.cells import ORDERS
-from ssilang.io.vtk.grid import cell_arrays
+from ssilang.io.vtk.grid import ORDERS, cell_arrays
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.cells import CELL_TYPES

@@ -6,7 +6,7 @@ from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import Recorder
 
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate

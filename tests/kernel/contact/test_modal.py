@@ -9,7 +9,7 @@ from references.recorder import Recorder
 
 from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
 from ssilang.kernel.contact.modal import takes
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix

@@ -6,7 +6,7 @@ from references.assembled import Bench
 from references.recorder import Recorder
 
 from ssilang.kernel.contact import solver
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate

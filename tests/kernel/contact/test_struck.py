@@ -8,7 +8,7 @@ from references.assembled import Bench
 from references.recorder import Recorder
 from references.rocking import HousnerBlock
 
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.newmark import Scheme

@@ -6,8 +6,7 @@ from references.iterations import at_rest, compiled_newton
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
-from ssilang.kernel.interface.newton import workspace
-from ssilang.kernel.interface.projected import is_stiff, set_shares
+from ssilang.kernel.interface.newton import is_stiff, set_shares, workspace
 from ssilang.kernel.interface.response import Joints, accept
 
 MU = 0.5

@@ -21,7 +21,6 @@ from ssilang.kernel.stepping import choose, effective
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.run_many import integrate_together
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
 
 # steps are many and problems small as they are: nothing is gained by making them smaller
@@ -131,27 +130,6 @@ def test_steps_are_those_of_the_equations(loop):
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
         check_steps(*run(awkward, loop))
-
-    holds()
-
-
-def test_steps_of_motions_side_by_side_are_those_of_the_equations():
-    @settings(BRIEF, max_examples=4)
-    @given(problems(moving=False))
-    def holds(awkward):
-        with pytest.MonkeyPatch.context() as patch:
-            forced(patch, "dissection")
-            first = awkward.problem()
-            given = first.loading
-            alike = [first]
-            for factor in (0.6, -0.3, 1.2):  # the same curves of supports, other pushes
-                curves = [(x, factor * y) for x, y in given.curves[:1]] + [*given.curves[1:]]
-                alike.append(replace(first, loading=replace(given, curves=tuple(curves))))
-            recorders = [Recorder(len(first.times)) for _ in alike]
-            found = integrate_together(alike, [[r] for r in recorders])
-        for problem, history, recorder in zip(alike, found, recorders, strict=True):
-            assert history.together == len(alike)
-            check_steps(problem, history, recorder.snapshots)
 
     holds()
 

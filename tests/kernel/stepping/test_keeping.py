@@ -10,7 +10,7 @@ from references.recorder import Recorder
 from references.rocking_beam import rocking
 from references.soil_block import soil_block
 
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.factor import Solver
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose

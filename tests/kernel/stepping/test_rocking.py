@@ -10,7 +10,7 @@ from references.contact import solve
 from references.recorder import Recorder
 from references.rocking import TwoSpringBlock
 
-from ssilang.kernel.contact.options import ContactOptions
+from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
-from references.rocking_beam import rocking
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.stepping import choose, run
-from ssilang.kernel.stepping import run_many as together
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
@@ -309,47 +307,6 @@ def test_rows_of_reduced_models(moving):
         assert np.array_equal(track.joints(name), recorder.of(name))
 
 
-def scaled(problem, factor):
-    given = problem.loading
-    curves = (*given.curves[:-1], (given.curves[-1][0], factor * given.curves[-1][1]))
-    return replace(problem, loading=Loading(given.forces, given.imposed, curves))
-
-
-def test_rows_of_motions_side_by_side():
-    whole = large()
-    n, size = len(whole.times), whole.numbering.size
-    problems = [scaled(whole, f) for f in (0.4, 1.0, 1.3)]
-    asked = [
-        (np.ones(n, bool), np.arange(size)[::3]),
-        (np.arange(n) % 5 == 1, np.arange(size)[4:6]),
-        (np.arange(n) > 70, np.arange(size)),
-    ]
-    observers = [[Recorder(n), Track(*a)] for a in asked]
-    found = together.integrate_together(problems, observers)
-    assert all(h.together == 3 for h in found)
-    for recorder, track in observers:
-        for name in FIELDS:
-            exact = recorder.of(name)[track.wanted][:, track.unknowns]
-            assert np.array_equal(track.values(name, track.unknowns), exact)
-        for name in JOINTS:
-            assert np.array_equal(track.joints(name), recorder.of(name)[track.wanted])
-
-
-def test_a_motion_that_fails_side_by_side_leaves_its_rows():
-    whole = rocking(Scheme(), STEPS)
-    t, y = whole.loading.curves[-1]
-    burst = np.interp(whole.times, t, y) + np.where(np.arange(len(whole.times)) < 40, 0.0, 1e308)
-    curves = (*whole.loading.curves[:-1], (whole.times, burst))
-    lost = replace(whole, loading=replace(whole.loading, curves=curves))
-    n = len(whole.times)
-    tracks = [Track(np.ones(n, bool), np.arange(3)) for _ in range(2)]
-    with np.errstate(all="ignore"):
-        found = together.integrate_together([lost, whole], [[t] for t in tracks])
-    assert isinstance(found[0], Exception)
-    assert 30 < len(tracks[0]) < n
-    assert len(tracks[1]) == n
-
-
 def assert_largest(extremes, recorder):
     """The extremes are those of all instants, kept whole."""
     p = extremes.problem
@@ -432,16 +389,9 @@ def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
     assert_largest(extremes, recorder)
 
 
-def test_extremes_side_by_side_and_of_reduced_models():
-    whole = large()
-    n = len(whole.times)
-    problems = [scaled(whole, f) for f in (0.5, 1.2)]
-    observers = [[Recorder(n), Extremes(problem=p)] for p in problems]
-    together.integrate_together(problems, observers)
-    for recorder, extremes in observers:
-        assert_largest(extremes, recorder)
+def test_extremes_of_reduced_models():
     problem = soil_block(steps=STEPS, joint=FRICTION)
-    recorder, extremes = Recorder(n), Extremes(problem=problem)
+    recorder, extremes = Recorder(len(problem.times)), Extremes(problem=problem)
     assert integrate_reduced(problem, 1e-3, [recorder, extremes]).loop == "reduced"
     assert_largest(extremes, recorder)
 

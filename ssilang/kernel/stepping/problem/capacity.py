@@ -79,3 +79,27 @@ def _translation(problem: Problem, bed: Bed) -> FloatArray:
         motion[problem.numbering.where(name)] = value
     fixed = np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() <= FREE
     return np.where(fixed, 0.0, motion)
+
+
+# How stiff joints are against the bodies that they join: a slip of units shows here.
+
+STRANGE = 1e8
+"""Ratio that no joint needs: half of the digits are lost in the sum of both stiffnesses."""
+
+
+def stiffness_contrast(problem: Problem) -> float | None:
+    """Stiffness of the closed joints over that of the bodies at the same unknowns.
+
+    Median over the unknowns that both have; None where there are none (bodies held by joints
+    alone).
+    """
+    joints = problem.interface
+    if joints is None:
+        return None
+    closed = np.diag(joints.closed_stiffness())
+    of_joints = abs(joints.J).T @ closed
+    of_bodies = problem.K.diagonal()
+    both = (of_joints > 0.0) & (of_bodies > 0.0)
+    if not both.any():
+        return None
+    return float(np.median(of_joints[both] / of_bodies[both]))

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.state import Motion, Recorder
 
 
 def reactions(
@@ -29,3 +30,27 @@ def joint_forces(problem: Problem, t: FloatArray) -> FloatArray:
     f = np.zeros((len(t), joints.size))
     np.add.at(f, (np.arange(len(t))[:, None, None], places[None]), local)
     return f
+
+
+# Supports that do not move take no part in loops on coordinates; their reactions follow.
+
+
+def supports_are_still(problem: Problem) -> bool:
+    """Whether no support moves, now or later, and the motions left are orthonormal."""
+    C, T = problem.constraints.C, problem.constraints.T
+    still = not problem.loading.imposed.any() and not np.any(C @ problem.u)
+    return still and np.allclose((T.T @ T).toarray(), np.eye(T.shape[1]), atol=1e-13)
+
+
+def keep_reactions(problem: Problem, factors: FloatArray, kept: Recorder) -> None:
+    """Reactions of kept instants, from equilibrium."""
+    if len(kept.u):
+        loads = factors[1:][kept.row >= 0] @ problem.loading.forces.T
+        kept.reaction[:] = reactions(problem, kept.u, kept.v, kept.a, kept.t, loads)
+
+
+def react(problem: Problem, m: Motion, factors: FloatArray) -> None:
+    """Reactions of the motion at load factors (k,), from equilibrium."""
+    loads = problem.loading.forces @ factors
+    now = (x[None] for x in (m.u, m.v, m.a, m.t, loads))
+    m.reaction[:] = reactions(problem, *now)[0]

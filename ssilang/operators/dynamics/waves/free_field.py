@@ -25,17 +25,7 @@ _NODES = 8
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 
-@operator(
-    "ZCOL",
-    arg("table", "TABLE", en="layers, motion and depths"),
-    family="dynamics",
-    en="Free field of a layered soil under vertical waves, behind DECONV and DECONV3D: "
-    "layers from the top (lists EPAISSEUR, MASSE_VOLUMIQUE, MODULE, AMORTISSEMENT), Rayleigh "
-    "damping right at F1 and F2, cut-off FC, acceleration GAMMAO at depth CONTROLE (0.; below "
-    "zero: at an outcrop of the base). At the depths PROFONDEURS: curves ACCE, VITE, CONT "
-    "(stress along the upward axis), list DEFO (largest strain); PAS is the step.",
-    syntax="TAB2 = ZCOL TAB1 ;",
-)
+@operator("ZCOL", arg("table", "TABLE", en="layers, motion and depths"), family="dynamics")
 def zcol(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back curves."""
     from ssilang.kernel.records.soil_column import SoilColumn, free_field

@@ -22,14 +22,7 @@ if TYPE_CHECKING:
 _MOTION = ("DEPL", "VITE", "ACCE")
 
 
-@operator(
-    "ZDRM",
-    arg("table", "TABLE", en="table of @DRM"),
-    family="dynamics",
-    en="Loading of the domain reduction method on a layer of elements, for @DRM, whose table "
-    "it takes.",
-    syntax="CHAR1 = ZDRM TAB1 ;",
-)
+@operator("ZDRM", arg("table", "TABLE", en="table of @DRM"), family="dynamics")
 def zdrm(call: Call, table: Table) -> Load:
     """Forces at the layer."""
     from ssilang.kernel.waves.free_field_forces import elements_of, layer_forces, load_of
@@ -45,14 +38,7 @@ def zdrm(call: Call, table: Table) -> Load:
     return load_of(layer.numbering, motion.times, forces)
 
 
-@operator(
-    "ZBOR",
-    arg("table", "TABLE", en="table of @BORDS"),
-    family="dynamics",
-    en="Loading of the ground beyond the edges of a mesh and of their dampers, for @BORDS, "
-    "whose table it takes.",
-    syntax="CHAR1 = ZBOR TAB1 ;",
-)
+@operator("ZBOR", arg("table", "TABLE", en="table of @BORDS"), family="dynamics")
 def zbor(call: Call, table: Table) -> Load:
     """Forces at the edges."""
     from ssilang.kernel.waves.free_field_forces import edge_forces, elements_at, load_of

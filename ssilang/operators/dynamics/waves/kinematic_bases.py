@@ -31,13 +31,7 @@ _IMPOSSIBLE = 0.1
 """Part of it below which a speed is no wave's: km/s, most often, and calculations without end."""
 
 
-@operator(
-    "ZBAS",
-    arg("table", "TABLE", en="table of @PASSAGE"),
-    family="dynamics",
-    en="What a rigid base makes of waves that pass and differ, for @PASSAGE, whose table it takes.",
-    syntax="TAB2 = ZBAS TAB1 ;",
-)
+@operator("ZBAS", arg("table", "TABLE", en="table of @PASSAGE"), family="dynamics")
 def zbas(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back curves over the frequency and the base's record."""
     from ssilang.kernel.waves.incoherence import factors

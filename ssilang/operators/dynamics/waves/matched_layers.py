@@ -11,13 +11,7 @@ FEWEST = 4
 """Cells through the layer below which it reflects about as much as dampers."""
 
 
-@operator(
-    "ZPML",
-    arg("table", "TABLE", en="table of @PML"),
-    family="dynamics",
-    en="Matrices of a perfectly matched layer, for @PML, whose table it takes.",
-    syntax="TAB2 = ZPML TAB1 ;",
-)
+@operator("ZPML", arg("table", "TABLE", en="table of @PML"), family="dynamics")
 def zpml(call: Call, table: Table) -> Table:
     """Read the table, hand back three matrices."""
     from ssilang.kernel.waves.matched_layer import matched_layer

@@ -24,13 +24,7 @@ if TYPE_CHECKING:
 DRIFT = 0.02
 
 
-@operator(
-    "ZOPL",
-    arg("table", "TABLE", en="table of @ONDE"),
-    family="dynamics",
-    en="Motion of a layered half-space under a plane wave, for @ONDE, whose table it takes.",
-    syntax="TAB2 = ZOPL TAB1 ;",
-)
+@operator("ZOPL", arg("table", "TABLE", en="table of @ONDE"), family="dynamics")
 def zopl(call: Call, table: Table) -> Table:
     """Read the table, compute, hand back instants."""
     from ssilang.kernel.waves.plane_wave import plane_motion

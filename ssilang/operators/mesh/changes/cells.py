@@ -94,15 +94,8 @@ _NUMBERS = opt(
 )
 
 
-@CHAN.form(
-    said(*CELL_TYPES),
-    arg("mesh", "MAILLAGE", en="mesh"),
-    _NUMBERS,
-    syntax="GEO2 = CHAN (TYPE) GEO1 (LENTI1) ;",
-    en="A cell type: the mesh made of such cells (the type of OPTI ELEM when none is said). From "
-    "points, a list of numbers gives the connectivity.",
-)
-def change_type(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
+@CHAN.form(said(*CELL_TYPES), arg("mesh", "MAILLAGE", en="mesh"), _NUMBERS)
+def change_cells(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
     """Mesh of another cell type."""
     return changed(mesh, word) if numbers is None else _by_hand(mesh, word, numbers.values)
 
@@ -125,15 +118,7 @@ _WHOLE = {
 }
 
 
-@CHAN.form(
-    said(*_WHOLE),
-    arg("mesh", "MAILLAGE", en="mesh"),
-    syntax="GEO2 = CHAN 'LIGNE'|'SURFACE'|'LINEAIRE'|'QUADRATIQUE'|'QUAF' GEO1 ;",
-    en="'LIGN': all edges of the cells, each once; 'SURF': all faces; 'LINE', 'QUAD': linear or "
-    "quadratic cells in place of the others; 'QUAF': complete ones, with nodes in the middle of "
-    "faces and cells, that linear types then take apart (TRI7 into 6 TRI3 or 3 QUA4, CU27 into 8 "
-    "CUB8).",
-)
+@CHAN.form(said(*_WHOLE), arg("mesh", "MAILLAGE", en="mesh"))
 def change_whole(word: str, mesh: Mesh) -> Mesh:
     """Edges, faces, linear or quadratic cells."""
     return _WHOLE[word](mesh)
@@ -143,8 +128,6 @@ def change_whole(word: str, mesh: Mesh) -> Mesh:
     said(*CELL_TYPES),
     many("given", "POINT", "MAILLAGE", at_least=1, en="points, cell after cell"),
     choice("colour", COLOURS, en="colour, that of OPTI COUL by default"),
-    syntax="GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1) ;",
-    en="A cell type: cells of that type on points, or on the points of a mesh.",
 )
 def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:
     """Cells given node by node."""

@@ -24,15 +24,7 @@ _COLOURS = {
 _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cells.split()}
 
 
-@operator(
-    "AFCO",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    family="mesh",
-    en="The same mesh, coloured by type of cell: blue the linear SEG2 TRI3 CUB8 TET4, red QUA4 "
-    "PRI6 PYR5, pink the quadratic SEG3 TRI6 CU20 TE10, green QUA8 PR15 PY13, yellow TRI7 "
-    "QUA9, white the others.",
-    syntax="GEO1 = AFCO GEO2 ;",
-)
+@operator("AFCO", arg("mesh", "MAILLAGE", en="mesh"), family="mesh")
 def afco(mesh: Mesh) -> Mesh:
     """Colour each block by its type of cell."""
     shades = [index_of(_COLOUR_OF.get(b.cell_type, "BLAN")) for b in mesh.blocks]
@@ -52,9 +44,6 @@ def afco(mesh: Mesh) -> Mesh:
         optional=True,
         en="colour, that of OPTI COUL by default",
     ),
-    syntax="OBJ2 = OBJ1 COUL (MOT1|ENT1) ;",
-    en="Of a mesh: the same cells in another colour, by name or number (that of OPTI COUL when "
-    "none is said).",
 )
 def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:
     """Mesh in another colour."""

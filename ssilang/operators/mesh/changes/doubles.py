@@ -26,10 +26,6 @@ def _ids(item: Mesh | Point) -> IntArray:
     DISTANCE,
     family="mesh",
     full_name="ELIMINATION",
-    en="Merges the nodes of a mesh that are closer than a distance (a tenth of the density by "
-    "default), in all objects that hold them; with two meshes, only nodes of one with nodes of "
-    "the other.",
-    syntax="(GEO1 =) ELIM GEO1 (GEO2) (FLOT1) ;",
 )
 def elim(
     call: Call, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
@@ -55,9 +51,6 @@ def elim(
     flag("check", "VERI", en="warn of what is left"),
     family="mesh",
     full_name="REGENERER",
-    en="Cells in which nodes coincide after ELIM replaced by simpler ones: QUA4 by TRI3, CUB8 "
-    "by PRI6 ... 'VERI' warns when some are left.",
-    syntax="GEO1 = REGE GEO2 ('VERI') ;",
 )
 def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     """Replace degenerate cells."""
@@ -74,9 +67,6 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     arg("line", "MAILLAGE", en="line of its edges"),
     family="mesh",
     full_name="DEDOUBLER",
-    en="Opens a surface along a line of its edges: the nodes of the line are doubled, except a "
-    "tip inside the surface. Gives the new surface and the line on the new nodes.",
-    syntax="GEO3 GEO4 = DEDO GEO1 GEO2 ;",
 )
 def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
     """Double the nodes of a line."""

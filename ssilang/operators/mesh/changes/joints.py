@@ -25,10 +25,6 @@ def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, 
 _PART = flag(
     "part", "PART", en="cells that face each other without fitting are left out, not refused"
 )
-_EN = (
-    "A joint is made for each cell of the first mesh and the cell of the second that faces it "
-    "within a distance (a tenth of the density by default); its first half is the first mesh's. "
-)
 
 
 @operator(
@@ -39,9 +35,6 @@ _EN = (
     _PART,
     family="mesh",
     full_name="RACCORD",
-    en="Line of joint cells (RAC2, RAC3) between two lines. " + _EN + "Who walks along the "
-    "first line sees the joint on the right.",
-    syntax="GEO3 = RACC (FLOT1) GEO1 GEO2 ('PART') ;",
 )
 def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between lines."""
@@ -58,10 +51,6 @@ def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
     _PART,
     family="mesh",
     full_name="LIAISON",
-    en="Surface of joint cells (LIA3, LIA4, LIA6, LIA8) between two surfaces. "
-    + _EN
-    + "The normal of the first surface goes from the second to the first (opening).",
-    syntax="GEO1 = LIAI (FLOT1) GEO2 GEO3 ('PART') ;",
 )
 def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
     """Joints between surfaces."""
@@ -70,15 +59,7 @@ def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, pa
     return _joint(session, first, second, distance, part)
 
 
-@operator(
-    "GENJ",
-    arg("mesh", "MAILLAGE", en="surfaces or volumes"),
-    DISTANCE,
-    family="mesh",
-    en="Joint cells between the parts of a mesh that touch without sharing nodes: on each pair "
-    "of coincident edges of surfaces, or faces of volumes, within a distance.",
-    syntax="GEO2 = GENJ GEO1 FLOT1 ;",
-)
+@operator("GENJ", arg("mesh", "MAILLAGE", en="surfaces or volumes"), DISTANCE, family="mesh")
 def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     """Joints between the touching parts of a mesh."""
     ws = workspace(session)
@@ -92,9 +73,6 @@ def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
     flag("keep", "NOOP", en="accepted, without effect"),
     family="mesh",
     full_name="TASSER",
-    en="Nodes keep their numbers: unknowns are renumbered when systems are solved. Gives the "
-    "nodes in the order of these numbers, as POI1.",
-    syntax="(GEO2 =) TASS (GEO1 ...) ('NOOP') ;",
 )
 def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:
     """The nodes by number, which stay as they are."""

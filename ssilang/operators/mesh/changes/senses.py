@@ -22,11 +22,7 @@ from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.workspace import workspace
 
 
-@INVE.form(
-    main("mesh", "MAILLAGE", en="mesh"),
-    syntax="GEO2 = INVE GEO1 ;",
-    en="Of a mesh: cells turned inside out; the cells of lines also in reverse order.",
-)
+@INVE.form(main("mesh", "MAILLAGE", en="mesh"))
 def inverted(mesh: Mesh) -> Mesh:
     """Mesh turned inside out."""
     return reversed_line(mesh)
@@ -43,11 +39,6 @@ def inverted(mesh: Mesh) -> Mesh:
     opt("target", "POINT", en="direction, or point"),
     family="mesh",
     full_name="ORIENTER",
-    en="Cells described so that their Jacobian is positive (lines in 1D, surfaces in 2D, "
-    "volumes in 3D); with a direction or towards a 'POINT', surface cells in space turned so "
-    "that their normals go that way, and bricks of 8 nodes (shells SHB8) so that they go from "
-    "their first four nodes to their last four, FACE 1 and FACE 2 of the result.",
-    syntax="GEO1 = ORIE GEO2 (('DIRE') VEC1 | 'POINT' POIN1) ;",
 )
 def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
     """Orient cells."""
@@ -59,25 +50,15 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
 
 
 @operator(
-    "VERS",
-    arg("mesh", "MAILLAGE", en="lines or surfaces"),
-    family="mesh",
-    full_name="VERSENS",
-    en="The same mesh, or an error if two adjacent cells are described in opposite senses.",
-    syntax="GEO2 = VERS GEO1 ;",
+    "VERS", arg("mesh", "MAILLAGE", en="lines or surfaces"), family="mesh", full_name="VERSENS"
 )
 def vers(mesh: Mesh) -> Mesh:
     """Check the sense of description."""
     return check_consistent(mesh)
 
 
-@ORDO.form(
-    main("mesh", "MAILLAGE", en="mesh"),
-    syntax="MAIL2 = ORDO MAIL1 ;",
-    en="Of a mesh: lines put end to end, points by distance from the first one, other cells from "
-    "neighbour to neighbour.",
-)
-def ordered(mesh: Mesh) -> Mesh:
+@ORDO.form(main("mesh", "MAILLAGE", en="mesh"))
+def ordered_cells(mesh: Mesh) -> Mesh:
     """Mesh with its cells in order."""
     return Mesh(mesh.nodes, tuple(_ordered_block(b) for b in mesh.blocks))
 

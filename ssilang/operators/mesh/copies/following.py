@@ -36,15 +36,6 @@ _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="object
     _EVEN,
     family="mesh",
     full_name="DEDUIRE",
-    en="Copy of a mesh of linear surfaces or volumes whose master nodes GEO2 have become those "
-    "of GEO3, of the same structure; the others follow harmonically. 'REGU': then each inner "
-    "node goes to the mean of its neighbours. A displacement of some nodes is carried to all "
-    "in the same way. 'TRAN': copies of objects through the transformation that takes one mesh "
-    "to another of the same structure; 'ROTA': the same, vectors and tensors of fields turning "
-    "by the angle.",
-    syntax="GEO4 = DEDU GEO1 GEO2 GEO3 ('REGU') ;\nCHPO2 = DEDU GEO1 CHPO1 ;\n"
-    "OBJ2 ... = OBJ1 ... DEDU 'TRAN' GEO1 GEO2 ;\n"
-    "OBJ2 ... = OBJ1 ... DEDU 'ROTA' FLOT1 POIN1 (POIN2) GEO1 GEO2 ;",
 )
 def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
     """Copy a mesh that follows its master nodes."""

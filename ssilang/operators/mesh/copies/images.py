@@ -47,7 +47,7 @@ from ssilang.operators.mesh.copies.maps import (
     rotation_matrix,
 )
 from ssilang.operators.mesh.copies.moves import displacements
-from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.workspace import Workspace, workspace
 
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")
@@ -206,33 +206,13 @@ _SHIFTED = (
 )
 
 
-@operator(
-    "PLUS",
-    *_SHIFTED,
-    gives=Like("objects"),
-    family="mesh",
-    en="Copies of objects moved by a vector or by a field of displacements (UX UY UZ or UR "
-    "UZ); nodes that several objects share are copied once. As many results as objects. A "
-    "matrix is moved by a vector only. A point moved by a vector gets the density in force, "
-    "as points do that are made.",
-    syntax="OBJ2 ... = OBJ1 ... PLUS VEC1|CHPO1 ;",
-)
+@operator("PLUS", *_SHIFTED, gives=Like("objects"), family="mesh")
 def plus(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
     """Copy and move."""
     return _shifted(call, objects, by, 1.0)
 
 
-@operator(
-    "MOIN",
-    *_SHIFTED,
-    gives=Like("objects"),
-    family="mesh",
-    full_name="MOINS",
-    en="Copies of objects moved against a vector or a field of displacements; between two "
-    "meshes of the same structure, the field of displacements that takes the second to the "
-    "first.",
-    syntax="OBJ2 ... = OBJ1 ... MOIN VEC1|CHPO1 ;\nCHPO1 = GEO2 MOIN GEO1 ;",
-)
+@operator("MOIN", *_SHIFTED, gives=Like("objects"), family="mesh", full_name="MOINS")
 def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any, ...]:
     """Copy and move backwards."""
     return _shifted(call, objects, by, -1.0)
@@ -263,9 +243,6 @@ def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
     when=IN_PLANE,
     family="mesh",
     full_name="TOURNER",
-    en="Copies of objects turned by an angle in degrees about a point (2D) or an axis (3D). "
-    "Vectors in nodal fields and stresses and strains in cell fields turn too.",
-    syntax="OBJ2 ... = OBJ1 ... TOUR FLOT1 POIN1 (POIN2) ;",
 )
 def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
     """Copy and turn about a point."""
@@ -302,8 +279,6 @@ def _turned(
     gives=Like("objects"),
     family="mesh",
     full_name="SYMETRIE",
-    en="Copies of points, meshes or nodal fields mirrored about a point, a line or a plane.",
-    syntax="GEO1 ... = GEO2 ... SYME 'POINT' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;",
 )
 def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
     """Copy and mirror about a point."""
@@ -334,8 +309,6 @@ def mirrored_about_plane(
     gives=Like("objects"),
     family="mesh",
     full_name="HOMOTHETIE",
-    en="Copies of objects scaled by a ratio about a point.",
-    syntax="GEO1 ... = GEO2 ... HOMO RAPP1 POIN1 ;",
 )
 def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
     """Copy and scale."""
@@ -351,9 +324,6 @@ def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tupl
     gives=Like("objects"),
     family="mesh",
     full_name="AFFINITE",
-    en="Copies of objects stretched by a ratio along the direction of two points, the first of "
-    "which stays in place.",
-    syntax="GEO2 ... = GEO1 ... AFFI FLOT1 POIN1 POIN2 ;",
 )
 def affi(
     call: Call, objects: Sequence[Any], ratio: float, fixed: Point, towards: Point
@@ -362,19 +332,7 @@ def affi(
     return copies(call, objects, affinity(ratio, *positions((fixed, towards))))
 
 
-@operator(
-    "PROJ",
-    *RAYS,
-    _objects(0),
-    gives=Like("objects"),
-    family="mesh",
-    full_name="PROJETER",
-    en="Copies of objects projected along a vector ('CYLI', the default) or from a point "
-    "('CONI') on a plane, sphere, cylinder, cone or torus; in 2D on a line or a circle.",
-    syntax="GEO1 ... = GEO2 ... PROJ ('CYLI') VEC1 | 'CONI' SOMM1  'PLAN' P1 P2 P3 | "
-    "'SPHE' C1 P1 | 'CYLI' C1 C2 P1 | 'CONI' S1 A1 P1 | 'TORI' C1 A1 C2 P1 | "
-    "'DROI' P1 P2 | 'CERC' C1 P1 ;",
-)
+@operator("PROJ", *RAYS, _objects(0), gives=Like("objects"), family="mesh", full_name="PROJETER")
 def proj(
     call: Call, rays: tuple[str, Point], surface: Chosen, objects: Sequence[Any]
 ) -> tuple[Any, ...]:
@@ -395,8 +353,6 @@ def projected_along(
     _objects(1, "MAILLAGE"),
     arg("goal", "MAILLAGE", en="mesh on which they go"),
     gives=Like("objects"),
-    syntax="GEO1 ... = GEO2 ... PROJ 'CYLI' VEC1 | 'CONI' SOMM1  GEO3 ;",
-    en="On a mesh: the nearest point of its skin, surfaces or lines, taken as flat facets.",
 )
 def projected_on_mesh(
     call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh

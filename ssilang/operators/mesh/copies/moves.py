@@ -80,19 +80,6 @@ def displacements(field: NodeField, ids: IntArray) -> FloatArray:
     ),
     family="mesh",
     full_name="DEPLACER",
-    en="Moves the nodes of a mesh or a point in place: all objects that hold them follow. "
-    "'PLUS' and 'MOIN' a vector or a field of displacements; 'TOUR' an angle (or a field of "
-    "angles) in degrees about a point or an axis; 'HOMO', 'AFFI', 'SYME', 'PROJ' as the "
-    "operators of those names; 'COOR' to cylindrical coordinates and back; 'MILI' middle nodes "
-    "onto the mediator planes of their edges; 'DEDU' the affine map between two sets of "
-    "points.",
-    syntax="DEPL GEO1 'PLUS'|'MOIN' VEC1|CHPO1 ;\n"
-    "DEPL GEO1 'TOUR' ANGL1|CHPO1 POIN1 (POIN2) ;\n"
-    "DEPL GEO1 'HOMO' RAPP1 POIN1 ; DEPL GEO1 'AFFI' RAPP1 POIN1 POIN2 ;\n"
-    "DEPL GEO1 'SYME' 'POIN' P1 | 'DROIT' P1 P2 | 'PLAN' P1 P2 P3 ;\n"
-    "DEPL GEO1 'PROJ' ('CYLI') VEC1 | 'CONI' SOMM1 'PLAN' P1 P2 P3 ... ;\n"
-    "DEPL GEO1 'COOR' 'CYLI' P1 P2 (P3) | 'CART' ; DEPL GEO1 'MILI' ;\n"
-    "DEPL GEO1 'DEDU' GEO2 GEO3 | CHP1 ;",
 )
 def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
     """Move nodes by a vector or by displacements."""

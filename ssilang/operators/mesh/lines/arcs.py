@@ -29,7 +29,6 @@ from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
     SIZES,
-    SIZES_EN,
     START,
     Sizes,
     axis_of,
@@ -59,12 +58,6 @@ from ssilang.operators.workspace import workspace
     family="mesh",
     full_name="CERCLE",
     aliases=("C",),
-    en="Circular arc: around a centre (the shorter arc, the default), through three points "
-    "('PASS'), or by turning a point by an angle in degrees about a point (2D) or an axis (3D) "
-    "('ROTA'; 'ELIM' closes a turn of 360 degrees on its first point). " + SIZES_EN,
-    syntax="LIG1 = CERC (N1) ('CENTR') POIN1 CENTR2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-    "LIG1 = CERC (N1) 'PASS' POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;\n"
-    "LIG1 = CERC (N1) 'ROTA' FLOT1 POIN1 POIN2 (POIN3) ('ELIM') ('DINI' D1) ('DFIN' D2) ;",
 )
 def cerc(
     call: Call,
@@ -114,15 +107,7 @@ def turned_point(
 
 
 @operator(
-    "CER3",
-    COUNT,
-    START,
-    arg("middle", "POINT", en="point of the arc"),
-    END,
-    SIZES,
-    family="mesh",
-    en="Circular arc through three points. " + SIZES_EN,
-    syntax="LIG1 = CER3 (N1) POIN1 POIN2 POIN3 ('DINI' DENS1) ('DFIN' DENS2) ;",
+    "CER3", COUNT, START, arg("middle", "POINT", en="point of the arc"), END, SIZES, family="mesh"
 )
 def cer3(
     call: Call,
@@ -136,18 +121,7 @@ def cer3(
     return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(call, count, sizes))
 
 
-@operator(
-    "PARC",
-    COUNT,
-    START,
-    arg("centre", "POINT", en="centre"),
-    END,
-    SIZES,
-    family="mesh",
-    en="The shorter arc of circle around a centre as arcs of parabola, SEG3 whose ends lie on "
-    "the circle and are tangent to it. " + SIZES_EN,
-    syntax="LIG1 = PARC (N1) POIN1 CENTR1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-)
+@operator("PARC", COUNT, START, arg("centre", "POINT", en="centre"), END, SIZES, family="mesh")
 def parc(
     call: Call,
     count: int | None,
@@ -189,9 +163,6 @@ _CELLS = between(1, 1e7)
     flag("double", "DOUBLE", en="two arcs: not available"),
     family="mesh",
     full_name="CONGE",
-    en="Rounds the corner between two lines, the second following the first, by an arc of a "
-    "given radius. Gives the first line cut short, the arc and the second line cut short.",
-    syntax="GEO1 GEO3 GEO2 = LIG1 CONG (N1) FLOT1 LIG2 ;",
 )
 def cong(
     call: Call,

@@ -75,13 +75,6 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         en="length of the curve, then the end only shows the way",
     ),
     END,
-    syntax="LIG1 = POIN1 | LIG2 INTE (N1) ('DINI' D1) ('DFIN' D2) ('LONG' X1) 'PLAN' P1 | "
-    "'SPHE' C1 | 'CYLI' A1 A2 | 'CONI' S1 A1 | 'TORI' C1 A1 C2 (again) POIN2 ;",
-    en="With two simple surfaces: the curve along which they cross, the shortest way from POIN1 to "
-    "POIN2. The surfaces pass through POIN1: a plane (through POIN2 too), a sphere by its centre, "
-    "a cylinder by its axis, a cone by its apex and a point of its axis, a torus by its centre, a "
-    "point of its axis and the centre of a small circle. 'LONG' gives the length instead of the "
-    "end, towards POIN2.",
 )
 def crossing(
     call: Call,

@@ -28,13 +28,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import CELLS_ALONG, POSITIVE, between
 from ssilang.operators.workspace import Workspace, workspace
 
-SIZES_EN = (
-    "N1 > 0: that many equal elements; N1 < 0: that many, graded by the mesh sizes of the ends; "
-    "without N1 the sizes decide. DINI and DFIN replace the sizes that the ends carry. A line in "
-    "place of an end point is continued; a line alone is closed."
-)
-
-
 COUNT = opt(
     "count",
     "ENTIER",

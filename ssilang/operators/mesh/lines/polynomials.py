@@ -16,7 +16,6 @@ from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
     SIZES,
-    SIZES_EN,
     START,
     Ends,
     Sizes,
@@ -38,9 +37,6 @@ from ssilang.operators.workspace import workspace
     SIZES,
     family="mesh",
     full_name="PARABOLE",
-    en="Arc of parabola between two points, the middle point being where the end tangents "
-    "meet. " + SIZES_EN,
-    syntax="LIG1 = PARA (N1) POIN1 POIN3 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
 )
 def para(
     call: Call,
@@ -65,9 +61,6 @@ def para(
     flag("uniform", "UNIF", en="nodes even in length"),
     SIZES,
     family="mesh",
-    en="Cubic through four points; 'UNIF' spaces nodes by length, else by the parameter that "
-    "is 1/3 and 2/3 at the inner points. " + SIZES_EN,
-    syntax="LIG1 = CUBP (N1) POIN1 POIN2 POIN3 POIN4 ('UNIF') ('DINI' D1) ('DFIN' D2) ;",
 )
 def cubp(
     call: Call,
@@ -96,8 +89,6 @@ def cubp(
     END,
     SIZES,
     family="mesh",
-    en="Cubic between two points, tangent to a vector at each. " + SIZES_EN,
-    syntax="LIG1 = CUBT (N1) POIN1 VECT1 VECT2 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
 )
 def cubt(
     call: Call,
@@ -144,11 +135,6 @@ def cubt(
     many("points", "POINT", at_least=1, en="P0 P1 P2 ..."),
     family="mesh",
     full_name="COURBE",
-    en="Polynomial curve P(U) = P0 + U P1 + U**2 P2 + ..., U from 0 to 1 or between the values "
-    "behind 'PARA'. 'REGU' spaces nodes by length. 'PINI' and 'PFIN' give an existing point "
-    "(or a line to continue) where the curve starts or ends.",
-    syntax="LIG1 = COUR (N1) ('DINI' D1) ('DFIN' D2) ('PINI' OBJ1) ('PFIN' OBJ2) POIN0 POIN1 "
-    "(POIN2 ...) ('PARA' U1 U2) ('REGU') ;",
 )
 def cour(
     call: Call,

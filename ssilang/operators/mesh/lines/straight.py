@@ -20,7 +20,6 @@ from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
     SIZES,
-    SIZES_EN,
     START,
     Sizes,
     chosen_family,
@@ -34,18 +33,7 @@ from ssilang.operators.mesh.lines.ends import (
 from ssilang.operators.workspace import workspace
 
 
-@operator(
-    "DROI",
-    COUNT,
-    START,
-    END,
-    SIZES,
-    family="mesh",
-    full_name="DROIT",
-    aliases=("D",),
-    en="Straight line between two points. " + SIZES_EN,
-    syntax="LIG1 = DROI (N1) POIN1 POIN2 ('DINI' DENS1) ('DFIN' DENS2) ;",
-)
+@operator("DROI", COUNT, START, END, SIZES, family="mesh", full_name="DROIT", aliases=("D",))
 def droi(
     call: Call,
     count: int | None,
@@ -71,11 +59,6 @@ def droi(
     SIZES,
     family="mesh",
     full_name="LIGNE",
-    en="Arc ('ROTA') from a point (or the end of a line) about a centre, with the normal of "
-    "its plane in 3D, by an angle in degrees; or segment ('TRAN') from a point along a vector. "
-    + SIZES_EN,
-    syntax="LIG1 = LIGN 'ROTA' (N1) CENTRE POIN1 (NORMAL) ANGLE ('DINI' D1) ('DFIN' D2) ;\n"
-    "LIG1 = LIGN 'TRAN' (N1) POIN1 VEC1 ('DINI' D1) ('DFIN' D2) ;",
 )
 def lign(
     call: Call,
@@ -139,9 +122,6 @@ def segment(
     many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
     family="mesh",
     full_name="QUELCONQUE",
-    en="Broken line through points, in order: given one by one, as a mesh of points, or by "
-    "lists of coordinates. With SEG3 every other point is the middle of an element.",
-    syntax="LIG1 = QUEL ('SEG2'|'SEG3') POIN1 POIN2 ... | MAIL1 | LISTX (LISTY (LISTZ)) ;",
 )
 def quel(
     call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]

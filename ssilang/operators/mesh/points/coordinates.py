@@ -33,29 +33,10 @@ _MODEL = main("support", "MMODEL", en="model")
 Support = Point | Mesh | NodeField | Model
 
 
-@COOR.form(
-    _MODEL,
-    _AXIS,
-    syntax="CHAM1 ... = COOR (N1) MODL1 ;",
-    en="Of a model: cell fields at nodes.",
-    gives="MCHAML",
-)
+@COOR.form(_MODEL, _AXIS, gives="MCHAML")
 @COOR.form(_NODE_FIELD, _AXIS, gives="CHPOINT")
-@COOR.form(
-    _MESH,
-    _AXIS,
-    syntax="CHPO1 ... = COOR (N1) GEO1 ('CURV') ;",
-    en="Of a mesh or a nodal field: nodal fields of component SCAL; 'CURV': the length along a "
-    "line from its start.",
-    gives="CHPOINT",
-)
-@COOR.form(
-    _POINT,
-    _AXIS,
-    syntax="X1 (Y1 (Z1)) = COOR (N1) POIN1 ;",
-    en="Of a point: one coordinate (number DIME + 1 is the density), or all of them.",
-    gives="FLOTTANT",
-)
+@COOR.form(_MESH, _AXIS, gives="CHPOINT")
+@COOR.form(_POINT, _AXIS, gives="FLOTTANT")
 def one_coordinate(call: Call, support: Support, axis: int) -> float | NodeField | CellField:
     """One coordinate, or the density."""
     dimension = max(workspace(call.session).dimension, 1)

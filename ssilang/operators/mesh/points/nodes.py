@@ -14,14 +14,7 @@ from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.workspace import workspace
 
 
-@operator(
-    "NOEU",
-    arg("point", "POINT", en="point"),
-    family="mesh",
-    full_name="NOEUD",
-    en="The point with a node number, or the node number of a point.",
-    syntax="POIN1 = NOEU N1 ; N1 = NOEU POIN1 ;",
-)
+@operator("NOEU", arg("point", "POINT", en="point"), family="mesh", full_name="NOEUD")
 def noeu(point: Point) -> int:
     """The number of a point's node."""
     return point.node + 1
@@ -42,8 +35,6 @@ def numbered(session: Session, call: Call, number: int) -> Point:
     arg("second", "POINT", en="point that it becomes"),
     family="mesh",
     full_name="CONFONDRE",
-    en="Makes the first point the same node as the second, wherever it is.",
-    syntax="CONF POIN1 POIN2 ;",
 )
 def conf(first: Point, second: Point) -> None:
     """Merge two points."""
@@ -56,8 +47,6 @@ def conf(first: Point, second: Point) -> None:
     arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
     family="mesh",
     full_name="BARYCENTRE",
-    en="Mean position of a mesh's nodes, or with 'ELEM' of each cell's nodes.",
-    syntax="POIN1 = BARY GEO1 ('ELEM') ;",
 )
 def bary(session: Session, mesh: Mesh | Point) -> Point:
     """Mean position of the nodes."""

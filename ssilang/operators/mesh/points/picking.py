@@ -89,16 +89,6 @@ _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
     opt("cell", "ENTIER", en="number of the cell", range=POSITIVE),
     family="mesh",
     full_name="POINT",
-    en="Picks points. From a mesh: by number (of points, or of cells of SEG2), by number in a "
-    "cell, 'INIT' and 'FINA' of a line, 'JONC' (junctions), 'PROC' (nearest to a point), all "
-    "on a line, plane, cylinder, cone, sphere or torus within a distance (a tenth of the "
-    "density by default). From a field: where values are largest, smallest or compare with "
-    "given ones (none: an empty mesh, and SOUC is raised). "
-    "From numbers or lists of coordinates: makes a point or a mesh of points.",
-    syntax="POIN1 = GEO1 POIN N1 | I1 I2 | 'INIT' | 'FINA' | 'JONC' | 'PROC' P1 | "
-    "'DROIT' P1 P2 (D1) | 'PLAN' P1 P2 P3 (D1) | 'CYLI' | 'CONE' | 'SPHE' | 'TORE' ... ;\n"
-    "GEO1 = CHPO1 POIN 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('AVEC'|'SANS' LMOTS1) ;\n"
-    "POIN1 = POIN X1 (Y1 (Z1)) ('DENS' D1) ;",
 )
 def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:
     """Pick a point by number."""

@@ -12,7 +12,7 @@ from ssilang.language.registry import arg, main, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
-from ssilang.operators.mesh.dimensions import IN_PLANE, IN_SPACE
+from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.workspace import workspace
 
@@ -37,25 +37,14 @@ for _number in ("ENTIER", "FLOTTANT"):
     rule("*", _number, "POINT")(_scale)
 
 
-@PSCA.form(
-    main("first", "POINT", en="vector"),
-    arg("second", "POINT", en="vector"),
-    syntax="FLOT1 = VEC1 PSCA VEC2 ;",
-    en="Of two points: their scalar product as vectors.",
-)
-def scalar_product(first: Point, second: Point) -> float:
+@PSCA.form(main("first", "POINT", en="vector"), arg("second", "POINT", en="vector"))
+def scalar_product_of_points(first: Point, second: Point) -> float:
     """Scalar product of two points."""
     return float(first.coordinates @ second.coordinates)
 
 
-@PVEC.form(
-    main("first", "POINT", en="vector"),
-    arg("second", "POINT", en="vector"),
-    syntax="VEC3 = VEC1 PVEC (VEC2) ;",
-    en="Of points: the vector product in 3D; in 2D the vector turned by a quarter turn.",
-    when=IN_SPACE,
-)
-def vector_product(first: Point, second: Point) -> Point:
+@PVEC.form(main("first", "POINT", en="vector"), arg("second", "POINT", en="vector"), when=IN_SPACE)
+def vector_product_of_points(first: Point, second: Point) -> Point:
     """Vector product of two points."""
     return _made(first, np.cross(first.coordinates, second.coordinates))
 
@@ -73,8 +62,6 @@ def quarter_turn(first: Point) -> Point:
     opt("third", "POINT", en="vector, in space"),
     family="mesh",
     full_name="PMIXTE",
-    en="Mixed product: determinant of two vectors in 2D, of three in 3D.",
-    syntax="FLOT1 = PMIX VEC1 VEC2 (VEC3) ;",
 )
 def pmix(session: Session, call: Call, first: Point, second: Point, third: Point | None) -> float:
     """Mixed product."""
@@ -86,13 +73,7 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
     return float(normal @ third.coordinates)
 
 
-@operator(
-    "NORM",
-    arg("vector", "POINT", en="vector"),
-    family="mesh",
-    en="Length of a point as a vector.",
-    syntax="FLOT1 = NORM VEC1 ;",
-)
+@operator("NORM", arg("vector", "POINT", en="vector"), family="mesh")
 def norm(vector: Point) -> float:
     """Length of a vector."""
     return float(np.linalg.norm(vector.coordinates))

@@ -26,8 +26,7 @@ from ssilang.operators.dispatch import listing
     arg("mesh", "MAILLAGE", en="mesh"),
     opt("types", "LISTMOTS", en="types of cells", kind="element"),
     family="mesh",
-    en="Number of cells of a mesh; with a list of cell types, a list of their numbers.",
-    syntax="RESU1 = NBEL GEO1 (LMOTS1) ;",
+    empties=True,
 )
 def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     """Count cells, or cells by type."""
@@ -37,13 +36,7 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     return ListEnti([sum(len(b) for b in mesh.blocks if b.cell_type == t) for t in wanted])
 
 
-@operator(
-    "NBNO",
-    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
-    family="mesh",
-    en="Number of nodes of a mesh.",
-    syntax="N1 = NBNO GEO1 ;",
-)
+@operator("NBNO", arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"), family="mesh")
 def nbno(mesh: Mesh | Point) -> int:
     """Count nodes."""
     return len(mesh.node_ids) if isinstance(mesh, Mesh) else 1
@@ -56,10 +49,8 @@ def nbno(mesh: Mesh | Point) -> int:
         "what", ("LONG", "SURF", "VOLU"), en="length, area, volume; by default as the cells are"
     ),
     family="mesh",
+    empties=True,
     full_name="MESURE",
-    en="Length, area or volume of a mesh; 'SURF' of a closed line: the area inside; 'VOLU' of "
-    "a closed surface: the volume inside; 'DENS': field of mesh sizes (component SCAL).",
-    syntax="FLOT1 = MESU GEO1 ('LONG'|'SURF'|'VOLU') ; CHPO1 = MESU GEO1 'DENS' ;",
 )
 def mesu(mesh: Mesh, what: str | None) -> float:
     """Measure a mesh."""
@@ -121,9 +112,6 @@ def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
     arg("small", "MAILLAGE", en="mesh"),
     arg("large", "MAILLAGE", en="mesh that may hold it"),
     family="mesh",
-    en="Names of the meshes whose nodes all belong to a mesh; or, with two meshes, whether all "
-    "nodes of the first belong to the second.",
-    syntax="LMOT1 = REFE MAIL2 ; LOG1 = MAIL1 REFE MAIL2 ;",
 )
 def refe(small: Mesh, large: Mesh) -> bool:
     """Whether a mesh is within another one."""

@@ -39,17 +39,6 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
     arg("mesh", "MAILLAGE", en="cells"),
     family="mesh",
     full_name="INDICATEUR",
-    en="Field in cells of indicators of their shape. 'PLAN' of quadrangles: 100 for a plane "
-    "one, less by the angle between its two normals (0 at 180 degrees). 'ASPE' of TRI3 and "
-    "TET4: longest edge over shortest height, 1 for an equilateral cell. 'SKEW' of TRI3 and "
-    "TET4: share of the measure of the equilateral cell in the same circumscribed sphere that "
-    "is lacking, 0 to 1. 'TOPO': quality of TRI3 or TET4, 0 for a cell without measure to 1 "
-    "for an equilateral one, of edges of the length wanted where METR1 gives it: a number (the "
-    "length), or a field at nodes of metric tensors (G, or G11 G21 G22 (G31 G32 G33), in "
-    "length^-2): the mean ratio of the cell times the smaller of s and 1/s, s being the root "
-    "of the mean square of the edges over the length wanted. 'LISTREEL' gives a list.",
-    syntax="CHAM1 = INDI GEO1 'PLAN' | 'ASPE' | 'SKEW' ... ;\n"
-    "CHAM1 = INDI 'TOPO' GEO1 (METR1) ('LISTREEL') ;",
 )
 def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
     """Shape of cells."""
@@ -127,26 +116,13 @@ _CHECKS = (
 )
 
 
-@operator(
-    "VERM",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    family="mesh",
-    en="Checks a mesh and says what is wrong: cells on the same nodes, linear cells next to "
-    "quadratic ones, triangular faces on quadrangular ones. Cells and nodes found get the "
-    "names MESH1 MESH2 ..., NODE1 ...",
-    syntax="VERM GEO1 ;\nGEO2 = VERM GEO1 'CORR' ;",
-)
+@operator("VERM", arg("mesh", "MAILLAGE", en="mesh"), family="mesh")
 def verm(session: Session, mesh: Mesh) -> None:
     """Check a mesh."""
     _tell(session, mesh)
 
 
-@verm.form(
-    said("CORR"),
-    arg("mesh", "MAILLAGE", en="mesh"),
-    en="'CORR' also gives the mesh with one cell left where several stand on the same nodes; "
-    "what else is found is for the script to mend.",
-)
+@verm.form(said("CORR"), arg("mesh", "MAILLAGE", en="mesh"))
 def corrected(session: Session, mesh: Mesh) -> Mesh:
     """Check a mesh, and take doubled cells out of it."""
     _tell(session, mesh)

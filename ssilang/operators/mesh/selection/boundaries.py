@@ -41,9 +41,6 @@ def _whole_lines(mesh: Mesh) -> Mesh:
     flag("allowed", "NOID", en="the result may be empty"),
     family="mesh",
     full_name="CONTOUR",
-    en="Contour of a surface: edges of one cell only ('EXTE', the default), of three or more "
-    "('INTE'), or both ('TOUT'). The lines are put end to end. 'NOID' allows an empty result.",
-    syntax="GEO1 = CONT ('NOID') ('EXTE'|'INTE'|'TOUT') GEO2 ;",
 )
 def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
     """Contour of a surface."""
@@ -64,10 +61,6 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
     flag("allowed", "NOID", en="the result may be empty"),
     family="mesh",
     full_name="ENVELOPPE",
-    en="Skin of a volume: the faces of one cell only, described inwards where the volume's "
-    "cells are in the direct sense ('ORIE': in any case). Of a surface, whose cells are their "
-    "own faces: the cells that stand there once. 'NOID' allows an empty result.",
-    syntax="SURF1 = ENVE VOLU1 ('ORIE') ('NOID') ;",
 )
 def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     """Skin of a volume."""
@@ -94,9 +87,6 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     ),
     family="mesh",
     full_name="ARETE",
-    en="Sharp edges, as SEG2: where the skin turns by more than 20 degrees, or the angle that "
-    "is given, or ends.",
-    syntax="GEO1 = ARET GEO2 (FLOT1) ;",
 )
 def aret(mesh: Mesh, angle: float) -> Mesh:
     """Sharp edges."""

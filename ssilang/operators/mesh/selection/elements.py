@@ -57,26 +57,7 @@ _FILTERS = key(
 _NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those", range=POSITIVE)
 
 
-@operator(
-    "ELEM",
-    _MESH,
-    _FILTERS,
-    _NUMBERS,
-    family="mesh",
-    full_name="ELEMENT",
-    en="Picks cells: by type, by colour, by number or list of numbers among those; 'CONT' the "
-    "cell that holds a point ('TOUS': all of them); 'APPU' those on given points ('STRI' with "
-    "all nodes, the default, 'LARG' with one at least); 'COMP' the part of a line between two "
-    "points, described from the first to the second; of a network such as ARET's the shortest "
-    "way. 'TYPE' and 'COUL' alone list the cell "
-    "types and colours. From a cell field: cells whose values are extreme or compare. 'NOVE' "
-    "allows an empty result.",
-    syntax="GEO1 = GEO2 ELEM (TYPE) (COUL1) (N1|LENTI1) | 'COUL' I1 | 'CONT' P1 ('TOUS') "
-    "('NOVE') | 'APPU' ('STRI'|'LARG') GEO3 ('NOVE') | 'COMP' P1 P2 ;\n"
-    "LMOTS1 = GEO2 ELEM 'TYPE'|'COUL' ;\n"
-    "GEO1 = CHAM1 ELEM 'MAXI'|'MINI'|'SUPE' X1|'COMP' X1 X2 ('ABS') ('LARG'|'STRI') "
-    "('AVEC'|'SANS' LMOTS1) ;",
-)
+@operator("ELEM", _MESH, _FILTERS, _NUMBERS, family="mesh", full_name="ELEMENT")
 def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti | None) -> Mesh:
     """Pick cells by type, colour and number."""
     return _numbered(call, _filtered(mesh, filters), which)

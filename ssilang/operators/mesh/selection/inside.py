@@ -35,9 +35,6 @@ from ssilang.operators.workspace import workspace
         range=NOT_NEGATIVE,
     ),
     family="mesh",
-    en="Whether a point lies inside a closed line of SEG2 (2D) or a closed surface of TRI3 "
-    "(3D); of a surface in 2D the contour is taken.",
-    syntax="LOG1 = DEDA P1 MAIL1 (FLOT1) ;",
 )
 def deda(session: Session, point: Point, mesh: Mesh, tolerance: float) -> bool:
     """Whether a point is inside."""
@@ -74,11 +71,6 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float) -> bool:
     ),
     family="mesh",
     full_name="INCLUS",
-    en="Cells of a mesh that lie inside a closed plane line ('LARG', the default: nodes on the "
-    "line count; 'STRI': they do not; 'BARY': by the cells' centres), or with 'VOLU' inside "
-    "volume cells ('STRI', the default: all nodes; 'LARG': one at least; 'BARY'). 'NOID' "
-    "allows an empty result.",
-    syntax="GEO1 = INCL GEO2 GEO3 ('VOLU') ('STRI'|'LARG'|'BARY') ('NOID') (FLOT1) ;",
 )
 def incl(
     call: Call,

@@ -49,24 +49,13 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     return union(first, second, as_given=as_given)
 
 
-@DIFF.form(
-    main("first", "MAILLAGE", en="mesh"),
-    _SECOND,
-    syntax="GEO3 = GEO1 DIFF GEO2 ;",
-    en="Of meshes: cells (same type, same nodes) of one only.",
-)
+@DIFF.form(main("first", "MAILLAGE", en="mesh"), _SECOND)
 def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
     """Symmetric difference of two meshes."""
     return symmetric_difference(first, as_mesh(second))
 
 
-@INTE.form(
-    main("first", "MAILLAGE", en="mesh"),
-    _SECOND,
-    _ALLOWED,
-    syntax="GEO3 = GEO1 INTE GEO2 ('NOVERIF') ;",
-    en="Of meshes: cells (same type, same nodes) that both hold. 'NOVERIF' allows an empty result.",
-)
+@INTE.form(main("first", "MAILLAGE", en="mesh"), _SECOND, _ALLOWED)
 def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> Mesh:
     """Common cells of two meshes."""
     made = intersection(first, as_mesh(second))
@@ -80,10 +69,6 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
     arg("first", "MAILLAGE", en="surface of TRI3"),
     arg("second", "MAILLAGE", en="surface of TRI3"),
     _ALLOWED,
-    syntax="GEO1B GEO2B LIG1 LIG2 = INTE 'GEOM' GEO1 GEO2 ('NOVERIF') ;",
-    en="With 'GEOM', of two surfaces of TRI3 in space: both surfaces with their triangles cut "
-    "where the surfaces cross, then the lines where they cross, by nodes of the first surface and "
-    "by nodes of the second. Parts where the surfaces lie in one plane give no line.",
 )
 def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Surfaces cut along their common lines, and these lines."""
@@ -103,10 +88,6 @@ _NONE = np.empty(0, dtype=np.int64)
     opt("second", "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"),
     family="mesh",
     full_name="VISAVIS",
-    en="Nodes of a mesh that have a node of a second one at their place, and these nodes, as "
-    "two meshes of POI1 in the same order; of one mesh alone, its double nodes. Places are the "
-    "same within the distance given, else within a tenth of the density in force.",
-    syntax="MAIL1 MAIL2 = VISA (FLOT1) GEO1 (GEO2) ;",
 )
 def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -> tuple[Mesh, Mesh]:
     """Pairs of nodes."""

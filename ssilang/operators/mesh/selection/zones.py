@@ -30,26 +30,7 @@ _MESH = main("mesh", "MAILLAGE", en="mesh")
 _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts")
 
 
-@operator(
-    "PART",
-    said("CONN"),
-    _MESH,
-    _FREE,
-    family="mesh",
-    full_name="PARTITION",
-    en="Table of the zones 1, 2 ... of a mesh, of sub-type 'ESCLAVE' unless 'NESC' is said. "
-    "'CONN': parts joined by common nodes. 'SEPA': parts joined by common sides, except "
-    "('FACE', 'LIGN') sides of more than two cells, ('MAIL') sides within cells of a mesh, "
-    "('ANGL') sides where normals or tangents turn by more than an angle (20 degrees); cells "
-    "described in opposite senses are not taken as folded unless 'TELQ' is said. 'OPTI': as "
-    "many equal parts as said (a power of 2, by default 2). 'ARLE' (of a model also without "
-    "this word): cells dealt out in turn to that many parts. ETG joins the parts again.",
-    syntax="TAB1 = PART ('NESC') 'CONN' MAIL1 ;\n"
-    "TAB1 = PART ('NESC') 'SEPA' MAIL1 ('FACE'|'LIGN') ('MAIL' MAIL2) "
-    "('ANGL' (FLOT1) ('TELQ')) ;\n"
-    "TAB1 = PART ('NESC') 'OPTI' MAIL1 (N1) ; TAB1 = PART ('NESC') 'ARLE' MAIL1 N1 ;\n"
-    "TAB1 = PART ('NESC') ('ARLE') MODL1 N1 ;",
-)
+@operator("PART", said("CONN"), _MESH, _FREE, family="mesh", full_name="PARTITION")
 def part(mesh: Mesh, free: bool) -> Table:
     """Parts joined by common nodes."""
     return _table(connected(mesh), free)
@@ -155,10 +136,6 @@ def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
         en="points of more than two lines, edges of more than two cells separate",
     ),
     family="mesh",
-    en="Table of the connected parts 1, 2 ... of a mesh. With 'STR1' points of more than two "
-    "lines separate, with 'STR2' cells hang together by edges of not more than two cells. "
-    "PART does more.",
-    syntax="TAB1 = CCON ('STR1'|'STR2') MAIL1 ;",
 )
 def ccon(mesh: Mesh, strict: str | None) -> Table:
     """Connected parts."""

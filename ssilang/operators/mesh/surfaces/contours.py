@@ -42,15 +42,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.workspace import workspace
 
-_POLYNOMIAL_EN = (
-    "'POLY': the surface P(U,V), sum of P1 P2 P3 ... times 1 U U**2 ..., and of the further rows "
-    "times V V**2 ..., N1 columns and N2 rows of points; U and V go from 0 to 1 or between the "
-    "values behind 'PARA'. OPTI DENS says the size of the cells; 'REGU' spaces the nodes evenly "
-    "along the sides, else they are even in U and V."
-)
-_POLYNOMIAL_SYNTAX = (
-    "SURF1 = {} 'POLY' N1 N2 P1 P2 (P3 ...) P11 P12 (P13 ...) (...) ('PARA' U1 U2 V1 V2) ('REGU') ;"
-)
 _CENTRE = arg("centre", "POINT", en="centre")
 _APEX = arg("apex", "POINT", en="apex")
 _FIRST = arg("first", "POINT", en="point of the axis")
@@ -96,12 +87,6 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
     ),
     family="mesh",
     full_name="SURFACE",
-    en="Mesh inside closed lines (holes run the other way): in their plane (the default), on a "
-    "sphere, cylinder, cone or torus. OPTI ELEM decides between triangles, quadrangles with "
-    "some triangles, and (POLY) polygons with some triangles; with an element of lines it is "
-    "triangles. A nodal field of one component gives the mesh sizes to respect.",
-    syntax="SURF1 = SURF (CHPO1) LIG1 'PLANE' (CRIT) | 'SPHE' CENTR1 | 'CYLI' AXE1 AXE2 | "
-    "'CONI' SOMM1 AXE1 | 'TORI' CENTR1 AXE1 CENTR2 ;",
 )
 def surf(
     session: Session,
@@ -138,11 +123,6 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
     select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN),
     family="mesh",
     full_name="DALLER",
-    en="Surface on four lines that form a contour: a grid when opposite sides have the same "
-    "number of cells. 'PLAN', 'SPHE', 'CYLI', 'CONI', 'TORI' say on what it lies; 'QUEL' "
-    "interpolates between the sides. Cells turn as the contour does. COTE gives the sides. ",
-    syntax="SURF1 = DALL COTE1 COTE2 COTE3 COTE4 'PLAN' | 'SPHE' CENTR1 | 'CYLI' POIN1 POIN2 | "
-    "'CONI' POIN1 POIN2 | 'TORI' CENTR1 POIN1 CENTR2 | 'QUELCONQUE' ;",
 )
 def dall(
     session: Session, side1: Mesh, side2: Mesh, side3: Mesh, side4: Mesh, shape: Chosen | None
@@ -184,8 +164,8 @@ _POLYNOMIAL = (
 )
 
 
-@dall.form(*_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("DALL"), en=_POLYNOMIAL_EN)
-@surf.form(*_POLYNOMIAL, syntax=_POLYNOMIAL_SYNTAX.format("SURF"), en=_POLYNOMIAL_EN)
+@dall.form(*_POLYNOMIAL)
+@surf.form(*_POLYNOMIAL)
 def polynomial_surface(
     call: Call,
     columns: int,

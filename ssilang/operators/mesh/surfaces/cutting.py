@@ -22,9 +22,6 @@ from ssilang.language.vocabulary.terms import ANY_NUMBER
     arg("p3", "POINT", en="third point of the plane"),
     family="mesh",
     full_name="COUPER",
-    en="What a plane through three points cuts out of a mesh in space: triangles in volumes, "
-    "lines in surfaces, points in lines. Quadratic cells are cut as linear ones.",
-    syntax="GEO2 = COUP GEO1 P1 P2 P3 ;",
 )
 def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
     """Section by a plane."""
@@ -47,11 +44,6 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
     arg("first", "MAILLAGE", "POINT", en="where the segment may begin"),
     arg("second", "MAILLAGE", "POINT", en="where it may end"),
     family="mesh",
-    en="Cuts a closed contour of SEG2 in two by the shortest segment from a node of the second "
-    "mesh to a node of the third: that segment, the contour that holds it and the one that "
-    "holds its inverse, both in the sense of the first. Only nodes on the contour count. A "
-    "line that the axis of revolution closes may be cut too.",
-    syntax="MAIL4 MAIL5 MAIL6 = FUIT MAIL1 MAIL2 MAIL3 ;",
 )
 def fuit(contour: Mesh, first: Mesh | Point, second: Mesh | Point) -> tuple[Mesh, Mesh, Mesh]:
     """Cut a contour in two."""
@@ -79,12 +71,6 @@ _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
     arg("value", "FLOTTANT", en="value", range=ANY_NUMBER),
     family="mesh",
     full_name="ISOVALEUR",
-    en="Mesh of the places where a field in cells, given at nodes and of one component, takes "
-    "a value: points in lines, lines in surfaces, triangles in volumes. With 'EGINFE', "
-    "'EGSUPE' the part where it is smaller or equal, larger or equal, cells being cut along "
-    "the value. The cells are POI1 SEG2 TRI3 TET4; QUA4 and linear volumes are first cut into "
-    "triangles and tetrahedra.",
-    syntax="MAIL1 = ISOV CHAM1 ('EGAL'|'EGINFE'|'EGSUPE') FLOT1 ;",
 )
 def isov(field: CellField, side: str, value: float) -> Mesh:
     """Isovalue, or part on one side of it."""

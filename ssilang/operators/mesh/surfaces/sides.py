@@ -13,9 +13,6 @@ from ssilang.language.vocabulary.terms import POSITIVE
     arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="surface"),
     family="mesh",
-    en="Side of a surface kept from its making: 1 initial, 2 right, 3 final, 4 left; all of "
-    "them without a number. They run round the surface in the sense of side 1.",
-    syntax="GEO1 = COTE (I1) GEO2 ;",
 )
 def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
     """Give back a side."""
@@ -42,9 +39,6 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     arg("number", "ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
     arg("mesh", "MAILLAGE", en="volume"),
     family="mesh",
-    en="Face of a volume kept from its making: 1 start, 2 end, 3 around; all of them without a "
-    "number.",
-    syntax="GEO1 = FACE (N1) GEO2 ;",
 )
 def face(call: Call, number: int, mesh: Mesh) -> Mesh:
     """Give back a face."""

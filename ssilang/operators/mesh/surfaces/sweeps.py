@@ -39,13 +39,6 @@ from ssilang.operators.mesh.lines.ends import (
 )
 from ssilang.operators.workspace import workspace
 
-_LAYERS_EN = (
-    "N1 > 0: that many equal layers; N1 < 0: that many, graded by the mesh sizes; without N1 the "
-    "sizes decide; DINI and DFIN replace them. If the first mesh is a surface its side 3 is swept "
-    "and the result is the surface grown by the new cells. COTE gives the sides."
-)
-
-
 LAYERS = opt(
     "count",
     "ENTIER",
@@ -97,8 +90,6 @@ def _swept(
     arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
     family="mesh",
     full_name="TRANSLATION",
-    en="Surface swept by a line moved along a vector. " + _LAYERS_EN,
-    syntax="SURF1 = LIG1 TRAN (N1) ('DINI' DENS1) ('DFIN' DENS2) VEC1 ;",
 )
 def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
     """Sweep a line along a vector."""
@@ -107,19 +98,7 @@ def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point
     return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
 
 
-@operator(
-    "ROTA",
-    _SWEPT,
-    LAYERS,
-    ANGLE,
-    SIZES,
-    AXIS,
-    family="mesh",
-    full_name="ROTATION",
-    en="Surface swept by a line turned by an angle in degrees about a point (2D) or an axis "
-    "(3D). " + _LAYERS_EN,
-    syntax="SURF1 = LIG1 ROTA (N1) FLOT1 ('DINI' DENS1) ('DFIN' DENS2) POIN1 (POIN2) ;",
-)
+@operator("ROTA", _SWEPT, LAYERS, ANGLE, SIZES, AXIS, family="mesh", full_name="ROTATION")
 def rota(
     call: Call,
     swept: Mesh,
@@ -151,10 +130,6 @@ def turning(
     arg("goal", "MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
     family="mesh",
     full_name="REGLER",
-    en="Ruled surface between two lines with the same cells, described in the same sense. "
-    + _LAYERS_EN
-    + " If the second is a surface its side 1 is reached.",
-    syntax="SURF1 = LIG1 REGL (N1) ('DINI' DENS1) ('DFIN' DENS2) LIG2 ;",
 )
 def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
     """Sweep a line to another one."""
@@ -200,9 +175,6 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
     arg("way", "MAILLAGE", en="line along which it goes"),
     family="mesh",
     full_name="GENERATRICE",
-    en="Surface swept by a line moved parallel to itself along another line, one layer for "
-    "each of its cells.",
-    syntax="SURF1 = LIG1 GENE LIG2 ;",
 )
 def gene(call: Call, line: Mesh, way: Mesh) -> Mesh:
     """Sweep a line along another line."""

@@ -40,11 +40,6 @@ from ssilang.operators.workspace import Workspace, workspace
     opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
     family="mesh",
     full_name="TRIANGULATION",
-    en="Triangles inside closed plane lines of SEG2, in any sense, without new points (RAFT "
-    "refines them); lines that end inside, lie free there or cut the domain in parts are "
-    "kept as sides of triangles. Or the Delaunay triangulation of a mesh of "
-    "points: TRI3 in 2D, TET4 in 3D.",
-    syntax="SURF1 = TRIA LIG1 (N1) ; MAIL2 = TRIA MAIL1 ('CONV') ;",
 )
 def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
     """Triangulate a contour or points."""
@@ -72,11 +67,6 @@ def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
     arg("boundary", "MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
     choice("points", ("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
     opt("parameters", "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"),
-    syntax="MAIL1 = TRIA 'TOPO' MAIL2 ('AJNO' | 'NOAJ') (TAB1) ;",
-    en="TOPO: triangles inside lines, tetrahedra inside a surface, with new points inside for the "
-    "size of the boundary ('NOAJ', in the plane: without). The boundary is kept. The table gets "
-    "the mesh, by how much it misses the volume, the number of its flat cells, and the least, "
-    "mean and largest quality (INDI 'TOPO').",
 )
 def tria_topo(
     call: Call, session: Session, boundary: Mesh, points: str, parameters: Table | None
@@ -125,9 +115,6 @@ _FLAT = 1e-11
     ),
     opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
     family="mesh",
-    en="Refines a plane mesh of TRI3 to the sizes of a nodal field (or the densities of its "
-    "nodes) by new points inside; the contour is kept.",
-    syntax="SURF2 = RAFT (CHPO1) SURF1 (N1) ;",
 )
 def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
     """Refine triangles."""
@@ -147,10 +134,6 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
     family="mesh",
     full_name="COUTURE",
-    en="Triangles between two lines described in the same sense, whatever their numbers of "
-    "cells; or the cells of a mesh joined to a point (POI1 give SEG2, SEG2 TRI3, SEG3 TRI6, "
-    "TRI3 TET4, QUA4 PYR5), those that hold the point being left out.",
-    syntax="SURF1 = COUT LIG1 LIG2 ;\nMAIL2 = COUT MAIL1 POIN1 ;",
 )
 def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     """Stitch lines together, or join cells to a point."""
@@ -166,12 +149,6 @@ def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
     opt("weights", "CHPOINT", en="weights of the points", unit="m"),
     family="mesh",
     full_name="VORONOI",
-    en="Voronoi partition of the inside of a closed line of SEG2 (2D): each cell holds what is "
-    "nearest to one point of a mesh of POI1. Weights w at the points make it a partition by "
-    "the least d^2 - w^2. The table has 'VISU', all edges; 'POND', the weights; 'ARTS', the "
-    "edges 1, 2 ...; 'CELL', indexed by point: 'VISU', the edges round it, 'ARTS', their "
-    "numbers, 'VOIS', the points of the cells beside it.",
-    syntax="TAB1 = VORO MAIL1 MAIL2 (CHPO1) ;",
 )
 def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
     """Cells, edges and neighbours."""

@@ -13,8 +13,6 @@ from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.dissection import dissection
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.cholesky.multifrontal import NotPositiveError
-from ssilang.kernel.solvers.cholesky.triangular import longest, solve_column
-from ssilang.kernel.solvers.cholesky.triangular_together import backward_many, forward_many
 from ssilang.kernel.solvers.factor import Ordering
 
 
@@ -129,22 +127,3 @@ def test_an_indefinite_or_singular_matrix_is_inverted_all_the_same():
     loose = sp.csr_array(A - sp.diags_array(np.asarray(A.sum(axis=1))))  # constants are free
     inverse = invert(sp.csr_array(-loose @ loose), True, ordering=order)
     assert inverse.singular
-
-
-@pytest.mark.parametrize("count", [1, 3, 4, 6, 9])
-@pytest.mark.parametrize(("shape", "unknowns"), [((40, 23), 2), ((7, 8, 7), 3), ((300,), 1)])
-def test_several_vectors_go_through_the_panels_together(count, shape, unknowns):
-    """Half of the tree, with what goes beyond it gathered apart, then the rest."""
-    A, points = grid(*shape, unknowns=unknowns)
-    panels = DissectedFactor(A, points).panels
-    n, nodes = A.shape[0], len(panels.first) - 1
-    b = np.random.default_rng(count).standard_normal((count, n))
-    x, above, local = b.copy(), np.zeros((count, n)), np.zeros((4, longest(panels)))
-    half = max(nodes // 2, 1)
-    forward_many(panels, 0, half, x, int(panels.first[half]), above, local)
-    x += above
-    forward_many(panels, half, nodes, x, n, x, local)
-    backward_many(panels, 0, nodes, x, x, local)
-    for given, found in zip(b.copy(), x, strict=True):
-        solve_column(panels, given, local[0].copy())
-        np.testing.assert_allclose(found, given, rtol=1e-10, atol=1e-13)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ssilang.kernel.stepping.problem.resolution import Resolution
+from ssilang.kernel.stepping.problem.plausibility import Resolution
 
 
 @pytest.mark.parametrize("contact_time", [0.030, 0.0299, 0.0281, 0.02999])
