@@ -306,14 +306,15 @@ def test_rows_that_were_changed_are_made_again(deck, tmp_path, before, after):
 def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     motions = tmp_path / "motions"
     motions.mkdir()
-    for name in ("a.csv", "b.csv"):
-        (motions / name).write_text("0;0\n1;1\n")
+    for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c.csv", "cm/s^2")):
+        (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n")
     deck.write_text("AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ;")
     options = SweepOptions(deck, ["AG=0.1"], motions=motions, out=tmp_path / "out", jobs=1)
     code, _, wrong = run(options)
     assert code == 0
     assert "a value is given to AG, and the script does not read it again" in wrong
     assert "a.csv and b.csv hold the same motion" in wrong
+    assert "in several units: a.csv (G) and c.csv (CM/S2)" in wrong
     assert "no run has a figure" in wrong
     code, _, wrong = run(replace(options, out=deck))
     assert (code, "is a file" in wrong) == (2, True)

@@ -32,6 +32,7 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
+from ssilang.io.ground_motions.record import unit_named
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -145,6 +146,7 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     """
     source = read_source(options.deck)
     _check_names(source, cases[0].values, options, err)
+    _tell_motions(cases, source, options.language, err)
     tasks = [
         _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
@@ -195,21 +197,25 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
         cases = cases_of(options.settings, options.motions, left)
     except GivenError as problem:
         raise SsiError.of(problem, None) from problem
-    _tell_same_motions(cases, options.language, err)
     if left:
         told = {"count": len(left), "names": [p.name for p in left]}
         err.write(sentence("cli.files-no-motions", told, options.language) + "\n")
     return cases
 
 
-def _tell_same_motions(cases: Sequence[Case], language: str, err: TextIO) -> None:
-    """Name motions whose files hold the same: a record that counts twice."""
+def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: TextIO) -> None:
+    """Name motions that hold the same, and those in several units where the deck reads no unit."""
     known: dict[str, list[str]] = {}
+    units: dict[str, str] = {}
     for path in dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values):
         known.setdefault(digest_of_file(path), []).append(path.name)
+        units.setdefault(unit_named(path), path.name)
     for names in known.values():
         if len(names) > 1:
             err.write(sentence("cli.same-motions", {"names": names}, language) + "\n")
+    if len(units) > 1 and not re.search(r"LIRE[^;]*'SI'", source.code, re.IGNORECASE):
+        named = [f"{name} ({unit or '?'})" for unit, name in units.items()]
+        err.write(sentence("cli.motions-of-other-units", {"names": named}, language) + "\n")
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
