@@ -157,7 +157,9 @@ def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
     (folder / "notes 1.md").write_text("# Records\nof 2024, 12 of them\n")
     (folder / "map.png").write_bytes(b"\x89PNG\0\n1 2 3\n")
     deck = tmp_path / "case.ssi"
-    deck.write_text("MOTION = 'none' ; AG = 1. ; T = TABL ; @VERIFIE T 'ag' AG 0. 10. ;")
+    deck.write_text(
+        "MOTION = 'none' ; AG = 1. ; T = TABL ; @VERIFIE T 'ag' AG 0. 10. ; MESS MOTION ;"
+    )
     options = SweepOptions(deck, ["AG=0.5,0.75"], folder, tmp_path / "out", jobs=1)
     code, _, wrong = run(options)
     assert code == 0

@@ -59,7 +59,7 @@ _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
 _COUNT = arg("count", "ENTIER", en="number of objects", range=between(1, 1e6))
 _PLACES = opt(
     "places", "LISTENTI", "LISTREEL", "LISTMOTS", en="indices of the table, else 1, 2 ...",
-    range=ANY_NUMBER, distinct=True,
+    range=ANY_NUMBER,
 )  # fmt: skip
 
 
