@@ -27,11 +27,11 @@ To aim at: 45 000 and 3 500 for stepping.
 SAYS_NOTHING = frozenset({"making", "parts", "more", "items", "derived"})
 GLOBAL_STATE = {"kernel/solvers/backends.py"}  # the factors kept between runs; see `session.py`
 
-# a third of mypy's time would go to searches for garbage, of which it makes little
+# a fifth of mypy's time would go to searches for garbage, of which it makes little; none: 2.7 GB
 _MYPY = """
 import gc
-gc.disable()
-gc.enable = gc.disable
+gc.set_threshold(3_000_000, 3, 100)
+gc.set_threshold = lambda *_: None
 from mypy.__main__ import console_entry
 console_entry()
 """
