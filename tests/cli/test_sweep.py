@@ -276,7 +276,7 @@ def test_a_file_that_changes_during_its_run_holds_for_no_later_one(tmp_path):
     deck = tmp_path / "case.ssi"
     (tmp_path / "data.csv").write_text("1.\n")
     os.utime(tmp_path / "data.csv", (time.time() + 1000.0,) * 2)
-    deck.write_text("N = 1 ; OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ;")
+    deck.write_text("N = 1 ; OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ; SORT 'BILA' 'n' (FLOT N) ;")
     options = SweepOptions(deck, ["N=1"], out=tmp_path / "out", jobs=1)
     assert run(options)[2] == ""
     assert "1 run again: data.csv has changed" in run(options)[2]
