@@ -11,7 +11,8 @@ pass is a survivor and printed as a diff; `--again` tries those of a report once
 change nothing stand with their reason in `mutants_equivalent.toml`.
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
-what calls it in its module, or the word of the operator that does; rare names count more.
+what calls it in its module, or the word of the operator that does; rare names count more. What the
+data beside a file of tests names (`.toml` of its name) is named by that file.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
@@ -428,6 +429,12 @@ def unchanged(copy_of: Path) -> set[str]:
     return set(told.stdout.split())
 
 
+def written(test: Path) -> str:
+    """A file of tests and the data beside it that have its name."""
+    beside = [path for path in (test, test.with_suffix(".toml")) if path.is_file()]
+    return "\n".join(path.read_text(encoding="utf-8") for path in beside)
+
+
 def warm_up(kept: Path) -> None:
     """Take over what the user's runs have compiled: code is named after its text."""
     own = Path.home() / ".cache/ssilang/compiled"
@@ -441,7 +448,7 @@ def try_all(asked: list[Fault], seconds: float, folder: Path, kept: Path) -> Cou
     """Judge faults one after the other, telling each; how many ended how."""
     copy_of = project(folder)
     files = [str(f.relative_to(ROOT)) for f in sorted((ROOT / "tests").rglob("test_*.py"))]
-    texts = {f: set(re.findall(r"[\w.*]+", (ROOT / f).read_text(encoding="utf-8"))) for f in files}
+    texts = {f: set(re.findall(r"[\w.*]+", written(ROOT / f))) for f in files}
     equivalent = tomllib.loads(EQUIVALENT.read_text(encoding="utf-8"))["equivalent"]
     same = {(e["path"], e["old"].strip(), e["new"].strip()): e["reason"] for e in equivalent}
     good, callers = unchanged(copy_of), Callers()

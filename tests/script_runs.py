@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ssilang.cli.run import run_text
+from ssilang.cli.run import RunResult, run_text
 
 
 def found(script: str, *names: str, folder: Path | None = None) -> Any:
@@ -23,9 +23,19 @@ def printed(script: str, folder: Path | None = None) -> list[str]:
     return result.output.rstrip("\n").split("\n")
 
 
-def refused(script: str, folder: Path | None = None) -> str:
-    """The message of a script that must fail, without defects inside."""
-    result = run_text(script, output_directory=folder)
+def failed(script: str, folder: Path | None = None) -> RunResult:
+    """The end of a script that must fail at what stands between « and », where these stand."""
+    before, here, rest = script.partition("«")
+    place, _, after = rest.partition("»")
+    result = run_text(before + place + after, output_directory=folder)
     assert result.exit_code == 1
     assert "defect of ssilang" not in result.message
-    return result.message
+    if here:
+        span = result.errors[0].span
+        assert (span.start, span.source.text[span.start : span.end]) == (len(before), place)
+    return result
+
+
+def refused(script: str, folder: Path | None = None) -> str:
+    """The message of a script that must fail, as `failed`."""
+    return failed(script, folder).message

@@ -1,4 +1,5 @@
-"""Every example of the help of every operator and procedure runs, and they try all that is built.
+"""Every example of the help of every operator and procedure runs, prints what is known
+beforehand (`test_examples.toml`), and they try all that is built.
 
 `docs/partly.txt` says of an operator what it lacks; behind "without an example:" stand the forms,
 by their number, and the words of a choice that no example of it runs. What is not said there is
@@ -8,10 +9,13 @@ built, and what is said there is so.
 from __future__ import annotations
 
 import re
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
+from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run import phrases
@@ -21,6 +25,7 @@ from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.reference import operator_page, procedure_page
+from ssilang.language.text.source import Source
 from ssilang.language.values import MAY_BE_EMPTY, Mot, is_empty, type_of
 from ssilang.operators.loader import load_operators
 from ssilang.operators.session.empty_objects import _MAKERS
@@ -29,6 +34,8 @@ from ssilang.operators.workspace import workspace
 load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
 _PROCEDURES = {p: procedure_page(p) for p in standard_procedures().values()}
+_PRINTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 @pytest.fixture(scope="module")
@@ -85,16 +92,52 @@ class Emptied:
             self.silent.append((found.name, place, [type_of(o.value) for o in call.operands]))
 
 
+def _same(name, number, output):
+    """Whether an example printed what is known: words as they are, numbers to four digits."""
+    known = _PRINTED.get(name, [])
+    if number > len(known) or not known[number - 1]:
+        return True
+    wanted, found = known[number - 1], " ".join(output.split())
+    assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
+    numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
+    return numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
+
+
+def _checked(text, result):
+    """The check finds nothing wrong, and the types that it foresees are those of the run."""
+    problems, _, types = typed_source(Source("example", text))
+    assert [p.code for p in problems if p.severity == "error"] == []
+    if re.search(r"\b(REST|LIRE \w+) ;", text):
+        return  # names that a file brings
+    seen = {}
+    for place, word in sorted(types.items()):  # what is said last holds; '' of many types
+        seen[re.match(r"[\w@!]+", text[place:])[0].upper()[:24]] = word
+    values = {name: result.session.root.find(name) for name in seen}
+    there = {name: type_of(v) for name, v in values.items() if v is not None}
+    assert {name: seen[name] or there[name] for name in there} == there
+
+
 @pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
-def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path, monkeypatch):
-    """Each call of an operator is tried with nothing in place of an object, too: that is told."""
-    ran, emptied = FormsRan(), Emptied(operator)
-    monkeypatch.setattr(phrases, "run_operator", emptied)
+def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path):
+    ran = FormsRan()
     for number, text in enumerate(_examples(operator), 1):
         options = RunOptions(output_directory=tmp_path / str(number), on_form=ran)
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
+        assert _same(operator.name, number, result.output)
+        _checked(text, result)
     assert ran.missing(operator) == untried.get(operator.name, [])
+
+
+@pytest.mark.parametrize(
+    "operator", [pytest.param(o, id=o.name) for o in _OPERATORS if not o.empties]
+)
+def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
+    """Each call of the examples is tried with nothing in place of each of its objects."""
+    emptied = Emptied(operator)
+    monkeypatch.setattr(phrases, "run_operator", emptied)
+    for number, text in enumerate(operator_page(operator).help.examples, 1):
+        run_text(text, output_directory=tmp_path / str(number))
     assert not emptied.silent
 
 
@@ -103,3 +146,4 @@ def test_examples_of_procedures_run(path, tmp_path):
     for number, text in enumerate(_PROCEDURES[path].help.examples, 1):
         result = run_text(text, output_directory=tmp_path / str(number))
         assert result.exit_code == 0, result.message
+        assert _same(path.stem.upper(), number, result.output)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from script_runs import failed
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.language.values import Table, type_of
@@ -48,11 +49,5 @@ def run(tmp_path):
 
 @pytest.fixture
 def fails(tmp_path):
-    """Run a text that must fail; the code of its first error."""
-
-    def action(text: str) -> str:
-        result = run_text(text, output_directory=tmp_path / "out")
-        assert result.exit_code == 1
-        return result.errors[0].code
-
-    return action
+    """Function `(text)`: the code of the first error of a text that must fail, as `failed`."""
+    return lambda text: failed(text, tmp_path / "out").errors[0].code

@@ -36,7 +36,7 @@ def test_product_by_a_scalar_field_and_by_names(found):
 
 
 def test_field_of_other_cells_does_not_multiply(refused):
-    script = LINE + "M = DROI 3 PA PB ; D = MANU 'CHML' M 'SCAL' 1. ; E = C * D ;"
+    script = LINE + "M = DROI 3 PA PB ; D = MANU 'CHML' M 'SCAL' 1. ; E = C «*» D ;"
     assert "is not a zone of the second" in refused(script)
 
 
@@ -137,8 +137,8 @@ def test_hooke_matrices_times_strains_are_stresses_in_any_order(found, order):
 
 
 def test_hooke_matrices_times_strains_ask_for_the_model(refused):
-    assert "wanted a MMODEL" in refused(STRAINED + "T = H * E ;")
-    assert "with a model" in refused(STRAINED + "T = M E * E ;")
+    assert "wanted a MMODEL" in refused(STRAINED + "T = H «*» E ;")
+    assert "with a model" in refused(STRAINED + "T = «M» E * E ;")
 
 
 def test_products_by_names_take_a_factor_each(found, refused):
@@ -170,7 +170,7 @@ def test_lists_curves_and_points_in_cells_combine(found, refused):
     assert lists.values.tolist() == [4.0, 36.0]
     assert quotient.values.tolist() == pytest.approx([2 / 3, 2.0])
     assert (x, y) == (8.0, 0.0)
-    assert "points add up" in refused(script + "Q = P * P ;")
+    assert "points add up" in refused(script + "Q = P «*» P ;")
 
 
 def test_largest_value_of_the_components_of_a_list(found):
@@ -194,7 +194,9 @@ def test_the_word_before_a_list_of_components_and_its_list_may_be_apart(found, t
     assert found(LINE + f"X = {text} ;", "X") == expected
 
 
-@pytest.mark.parametrize("text", ["MAXI C 'SANS' 'ABS'", "MAXI C 'SANS' 'A'", "MINI 'AVEC' C"])
+@pytest.mark.parametrize(
+    "text", ["«MAXI» C 'SANS' 'ABS'", "«MAXI» C 'SANS' 'A'", "«MINI» 'AVEC' C"]
+)
 def test_a_word_of_components_without_its_list_is_told(refused, text):
     assert "waits for the list" in refused(LINE + f"X = {text} ;")
 
@@ -214,7 +216,7 @@ def test_a_field_is_dealt_out_over_a_table_of_models_and_joined_again(found):
 
 
 def test_a_table_without_models_is_told(refused):
-    assert "no models" in refused(LINE + "T = TABL ; T . 1 = 5 ; X = REDU C T ;")
+    assert "no models" in refused(LINE + "T = TABL ; T . 1 = 5 ; X = REDU C «T» ;")
 
 
 def test_the_sub_type_of_a_changed_field_is_any_word(found):

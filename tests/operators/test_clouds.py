@@ -62,7 +62,7 @@ def test_grid_of_three_axes_is_linear_in_each():
 
 
 def test_unequal_columns_are_refused(refused):
-    assert "different numbers" in refused("N = NUAG 'COMP' 'X' 0. 1. 'COMP' 'Y' 5. ;")
+    assert "different numbers" in refused("N = «NUAG» 'COMP' 'X' 0. 1. 'COMP' 'Y' 5. ;")
 
 
 def test_integrals_of_several_curves_over_several_intervals_make_a_cloud(found):
@@ -78,4 +78,4 @@ def test_clouds_are_joined_row_by_row(found, refused):
     more = CLOUD + "M = NUAG 'COMP' 'Y' 7. 'COMP' 'X' 4. ; "
     assert found(more + "J = N ET M ;", "J").columns == {"X": (0, 1, 2, 4), "Y": (5, 9, 6, 7)}
     assert found(more + "J = (VIDE 'NUAGE') ET N ;", "J").columns == found(CLOUD, "N").columns
-    assert "X Y and Z" in refused(CLOUD + "J = N ET (NUAG 'COMP' 'Z' 7.) ;")
+    assert "X Y and Z" in refused(CLOUD + "J = N «ET» (NUAG 'COMP' 'Z' 7.) ;")

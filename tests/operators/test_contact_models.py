@@ -110,7 +110,8 @@ def test_two_cubes_do_not_pull(found):
 
 def test_matrix_of_contact_with_friction_is_refused(refused):
     refused(
-        PLANE + "K = MODE C CONTACT FROTTANT COULOMB A ; R = RIGI (M ET K) (G ET (MATE K MU .2)) ;"
+        PLANE
+        + "K = MODE C CONTACT FROTTANT COULOMB A ; R = «RIGI» (M ET K) (G ET (MATE K MU .2)) ;"
     )
 
 

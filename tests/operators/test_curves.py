@@ -26,7 +26,7 @@ def test_curve_holds_lists_names_legend_and_colour(found):
 
 
 def test_lists_of_different_lengths_are_refused(refused):
-    assert "2 abscissas for 1 ordinate" in refused("E = EVOL 'MANU' (PROG 0. 1.) (PROG 1.) ;")
+    assert "2 abscissas for 1 ordinate" in refused("E = EVOL 'MANU' (PROG 0. 1.) «(PROG 1.)» ;")
 
 
 def test_curve_along_a_line_has_its_length_as_abscissa(found):

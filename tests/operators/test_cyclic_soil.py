@@ -100,7 +100,7 @@ def test_a_cell_under_a_shaken_base_moves_as_masses_on_springs(found):
         ("'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4 1.E-3) (PROG 1. 0.6 0.05))", "at least G/Gmax"),
         (f"'GGAM' {CURVE} 'GAMR' 1.E-3", "given twice"),
         (f"'GAMR' {CURVE}", "GAMR is a number"),
-        ("'GAMR' 0.", "GAMR = 0"),
+        ("'GAMR' «0.»", "GAMR = 0"),
         ("'GGAM' 0.5", "parameter GGAM is a curve"),
     ],
 )
@@ -134,8 +134,8 @@ def test_a_missing_curve_is_told_with_what_may_stand_in_its_place(refused):
 @pytest.mark.parametrize(
     ("law", "given", "told"),
     [
-        ("CAM_CLAY", "'E0' 1. 'M' 1. 'P0' 1. 'KAPA' 0.3 'LAMD' 0.2 'G1' 8.", "KAPA < LAMD"),
-        ("J2", "'SIG0' 2. 'SIGI' 1. 'KISO' 0. 'VELO' 1.", "J2"),
+        ("CAM_CLAY", "'E0' 1. 'M' 1. 'P0' 1. 'KAPA' «0.3» 'LAMD' 0.2 'G1' 8.", "KAPA < LAMD"),
+        ("J2", "'SIG0' 2. 'SIGI' «1.» 'KISO' 0. 'VELO' 1.", "J2"),
     ],
 )
 def test_parameters_that_do_not_fit_each_other_are_refused_where_they_are_given(

@@ -203,7 +203,7 @@ def test_calculation_goes_on_from_the_fibres_of_an_earlier_one(found):
     ("change", "said"),
     [
         (("'MODS' MS 'MATS' AS", "'MATS' AS"), "MODS is missing"),
-        (("'MODS' MS", "'MODS' 3."), "takes the model"),
+        (("'MODS' MS", "'MODS' «3.»"), "takes the model"),
         (("ELASTIQUE SECTION TIMO", "ELASTIQUE SECTION POUT"), "no elasticity SECTION"),
         (("ELASTIQUE  QUAS", "ELASTIQUE  PLASTIQUE RH_COULOMB QUAS"), "have no plastic law"),
         (("'ALPZ' 0.8333", ""), "ALPZ is missing"),
@@ -222,7 +222,7 @@ def test_section_that_cannot_carry_its_normal_force_is_refused(refused):
 
 
 def test_fields_of_a_section_have_no_stiffness_of_their_own(refused):
-    assert "describes the section of a beam" in refused(section() + "K = RIGI MS AS ; ")
+    assert "describes the section of a beam" in refused(section() + "K = «RIGI» MS AS ; ")
 
 
 # ---- concrete -------------------------------------------------------------------------------

@@ -121,5 +121,5 @@ def test_axes_of_a_joint_in_space_turn_about_its_segment_and_with_it(found):
 
 
 def test_a_model_alone_is_refused_and_moves_nothing(refused):
-    said = refused(START + BEAM + "C B = FORM U M ;")
+    said = refused(START + BEAM + "C B = «FORM» U M ;")
     assert "wanted a MCHAML" in said

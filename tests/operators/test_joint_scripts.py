@@ -48,7 +48,7 @@ def test_rule_by_name_on_bilinear_faces(found):
 @pytest.mark.parametrize("element", ["QUA8", "TRI6"])
 def test_nodal_rule_is_refused_on_faces_with_bad_weights(refused, element):
     message = refused(
-        SURFACE.format(element) + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ;"
+        SURFACE.format(element) + "M = «MODE» J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ;"
     )
     assert "LOBATTO" in message
     assert "negative or zero" in message
@@ -56,7 +56,7 @@ def test_nodal_rule_is_refused_on_faces_with_bad_weights(refused, element):
 
 
 def test_rule_without_joints_is_refused(refused):
-    message = refused(STRIP + "M = MODE A 'MECANIQUE' 'ELASTIQUE' 'BARR' 'LOBATTO' ;")
+    message = refused(STRIP + "M = «MODE» A 'MECANIQUE' 'ELASTIQUE' 'BARR' 'LOBATTO' ;")
     assert "the mesh has none" in message
 
 

@@ -65,7 +65,7 @@ def test_sine_of_a_list_has_frequency_phase_and_amplitude():
 
 
 def test_end_of_steps_is_repeated_at_least_once(refused):
-    assert "need an end" in refused("L = PROG 0. PAS 0.5 0 * 7. ;")
+    assert "need an end" in refused("L = «PROG» 0. PAS 0.5 0 * 7. ;")
 
 
 @pytest.mark.parametrize("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
@@ -78,11 +78,11 @@ def test_steps_that_never_reach_their_end_leave_start_and_end(steps):
 
 
 def test_integer_steps_that_lead_away_are_refused(refused):
-    assert "do not lead from" in refused("L = LECT 0 PAS -1 5 ;")
+    assert "do not lead from" in refused("L = LECT 0 PAS -1 «5» ;")
 
 
 def test_step_that_does_not_divide_is_refused_for_integers(refused):
-    assert "steps of 2" in refused("L = LECT 1 PAS 2 6 ;")
+    assert "steps of 2" in refused("L = LECT 1 PAS 2 «6» ;")
 
 
 @given(INTEGERS, INTEGERS)
@@ -145,8 +145,8 @@ def test_items_are_taken_removed_and_inserted_by_place(numbers, data):
 
 
 def test_place_outside_of_a_list_is_refused(refused):
-    assert "3 items" in refused("X = EXTR (LECT 1 2 3) 4 ;")
-    assert "places > 0" in refused("X = ENLE (LECT 1 2 3) 0 ;")
+    assert "3 items" in refused("X = EXTR (LECT 1 2 3) «4» ;")
+    assert "places > 0" in refused("X = ENLE (LECT 1 2 3) «0» ;")
 
 
 def test_replacing_changes_the_list_for_all_its_names_but_not_a_copy(found):
@@ -205,7 +205,7 @@ def test_running_sum_and_item_by_item_maximum():
 
 def test_list_of_objects_holds_one_type(refused):
     assert value("DIME (ENUM (PROG 1.) (PROG 2.))") == 2
-    assert "one type" in refused("L = ENUM (PROG 1.) 'word' ;")
+    assert "one type" in refused("L = ENUM (PROG 1.) «'word'» ;")
 
 
 def test_ten_thousand_appends():
@@ -218,24 +218,24 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
     script = "L = (ENUM (PROG 1.)) ET (PROG 2. 3.) ; N = DIME L ; S = SOMM (EXTR L 2) ;"
     size, sum_ = found(script, "N", "S")
     assert (size, sum_) == (2, 5.0)
-    assert "one type" in refused("L = (ENUM (PROG 1.)) ET 'a' ;")
+    assert "one type" in refused("L = (ENUM (PROG 1.)) «ET» 'a' ;")
 
 
 @pytest.mark.parametrize(
     "phrase",
     [
-        "L = PROG 1000000000 * 1. ;",
-        "L = PROG 1. PAS 1. NPAS 1000000000 ;",
-        "L = PROG 0. PAS 1.E-12 1. ;",
-        "L = PROG 0. PAS 0.5 3. 1E9 * 7. ;",
-        "L = LECT 1 PAS 1 NPAS 1000000000 ;",
-        "L = LECT 1 PAS 1 1000000000 ;",
-        "L = MOTS 1000000000 * 'A' ;",
-        "L = PROG 1. 2. ; REPE B 60 ; L = L ET L ; FIN B ;",
-        "L = LECT 1 2 ; REPE B 60 ; L = L ET L ; FIN B ;",
-        "L = MOTS 'A' ; REPE B 60 ; L = L ET L ; FIN B ;",
-        "L = CHAI 'A' *1000000000 ;",
-        "L = MOT 'A' ; REPE B 60 ; L = CHAI L L ; FIN B ;",
+        "L = «PROG» 1000000000 * 1. ;",
+        "L = «PROG» 1. PAS 1. NPAS 1000000000 ;",
+        "L = «PROG» 0. PAS 1.E-12 1. ;",
+        "L = «PROG» 0. PAS 0.5 3. 1E9 * 7. ;",
+        "L = «LECT» 1 PAS 1 NPAS 1000000000 ;",
+        "L = «LECT» 1 PAS 1 1000000000 ;",
+        "L = «MOTS» 1000000000 * 'A' ;",
+        "L = PROG 1. 2. ; REPE B 60 ; L = L «ET» L ; FIN B ;",
+        "L = LECT 1 2 ; REPE B 60 ; L = L «ET» L ; FIN B ;",
+        "L = MOTS 'A' ; REPE B 60 ; L = L «ET» L ; FIN B ;",
+        "L = «CHAI» 'A' *1000000000 ;",
+        "L = MOT 'A' ; REPE B 60 ; L = «CHAI» L L ; FIN B ;",
     ],
 )
 def test_lists_that_would_fill_the_memory_are_refused_at_once(refused, phrase):
@@ -244,7 +244,7 @@ def test_lists_that_would_fill_the_memory_are_refused_at_once(refused, phrase):
 
 def test_lists_of_objects_that_would_fill_the_memory_are_refused(refused, monkeypatch):
     monkeypatch.setattr(progressions, "LONGEST", 1_000_000)  # objects take a while to be made
-    told = refused("L = ENUM (PROG 1.) ; REPE B 60 ; L = L ET L ; FIN B ;")
+    told = refused("L = ENUM (PROG 1.) ; REPE B 60 ; L = L «ET» L ; FIN B ;")
     assert "too long, the limit is 1000000" in told
 
 
@@ -285,7 +285,7 @@ def test_values_of_fields_on_one_point_need_no_point(found, refused):
     both, one = found(script + "A = EXTR L 'VALE' ; B = EXTR L 'VALE' 'Q' ;", "A", "B")
     assert both.values.tolist() == [3.0, 6.0, 1.0, 2.0]
     assert one.values.tolist() == [1.0, 2.0]
-    two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR (SUIT C D) 'VALE' ;"
+    two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR «(SUIT C D)» 'VALE' ;"
     assert "stand on 2 points" in refused(two)
 
 

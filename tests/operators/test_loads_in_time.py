@@ -65,7 +65,7 @@ def test_parts_of_a_loading(found):
 
 def test_what_cannot_be_loaded_is_explained(refused):
     assert "must increase" in refused(
-        LOAD + "C = CHAR 'MECA' F (EVOL 'MANU' (PROG 1. 0.) (PROG 0. 1.)) ;"
+        LOAD + "C = «CHAR» 'MECA' F (EVOL 'MANU' (PROG 1. 0.) (PROG 0. 1.)) ;"
     )
-    assert "its parts are: MECA" in refused(LOAD + "C = CHAR 'MECA' F ; X = TIRE C 0. 'PRES' ;")
-    assert "moving loadings" in refused(LOAD + "C = CHAR 'Q' F E 'TRAN' Q E ;")
+    assert "its parts are: MECA" in refused(LOAD + "C = CHAR 'MECA' F ; X = TIRE «C» 0. 'PRES' ;")
+    assert "moving loadings" in refused(LOAD + "C = «CHAR» 'Q' F E 'TRAN' Q E ;")

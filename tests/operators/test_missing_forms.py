@@ -19,7 +19,7 @@ def test_power_of_a_lumped_mass_is_its_inverse(found):
 
 
 def test_power_of_negative_terms_is_refused(refused):
-    assert "negative terms" in refused("OPTI DIME 2 ; P = 0. 0. ; M = (MASS 'UX' -4. P) ** 0.5 ;")
+    assert "negative terms" in refused("OPTI DIME 2 ; P = 0. 0. ; M = (MASS 'UX' -4. P) «**» 0.5 ;")
 
 
 def test_curve_is_zero_where_the_field_is_not_and_says_so():
@@ -93,7 +93,7 @@ def test_dependence_of_relations_alone_leaves_other_unknowns_as_they_are(found, 
     # one of the two stays: q with 3 + 3/2
     assert force == pytest.approx(4.5)
     assert back == pytest.approx(4.0)
-    assert "no relation" in refused(SPRINGS + "T D = CHAN 'COND' K ;")
+    assert "no relation" in refused(SPRINGS + "T D = «CHAN» 'COND' K ;")
 
 
 def test_curves_in_cells_through_fields(found, refused):
@@ -111,8 +111,8 @@ def test_curves_in_cells_through_fields(found, refused):
     )  # fmt: skip
     assert (first, second) == pytest.approx((2.25, 8.0))
     assert str(name).rstrip() == "T"
-    assert "increase" in refused(start + "C = MANU 'CHML' 'EVOL' 'T' 20. A 10. A ;")
-    said = refused(start + "C = MANU 'CHML' 'EVOL' 'T' 20. A 30. (NOMC 'NU' A) ;")
+    assert "increase" in refused(start + "C = «MANU» 'CHML' 'EVOL' 'T' 20. A 10. A ;")
+    said = refused(start + "C = «MANU» 'CHML' 'EVOL' 'T' 20. A 30. (NOMC 'NU' A) ;")
     assert "one component" in said
 
 
@@ -137,7 +137,7 @@ def test_table_of_fields_is_reduced_to_a_model(found, refused):
         "X",
     )
     assert total == pytest.approx(0.5)
-    assert "no fields in cells" in refused(start + "X = REDU T M ;")
+    assert "no fields in cells" in refused(start + "X = REDU «T» M ;")
 
 
 # --- lists and loadings by lists ----------------------------------------------------------------
@@ -159,7 +159,7 @@ def test_lists_are_taken_from_tables_by_their_integers(found):
 
 
 def test_a_table_with_a_word_gives_no_list_of_numbers(refused):
-    said = refused("T = TABL ; T . 1 = 'A' ; L = PROG 'TABL' T ;")
+    said = refused("T = TABL ; T . 1 = 'A' ; L = PROG 'TABL' «T» ;")
     assert "index 1 of the table holds no number but an object of type MOT" in said
 
 
@@ -178,9 +178,9 @@ def test_a_loading_by_lists_is_that_by_tables(found):
 
 
 def test_a_loading_has_an_object_for_each_time(refused):
-    script = "OPTI DIME 2 ; P = 0. 0. ; C = CHAR 'MECA' (PROG 1. 3.) (ENUM (FORC (0. 1.) P)) ;"
+    script = "OPTI DIME 2 ; P = 0. 0. ; C = CHAR 'MECA' (PROG 1. 3.) «(ENUM (FORC (0. 1.) P))» ;"
     assert "2 times for 1 object" in refused(script)
-    script = "C = CHAR 'MECA' (PROG 1.) (ENUM (PROG 2.)) ;"
+    script = "C = CHAR 'MECA' (PROG 1.) «(ENUM (PROG 2.))» ;"
     assert "objects of type LISTREEL" in refused(script)
 
 

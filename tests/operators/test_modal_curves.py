@@ -49,4 +49,4 @@ def test_recombined_reactions_are_those_of_the_recombined_displacement(found):
 
 
 def test_shapes_without_reactions_are_named(refused):
-    assert "has no reactions" in refused(MODE + "R = RECO Q1 T1 'REAC' ;")
+    assert "has no reactions" in refused(MODE + "R = «RECO» Q1 T1 'REAC' ;")

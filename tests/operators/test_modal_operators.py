@@ -317,7 +317,7 @@ def test_pseudo_mode_of_a_shock_is_that_of_a_unit_force_along_its_normal(found, 
     )  # fmt: skip
     assert (x, y) == pytest.approx((0.6 / 900.0, 0.8 / 1600.0))
     assert same
-    flat = script + "S . 1 . 'NORMALE' = (0. 0.) ; P = PSMO K (T . 'MODES') S ;"
+    flat = script + "S . 1 . 'NORMALE' = (0. 0.) ; P = PSMO K (T . 'MODES') «S» ;"
     assert "the NORMALE of entry 1 is zero" in refused(flat)
-    empty = script + "S . 2 = TABL ; P = PSMO K (T . 'MODES') S ;"
+    empty = script + "S . 2 = TABL ; P = PSMO K (T . 'MODES') «S» ;"
     assert "entry 2 wants a POINT" in refused(empty)

@@ -215,10 +215,10 @@ def test_vibr_tells_of_a_mass_of_both_signs_and_refuses_one_that_is_negative(run
     )
     (said,) = [w for w in result.session.warnings if w.code.endswith("mass-of-both-signs")]
     assert said.data["value"] == -2.0
-    assert "negative: -2" in refused(spring + "T = VIBR 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")
+    assert "negative: -2" in refused(spring + "T = «VIBR» 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")
 
 
-@pytest.mark.parametrize("asked", ["RIGI M A", "MASS M A", "EPSI M U", "INTG M C"])
+@pytest.mark.parametrize("asked", ["«RIGI» M A", "«MASS» M A", "«EPSI» M U", "«INTG» M C"])
 def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     told = refused(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = MODE L MECANIQUE ELASTIQUE SEG2 ;"

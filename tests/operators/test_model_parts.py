@@ -55,4 +55,4 @@ def test_single_value_stands_where_it_is_put(found, refused):
     field = found(MODELS + f"C = MANU 'CHAM' MO {words} 'V' 2 1 7. ;", "C")
     assert np.ravel(field.blocks[0].components["V"]).tolist() == [0, 7, 0, 0]
     assert field.title == "SCALAIRE"
-    assert "4 cells" in refused(MODELS + "C = MANU 'CHAM' MO 'V' 9 1 7. ;")
+    assert "4 cells" in refused(MODELS + "C = «MANU» 'CHAM' MO 'V' 9 1 7. ;")

@@ -115,8 +115,8 @@ def test_union_adds_discrete_values_and_wants_diffuse_ones_to_agree(found, refus
         "A", "B", "C",
     )  # fmt: skip
     assert (a, b, c) == (6.0, 3.0, 3.0)
-    assert "3 in one field and 6 in the other" in refused(natures + "F = E ET (E * 2.) ;")
-    assert "natures" in refused(natures + "F = E ET D ;")
+    assert "3 in one field and 6 in the other" in refused(natures + "F = E «ET» (E * 2.) ;")
+    assert "natures" in refused(natures + "F = E «ET» D ;")
 
 
 def test_numbers_act_on_every_value(found):
@@ -129,8 +129,8 @@ def test_numbers_act_on_every_value(found):
 
 
 def test_division_by_zero_in_a_field_is_refused(refused):
-    assert "zero" in refused(LINE + "Z = 1. / X ;")
-    assert "zero" in refused(LINE + "Z = Y / X ;")
+    assert "zero" in refused(LINE + "Z = 1. «/» X ;")
+    assert "zero" in refused(LINE + "Z = Y «/» X ;")
 
 
 def test_component_is_taken_under_the_name_scal_or_a_new_one(found, refused):
@@ -138,7 +138,7 @@ def test_component_is_taken_under_the_name_scal_or_a_new_one(found, refused):
         POINT + "A = EXTR (EXCO 'UY' C) 'SCAL' P ; B = EXTR (EXCO 'UY' C 'T') 'T' P ;", "A", "B"
     )
     assert (a, b) == (4.0, 4.0)
-    assert "components are: UX UY" in refused(POINT + "A = EXCO 'UZ' C ;")
+    assert "components are: UX UY" in refused(POINT + "A = «EXCO» 'UZ' C ;")
     assert found(POINT + "E = VIDE (EXCO 'UZ' 'NOID' C) ;", "E") is True
 
 
@@ -178,7 +178,9 @@ def test_repeated_points_sum_up_in_a_discrete_field(found, refused):
         "X",
     )
     assert top == 4.0
-    assert "twice" in refused(script + "C = MANU 'CHPO' 'NATURE' 'DIFFUS' M 'T' (PROG 1. 2. 3.) ;")
+    assert "twice" in refused(
+        script + "C = «MANU» 'CHPO' 'NATURE' 'DIFFUS' M 'T' (PROG 1. 2. 3.) ;"
+    )
 
 
 def test_extremes_with_and_without_components(found):
@@ -211,7 +213,7 @@ def test_restriction_to_points_and_to_where_another_field_is_not_zero(found):
 
 @pytest.mark.parametrize(
     "statement",
-    ["EXTR C 'UX' R", "EXTR R C 'UX'", "EXTR C 'VALE' R", "EXTR (SUIT C C) 'VALE' R 'UX'"],
+    ["«EXTR» C 'UX' R", "«EXTR» R C 'UX'", "«EXTR» C 'VALE' R", "«EXTR» (SUIT C C) 'VALE' R 'UX'"],
 )
 def test_a_point_that_carries_no_value_is_told_with_the_nearest_node(refused, statement):
     said = refused(POINT + f"R = 4. 4. ; X = {statement} ;")
@@ -227,7 +229,7 @@ def test_forces_are_zero_where_none_acts(found, refused):
         "X1", "X2", "X3", "X4",
     )  # fmt: skip
     assert values == (0.0, 3.0, 0.0, 0.0)
-    assert "RZ" in refused(start + "X = EXTR C 'RZ' R ;")
+    assert "RZ" in refused(start + "X = «EXTR» C 'RZ' R ;")
 
 
 def test_negative_value_has_no_fractional_power():
@@ -252,18 +254,18 @@ def test_vector_product_in_3d_is_orthogonal_to_both_factors(found):
 
 def test_number_raised_to_the_values_of_a_field(found, refused):
     assert found(POINT + "A = MAXI (2. ** C) ; B = MINI (2 ** C) ;", "A", "B") == (16.0, 8.0)
-    assert "powers of a field" in refused(POINT + "A = -2. ** C ;")
+    assert "powers of a field" in refused(POINT + "A = -2. «**» C ;")
 
 
 def test_inverse_of_a_field_is_one_over_its_values(found, refused):
     field = found(POINT + "D = INVE C ;", "D")
     for name, expected in (("UX", 1 / 3), ("UY", 0.25)):
         np.testing.assert_allclose(field.components[name].values, expected)
-    assert "UX is 0 at (0, 0" in refused(POINT + "D = INVE (MANU 'CHPO' P 'UX' 0.) ;")
+    assert "UX is 0 at (0, 0" in refused(POINT + "D = INVE «(MANU 'CHPO' P 'UX' 0.)» ;")
 
 
 @pytest.mark.parametrize("phrase", ["A ET B 'NOER'", "A ET 'NOER' B", "ET 'NOER' A B"])
 def test_diffuse_fields_that_differ_are_joined_where_it_is_said(found, refused, phrase):
     fields = "OPTI DIME 2 ; P = 0. 0. ; A = MANU 'CHPO' P 'T' 3. 'NATU' 'DIFFUS' ; B = A + 1. ; "
     assert found(fields + f"X = EXTR ({phrase}) 'T' P ;", "X") == 3.0
-    assert "T" in refused(fields + "X = A ET B ;")
+    assert "T" in refused(fields + "X = A «ET» B ;")

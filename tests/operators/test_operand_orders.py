@@ -78,7 +78,7 @@ def test_the_only_list_of_a_table_loses_its_doubles(found, phrase):
 
 
 def test_doubles_are_dropped_from_one_list_alone(refused):
-    assert "one list only" in refused(_TABLE + "U = ORDO T 'A' 'UNIQ' ;")
+    assert "one list only" in refused(_TABLE + "U = «ORDO» T 'A' 'UNIQ' ;")
 
 
 def test_doubles_are_dropped_by_value_where_absolute_values_sort(found):

@@ -50,7 +50,7 @@ def test_folded_quadrangle(found):
 
 def test_indicator_of_other_cells_is_refused(refused):
     assert "not for SEG2" in refused(
-        "OPTI DIME 2 ELEM SEG2 ; I = INDI (DROI 1 (0 0) (1 0)) 'ASPE' ;"
+        "OPTI DIME 2 ELEM SEG2 ; I = «INDI» (DROI 1 (0 0) (1 0)) 'ASPE' ;"
     )
 
 
@@ -135,4 +135,4 @@ def test_stretched_cell_is_the_best_in_its_metric(found):
 
 def test_quality_in_a_metric_is_for_simplices(refused):
     script = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-    assert "TRI3 or of TET4" in refused(script + "I = INDI 'TOPO' S ;")
+    assert "TRI3 or of TET4" in refused(script + "I = INDI 'TOPO' «S» ;")

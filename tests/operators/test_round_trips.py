@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import importlib.util
 import itertools
+import re
 
 import numpy as np
 import pytest
-from script_runs import found
+from script_runs import found, printed
 
 from ssilang.kernel.mesh.mesh import Mesh
 
@@ -131,3 +132,41 @@ def test_lines_of_unequal_lengths_come_back_as_they_are(lengths, tmp_path):
     assert [list(by_line.get(k).values) for k in range(1, 4)] == rows
     columns = [[r[i] for r in rows if i < len(r)] for i in range(max(lengths))]
     assert [list(by_column.get(k).values) for k in range(1, max(lengths) + 1)] == columns
+
+
+# objects of every type on cells of two kinds in two zones, on points in no order
+MADE = (
+    PLANE["mixed"].replace("OPTI DIME 2", "OPTI DIME 2 MODE PLAN CONT")
+    + """
+S1 = (MANU 'QUA4' P1 P5 P2 P7) ET (MANU 'QUA4' P4 P9 P2 P3) ;
+S2 = (MANU 'TRI3' P5 P3 P2) COUL ROUG ; LN = MANU 'SEG2' P7 P1 ;
+M1 = MODE S1 'MECANIQUE' 'CONS' 'A' ;
+M2 = MODE S2 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; M = M2 ET M1 ;
+A = (MATE M1 'YOUN' 3. 'NU' 0.25) ET (MATE M2 'YOUN' 7. 'NU' 0.3 'SIGY' 0.5) ;
+U = (NOMC 'UX' (COOR 2 (S1 ET S2))) ET
+  (MANU 'CHPO' (P9 ET P1) 'UY' (PROG 4. -2.) 'NATURE' 'DIFFUS') ;
+F = FORC (3. -1.) P9 ; SG = SIGM M A U ; K = (RIGI M A) ET (BLOQ 'UX' P7) ET (APPU 'UY' 5. P1) ;
+R = RELA 'MINI' 2. 'UX' P2 - 'UY' P9 ; D = DEPI R -0.1 ;
+E = (EVOL 'ROUG' 'MANU' 'LEGE' 'b' 't' (PROG 0. 2. 1.) 'u' (PROG 3. -1. 0.5)) ET
+  (EVOL 'MANU' 'x' (PROG 1.) 'y' (PROG 2.)) ; H = EVOL 'MANU' (PROG 0. 3.) (PROG 2. -1.) ;
+G = (CHAR 'MECA' F H) ET (CHAR 'DIMP' D H) ;
+N = NUAG 'COMP' 'Z' 3. 1. 'COMP' 'A' 5. 6. ; LC = SUIT F (2. * F) ; LO = ENUM P9 P1 ;
+W = MASS 'UX' 4. P9 ; B = VIBR 'SIMU' 1. 1 (APPU 'UX' 400. P9) W ; X = DEFO U S1 2. 'VERT' ;
+DEBP PR V*ENTIER ; FINP (2 * V) ; T = TABL 'KIND' ; T . P9 = E ; T . 2 = TABL ; T . 2 . 'A' = S2 ;
+"""
+)
+OBJECTS = ("S", "S2", "P9", "M", "A", "U", "F", "SG", "K", "R", "D", "E", "G", "N", "LC", "LO", "W",
+           "B", "X", "T")  # fmt: skip
+
+
+@pytest.mark.parametrize("names", [OBJECTS, OBJECTS[::-1], ("P9",), ("K",), ("T",)])
+def test_objects_are_listed_as_before_when_they_come_back(names, tmp_path):
+    """All in either order, and some alone; numbers of nodes may be others, their order not."""
+    listed = " ".join(f"MESS '{n}' ; LIST {n} ;" for n in names)
+    forget = " ".join(f"OUBL {n} ;" for n in names)
+    script = f"{MADE} {listed} MESS 'again' ; OPTI SAUV 's' ; SAUV {' '.join(names)} ; {forget} "
+    lines = printed(f"{script} OPTI REST 's' ; REST ; {listed}", folder=tmp_path)
+    middle = lines.index("again")
+    parts = (" ".join(part).split() for part in (lines[:middle], lines[middle + 1 :]))
+    before, after = ([re.sub(r"^\d+$", "#", word) for word in part] for part in parts)
+    assert after == before

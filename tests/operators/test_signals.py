@@ -57,7 +57,7 @@ def test_uneven_times_are_refused(refused):
     with pytest.raises(FieldError, match="regularly"):
         constant_step(np.array([0.0, 1.0, 3.0]))
     assert "regularly" in refused(
-        "F = TFR 2 (EVOL 'MANU' (PROG 0. 1. 3.) (PROG 1. 2. 3.)) 'REIM' ;"
+        "F = «TFR» 2 (EVOL 'MANU' (PROG 0. 1. 3.) (PROG 1. 2. 3.)) 'REIM' ;"
     )
 
 

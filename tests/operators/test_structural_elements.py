@@ -144,7 +144,7 @@ def test_pressure_on_shells_goes_towards_a_point(found, refused):
         "W = MINI (RESU (FSUR 'COQU' M (0. 0. -2.) (CARA M 'EPAI' 0.1))) ; "
     )
     assert found(script, "X", "Y", "Z", "W") == pytest.approx((6.0, -6.0, 12.0, -8.0))
-    flat = script + "G = PRES 'COQU' M 3. 'POIN' (9. 9. 1.) ;"
+    flat = script + "G = «PRES» 'COQU' M 3. 'POIN' (9. 9. 1.) ;"
     assert "4 shell cells lie along the vector" in refused(flat)
-    steep = script + "G = PRES 'COQU' M 3. (1. 0. 0.03) ; H = PRES 'COQU' M 3. (1. 0. 0.01) ;"
+    steep = script + "G = PRES 'COQU' M 3. (1. 0. 0.03) ; H = «PRES» 'COQU' M 3. (1. 0. 0.01) ;"
     assert "8 shell cells" in refused(steep)

@@ -34,7 +34,7 @@ def test_vectors_add_and_scale(found):
 
 
 def test_tables_of_another_kind_do_not_add(refused):
-    assert "VECTEUR" in refused("T = TABL ; U = T + T ;")
+    assert "VECTEUR" in refused("T = TABL ; U = «T + T» ;")
 
 
 def test_sum_and_union_of_a_table(found):

@@ -37,7 +37,7 @@ def test_parameters_given_by_curves_become_numbers(found):
 
 
 def test_law_of_another_field_is_refused(refused):
-    message = refused(PLATE + "C = VARI ((NOMC 'A' X) ET (NOMC 'B' Y)) E ;")
+    message = refused(PLATE + "C = «VARI» ((NOMC 'A' X) ET (NOMC 'B' Y)) E ;")
     assert "abscissa 'T'" in message
 
 

@@ -76,7 +76,7 @@ def test_word_made_by_a_phrase(phrase, expected, found):
 
 def test_length_of_a_word_and_characters_outside(found, refused):
     assert found("N = DIME 'abc' ;", "N") == 3
-    assert "3 characters" in refused("X = EXTR 'abc' 2 5 ;")
+    assert "3 characters" in refused("X = EXTR 'abc' «2» 5 ;")
 
 
 def test_message_prints_one_line_and_an_empty_one(printed):
@@ -86,12 +86,12 @@ def test_message_prints_one_line_and_an_empty_one(printed):
 
 
 def test_message_of_an_object_is_refused(refused):
-    assert "MESSAGE" in refused("T = TABL ; MESS T ;")
+    assert "MESSAGE" in refused("T = TABL ; MESS «T» ;")
 
 
 def test_error_by_text_by_number_and_in_passing(refused, printed):
-    assert "the beam broke" in refused("ERRE 'the beam broke' ;")
-    assert "error 5" in refused("ERRE 5 ;")
+    assert "the beam broke" in refused("«ERRE» 'the beam broke' ;")
+    assert "error 5" in refused("«ERRE» 5 ;")
     lines = printed("ERRE 0 ; ERRE -366 'AVEC' 'test' (LECT 1 2) 3.5 VRAI ; MESS 'on' ;")
     assert lines[-1] == "on"
     assert "test 1 2 3.50000E+00 VRAI" in lines[0]

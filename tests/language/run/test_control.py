@@ -21,7 +21,7 @@ def test_condition_needs_no_parenthesis(run):
 
 
 def test_condition_must_be_logical(fails):
-    assert fails("SI 3 ; FINSI ;") == "condition"
+    assert fails("SI «3» ; FINSI ;") == "condition"
 
 
 @pytest.mark.parametrize("behind", ["QUITTER b", "ITER b", "MESS x", "'ERRE' 5"])
@@ -46,8 +46,8 @@ def test_a_directive_alone_behind_the_condition_is_warned_of(run, directive):
 @pytest.mark.parametrize(
     ("condition", "code"),
     [
-        ("VRAIE", "unknown-operator"),
-        ("RSEO 3", "unknown-operator"),
+        ("«VRAIE»", "unknown-operator"),
+        ("«RSEO» 3", "unknown-operator"),
         ("1.5", "condition"),
     ],
 )
@@ -177,7 +177,7 @@ def test_an_error_before_fin_is_reported(fails):
 
 
 def test_fin_must_name_the_innermost_loop(fails):
-    assert fails("REPE a 1 ; REPE b 1 ; FIN a ; FIN b ;") == "wrong-loop-name"
+    assert fails("REPE a 1 ; REPE b 1 ; FIN «a» ; FIN b ;") == "wrong-loop-name"
 
 
 def test_a_stray_number_before_sinon_does_not_hide_it(run):
@@ -185,9 +185,9 @@ def test_a_stray_number_before_sinon_does_not_hide_it(run):
 
 
 def test_blocks_must_close(fails):
-    assert fails("SI VRAI ; x = 1 ;") == "unclosed-block"
-    assert fails("REPE b 2 ; x = 1 ;") == "unclosed-block"
-    assert fails("x = 1 ; FINSI ;") == "stray-block-end"
+    assert fails("«SI VRAI» ; x = 1 ;") == "unclosed-block"
+    assert fails("«REPE b 2» ; x = 1 ;") == "unclosed-block"
+    assert fails("x = 1 ; «FINSI» ;") == "stray-block-end"
 
 
 @pytest.mark.parametrize(
@@ -216,4 +216,4 @@ def test_a_block_that_is_never_closed_is_refused_where_no_fin_is_met(fails, text
 
 
 def test_quit_of_no_open_loop_is_an_error(fails):
-    assert fails("QUIT nowhere ;") == "no-such-loop"
+    assert fails("«QUIT nowhere» ;") == "no-such-loop"

@@ -37,13 +37,13 @@ def test_recursion_limit_is_an_option(tmp_path):
     [
         ("x = " + "(" * 20000 + "1" + ")" * 20000 + " ;", "nesting"),
         ("x = " + "9" * 6000 + " ;", "long-integer"),
-        ("x = 1.E309 ;", "long-real"),
-        ("x = 3 * -1D999 ;", "long-real"),
-        ("x = 10 ; REPE b 40 ; x = x * x ; FIN b ;", "arithmetic"),
-        ("x = 7 ** 100000000 ;", "arithmetic"),
-        ("t = TEXT 'u' ; u = TEXT 't' ; x = t 3 ;", "endless-text"),
-        ("t = TEXT '(' ; x = t 3 ;", "unclosed-paren"),
-        ("x = EXTR ((PROG 1.) / (PROG 0.)) 1 ; REPE b x ; QUIT b ; FIN b ;", "loop-count"),
+        ("x = «1.E309» ;", "long-real"),
+        ("x = 3 * «-1D999» ;", "long-real"),
+        ("x = 10 ; REPE b 40 ; x = «x * x» ; FIN b ;", "arithmetic"),
+        ("x = «7 ** 100000000» ;", "arithmetic"),
+        ("t = TEXT 'u' ; u = TEXT «'t'» ; x = t 3 ;", "endless-text"),
+        ("t = TEXT «'('» ; x = t 3 ;", "unclosed-paren"),
+        ("x = EXTR ((PROG 1.) / (PROG 0.)) 1 ; REPE b «x» ; QUIT b ; FIN b ;", "loop-count"),
         ("\x00 = 3 ;", "syntax"),
     ],
     ids=lambda v: v[:24],
@@ -84,4 +84,4 @@ def test_a_long_integer_does_not_hide_the_errors_behind_it():
 
 def test_the_largest_integer_is_that_of_64_bits(run, fails):
     assert run("X = 9223372036854775807 ;")["X"] == 2**63 - 1
-    assert fails("X = 9223372036854775808 ;") == "long-integer"
+    assert fails("X = «9223372036854775808» ;") == "long-integer"

@@ -25,7 +25,7 @@ def test_comparison_comes_last_when_written_last(run):
 
 
 def test_comparison_in_the_middle_is_a_type_error(fails):
-    assert fails("a = 3 ; x = a > 2 + 1 ;") == "no-rule"
+    assert fails("a = 3 ; x = a «> 2 + 1» ;") == "no-rule"
 
 
 def test_prefix_infix_and_postfix_are_one_thing(run):
@@ -42,7 +42,7 @@ def test_operators_of_meshing_take_their_points_from_both_sides(run):
 
 
 def test_only_the_first_unread_word_is_looked_at(fails):
-    assert fails("m = MOT 'abc' ; x = m EGA 'abc' ;") == "unread-operator"
+    assert fails("m = MOT 'abc' ; x = m «EGA» 'abc' ;") == "unread-operator"
 
 
 def test_comparison_of_words_is_written_in_front(run):
@@ -54,7 +54,7 @@ def test_arguments_are_found_by_type_in_any_order(run):
     assert script["x"] == script["y"] == 5.0
 
 
-@pytest.mark.parametrize("phrase", ["EXTR l1 2 - 1.", "EXTR l1 2 * 3."])
+@pytest.mark.parametrize("phrase", ["EXTR l1 2 «-» 1.", "EXTR l1 2 «*» 3."])
 def test_extr_ends_the_phrase(fails, phrase):
     assert fails(f"l1 = PROG 4. 5. 6. ; x = {phrase} ;") == "unread-operator"
 
@@ -104,7 +104,9 @@ def test_an_object_that_a_parenthesis_leaves_unread_is_warned_of_once(run):
     assert (warning.code, warning.span.text) == ("unread-object", "n")
 
 
-@pytest.mark.parametrize("inside", ["l m", "DIME l 3", "3 + 1 -1", "DIME l word", "DIME l k"])
+@pytest.mark.parametrize(
+    "inside", ["l m", "DIME l «3»", "3 + 1 «-1»", "DIME l «word»", "DIME l «k»"]
+)
 def test_a_scalar_or_a_word_too_many_in_a_parenthesis_is_refused(fails, inside):
     assert fails(f"k = 3 ; l = PROG 1. ; m = PROG 2. ; x = ({inside}) ;") in (
         "excess",

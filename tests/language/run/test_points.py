@@ -12,7 +12,7 @@ def test_three_integers_are_a_point_in_three_dimensions(run):
 
 
 def test_two_numbers_in_three_dimensions_miss_one(fails):
-    assert fails("OPTI DIME 3 ; p = 1. 2. ;") == "third-coordinate"
+    assert fails("OPTI DIME 3 ; p = «1. 2.» ;") == "third-coordinate"
 
 
 def test_no_point_without_dimension(fails):
@@ -30,7 +30,7 @@ def test_a_table_index_of_one_level_takes_a_point(run):
 
 
 def test_two_levels_of_indices_make_no_point(fails):
-    text = "OPTI DIME 2 ; t = TABL ; t . 'A' = TABL ; t . 'A' . 'B' = 0. 0. ;"
+    text = "OPTI DIME 2 ; t = TABL ; t . 'A' = TABL ; t . 'A' . 'B' = 0. «0.» ;"
     assert fails(text) == "excess"
 
 

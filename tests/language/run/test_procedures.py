@@ -15,7 +15,7 @@ def test_mandatory_and_optional_arguments(run):
 
 
 def test_a_missing_mandatory_argument_is_an_error(fails):
-    assert fails(_SUM + "x = SUM2 'a' ;") == "missing-parameter"
+    assert fails(_SUM + "x = SUM2 «'a'» ;") == "missing-parameter"
 
 
 def test_an_integer_passes_as_a_real(run):
@@ -35,7 +35,7 @@ def test_an_untyped_argument_takes_anything(run):
 def test_an_argument_may_ask_for_a_subtype(run, fails):
     text = "DEBP P t*TABLE*MODAL ; FINP 1 ; t1 = TABL 'MODAL' ; t2 = TABL ;"
     assert run(text + "x = P t1 ;")["x"] == 1
-    assert fails(text + "x = P t2 ;") == "missing-parameter"
+    assert fails(text + "x = P «t2» ;") == "missing-parameter"
 
 
 def test_types_may_be_quoted(run):
@@ -87,7 +87,7 @@ def test_recursion(run):
 
 
 def test_endless_recursion_is_an_error(fails):
-    assert fails("DEBP P ; P ; FINP ; P ;") == "recursion"
+    assert fails("DEBP P ; «P» ; FINP ; P ;") == "recursion"
 
 
 def test_quit_leaves_a_procedure_and_returns_its_results(run):
@@ -120,11 +120,11 @@ def test_a_call_is_found_only_before_the_first_word(run):
 
 
 def test_a_procedure_name_is_compared_in_full(fails):
-    assert fails("DEBP PASSPORT a*ENTIER ; FINP a ; x = PASS 1 ;") == "unknown-operator"
+    assert fails("DEBP PASSPORT a*ENTIER ; FINP a ; x = «PASS» 1 ;") == "unknown-operator"
 
 
 def test_a_procedure_must_be_defined_before_it_is_called(fails):
-    assert fails("x = LATER 1 ; DEBP LATER a*ENTIER ; FINP a ;") == "set-later"
+    assert fails("x = «LATER» 1 ; DEBP LATER a*ENTIER ; FINP a ;") == "set-later"
 
 
 def test_at_procedures_are_found_beside_the_deck(tmp_path):
@@ -163,5 +163,5 @@ def test_a_name_forgotten_in_a_procedure_is_forgotten_there_alone(run):
 
 
 def test_a_forgotten_name_has_no_value_in_a_procedure(run, fails):
-    assert fails("Y = 7 ; DEBP P ; OUBL Y ; FINP (Y + 1) ; A = P ;") == "no-rule"
+    assert fails("Y = 7 ; DEBP P ; OUBL Y ; FINP («Y + 1») ; A = P ;") == "no-rule"
     assert run("Y = 7 ; DEBP P ; FINP (Y + 1) ; A = P ;")["A"] == 8

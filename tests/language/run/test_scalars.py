@@ -76,13 +76,13 @@ def test_lists_combine_item_by_item(run):
 
 
 def test_division_by_zero_is_an_error(fails):
-    assert fails("x = 1 / 0 ;") == "arithmetic"
-    assert fails("x = 1. / 0. ;") == "arithmetic"
+    assert fails("x = «1 / 0» ;") == "arithmetic"
+    assert fails("x = «1. / 0.» ;") == "arithmetic"
 
 
 def test_negative_number_to_a_fraction_is_an_error(fails):
-    assert fails("x = -1. ** 0.5 ;") == "arithmetic"
+    assert fails("x = «-1. ** 0.5» ;") == "arithmetic"
 
 
 def test_a_logical_does_not_add(fails):
-    assert fails("x = VRAI + 1 ;") == "no-rule"
+    assert fails("x = «VRAI + 1» ;") == "no-rule"

@@ -16,11 +16,11 @@ def test_a_result_without_a_name_is_dropped(run):
 
 
 def test_a_result_in_excess_is_an_error(fails):
-    assert fails("x = 1 2 ;") == "excess"
+    assert fails("x = 1 «2» ;") == "excess"
 
 
 def test_a_name_without_a_result_is_an_error(fails):
-    assert fails("x y = 1 ;") == "no-result"
+    assert fails("x «y» = 1 ;") == "no-result"
 
 
 def test_a_name_may_ask_for_a_type(run):
@@ -34,7 +34,7 @@ def test_innermost_parenthesis_runs_first(run):
 
 
 def test_all_parentheses_run_even_when_the_answer_is_known(fails):
-    assert fails("SI (FAUX ET ((1 / 0) > 1)) ; FINSI ;") == "arithmetic"
+    assert fails("SI (FAUX ET ((«1 / 0») > 1)) ; FINSI ;") == "arithmetic"
 
 
 def test_a_parenthesis_without_result_vanishes(run):
@@ -54,12 +54,12 @@ def test_a_name_may_change_its_type(run):
 
 
 def test_two_equal_signs_are_an_error(fails):
-    assert fails("x = y = 2 ;") == "second-equal"
+    assert fails("x = y «=» 2 ;") == "second-equal"
 
 
 def test_unbalanced_parentheses_are_errors(fails):
-    assert fails("x = (1 + 2 ;") == "unclosed-paren"
-    assert fails("x = 1 + 2) ;") == "extra-paren"
+    assert fails("x = «(»1 + 2 ;") == "unclosed-paren"
+    assert fails("x = 1 + 2«)» ;") == "extra-paren"
 
 
 def test_a_failed_statement_stops_the_script(tmp_path):

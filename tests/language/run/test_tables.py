@@ -21,7 +21,7 @@ def test_integer_and_real_indices_differ(run):
 
 
 def test_objects_are_indices_by_identity(fails):
-    assert fails("t = TABL ; t . (PROG 1.) = 8 ; x = t . (PROG 1.) ;") == "no-index"
+    assert fails("t = TABL ; t . (PROG 1.) = 8 ; x = t . «(PROG 1.)» ;") == "no-index"
 
 
 def test_trailing_blanks_of_an_index_do_not_count(run):
@@ -29,7 +29,7 @@ def test_trailing_blanks_of_an_index_do_not_count(run):
 
 
 def test_quoted_indices_keep_their_case(fails):
-    assert fails("t = TABL ; t . 'ab' = 1 ; x = t . AB ;") == "no-index"
+    assert fails("t = TABL ; t . 'ab' = 1 ; x = t . «AB» ;") == "no-index"
 
 
 def test_an_unquoted_index_is_the_value_of_its_name(run):
@@ -45,11 +45,11 @@ def test_loop_counters_are_indices(run):
 
 
 def test_inner_tables_must_exist(fails):
-    assert fails("t = TABL ; t . 'A' . 1 = 3 ;") == "no-inner-table"
+    assert fails("t = TABL ; t . «'A'» . 1 = 3 ;") == "no-inner-table"
 
 
 def test_an_index_that_is_missing_is_an_error(fails):
-    assert fails("t = TABL ; x = t . 'NO' ;") == "no-index"
+    assert fails("t = TABL ; x = t . «'NO'» ;") == "no-index"
 
 
 def test_access_binds_tighter_than_operators(run):
@@ -81,4 +81,4 @@ def test_inde_gives_the_table_of_indices(run):
 
 
 def test_what_is_no_table_has_no_index(fails):
-    assert fails("t = 3 ; x = t . 1 ;") == "not-a-table"
+    assert fails("t = 3 ; x = «t» . 1 ;") == "not-a-table"

@@ -53,11 +53,11 @@ def test_list_prints_the_value(run):
 
 
 def test_erre_with_a_text_fails(fails):
-    assert fails("ERRE 'out of range' ;") == "erre"
+    assert fails("«ERRE» 'out of range' ;") == "erre"
 
 
 def test_erre_5_fails_and_erre_0_does_not(run, fails):
-    assert fails("ERRE 5 ;") == "erre"
+    assert fails("«ERRE» 5 ;") == "erre"
     run("ERRE 0 ;")
 
 

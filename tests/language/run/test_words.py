@@ -25,7 +25,7 @@ def test_keywords_need_no_quotes_in_either_case(run):
 
 
 def test_a_variable_hides_the_operator_of_its_name(fails):
-    assert fails("DIME = 1 ; x = DIME (PROG 1. 2.) ;") == "hidden-operator"
+    assert fails("DIME = 1 ; x = «DIME» (PROG 1. 2.) ;") == "hidden-operator"
 
 
 def test_the_quoted_operator_comes_back_behind_a_hiding_variable(run):

@@ -30,7 +30,7 @@ def test_a_plane_through_nodes_and_one_through_a_surface(found, refused) -> None
         "A", "B",
     )  # fmt: skip
     assert (area, length) == (pytest.approx(1.0), pytest.approx(1.0))
-    assert "no plane" in refused(BALL + "C = COUP V (0. 0. 0.) (1. 0. 0.) (2. 0. 0.) ;")
+    assert "no plane" in refused(BALL + "C = COUP V (0. 0. 0.) (1. 0. 0.) «(2. 0. 0.)» ;")
 
 
 FRAME = (
@@ -73,8 +73,8 @@ def test_an_open_line_is_cut_too(found) -> None:
 
 
 def test_neighbours_and_strangers_are_refused(refused) -> None:
-    assert "neighbours" in refused(FRAME + "E F G = FUIT L (A POIN 3) (A POIN 4) ;")
-    assert "no node" in refused(FRAME + "P = 9. 9. ; E F G = FUIT L P C ;")
+    assert "neighbours" in refused(FRAME + "E F G = «FUIT» L (A POIN 3) (A POIN 4) ;")
+    assert "no node" in refused(FRAME + "P = 9. 9. ; E F G = «FUIT» L P C ;")
 
 
 def test_vectors_of_shells_and_beams(found) -> None:

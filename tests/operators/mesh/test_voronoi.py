@@ -45,8 +45,8 @@ def test_weights_of_a_field_are_taken_and_told(found):
 
 
 def test_space_and_other_contours_are_refused(refused):
-    assert "plane only" in refused(DOMAIN + "OPTI DIME 3 ; T = VORO G L ;")
-    assert "mesh of points" in refused(DOMAIN + "T = VORO L L ;")
+    assert "plane only" in refused(DOMAIN + "OPTI DIME 3 ; T = «VORO» G L ;")
+    assert "mesh of points" in refused(DOMAIN + "T = VORO «L» L ;")
 
 
 def test_a_point_is_the_same_index_however_it_was_got(found):
@@ -58,6 +58,6 @@ def test_a_point_is_the_same_index_however_it_was_got(found):
 
 
 def test_an_index_that_is_missing_is_told_by_its_type(refused):
-    told = refused("OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = 3 ; X = T . Q ;")
+    told = refused("OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; T = TABL ; T . P = 3 ; X = T . «Q» ;")
     assert "the table has no index POINT" in told
     assert "object at" not in told

@@ -1,0 +1,228 @@
+"""What the painter is given: polygons, colours and widths, for cells of every kind at once.
+
+Cells of four kinds and three colours in no order, one without a value; the field is linear.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+from ssilang.io.plots.cutting import nodal_means
+from ssilang.io.plots.faces import add_bands, add_faces, add_points, band_values
+from ssilang.io.plots.layers import Layer, PictureOptions
+from ssilang.io.plots.levels import choose_levels
+from ssilang.io.plots.palette import index_of, shade
+from ssilang.io.plots.patches import all_faces, visible_faces
+from ssilang.io.plots.values import values_on
+from ssilang.io.plots.view import plane_view
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+
+PLACES = [(3, 1.5), (1, 0.5), (2, 0.5), (2, 1), (1, 1.25), (4, 0.75), (5, 3), (0, 0)]
+CELLS = {
+    "SEG2": ([[6, 0], [4, 7]], "VERT"), "POI1": ([[5], [7]], "ROUG"),
+    "QUA4": ([[1, 2, 3, 4]], "DEFA"), "TRI3": ([[2, 5, 3], [5, 0, 3], [7, 2, 1]], "ROUG"),
+}  # fmt: skip
+WITHOUT = 7  # the node that has no value
+
+
+@pytest.fixture
+def mesh() -> Mesh:
+    table = NodeTable()
+    ids = table.add(np.array(PLACES, float))
+    assert ids.tolist() == list(range(8))
+    blocks = [
+        CellBlock.make(table, kind, np.array(rows), index_of(colour))
+        for kind, (rows, colour) in CELLS.items()
+    ]
+    return Mesh(table, tuple(blocks))
+
+
+def linear(points: np.ndarray) -> np.ndarray:
+    return points[..., 0] - 2.0 * points[..., 1]
+
+
+def field(mesh: Mesh) -> NodeField:
+    ids = np.array([i for i in range(8) if i != WITHOUT])
+    return NodeField.of(mesh.nodes, ids, {"T": linear(mesh.nodes.coordinates[ids])})
+
+
+class Recorder(SimpleNamespace):
+    """A painter that keeps what it is given."""
+
+    def __init__(self) -> None:
+        super().__init__(view=plane_view(), polygons=[], dots=[])
+
+    def add(self, points: Any, face: Any = None, edge: Any = None, width: float = 0.0,
+            rank: int = 0, light: str = "") -> None:  # fmt: skip
+        for i, polygon in enumerate(points):
+            inks = [
+                None if c is None else np.broadcast_to(c, (len(points), 4))[i] for c in (face, edge)
+            ]
+            self.polygons.append((polygon[:, :2], *inks, width, rank, light))
+
+    def add_dots(self, points: Any, inks: Any, width: float) -> None:
+        self.dots += [(p[:2].tolist(), ink) for p, ink in zip(points, inks, strict=True)]
+
+
+def drawn(mesh: Mesh, **options: Any) -> list[tuple[Any, ...]]:
+    layer = {k: options.pop(k) for k in ("outline", "colour", "edges") if k in options}
+    recorder = Recorder()
+    add_faces(recorder, visible_faces(mesh), Layer(mesh, **layer), PictureOptions(**options), 5.0)
+    return recorder.polygons
+
+
+@pytest.mark.parametrize("shrink", [None, 0.5])
+@pytest.mark.parametrize("filled", ["", "FACE", "FACB"])
+def test_each_cell_is_drawn_once_in_its_colour(
+    mesh: Mesh, filled: str, shrink: float | None
+) -> None:
+    found = drawn(mesh, filled=filled, shrink=shrink)
+    wanted = [
+        (np.array([PLACES[i] for i in row], float), np.array(to_rgb(shade(colour))), kind)
+        for kind, (rows, colour) in CELLS.items() if kind != "POI1" for row in rows
+    ]  # fmt: skip
+    assert len(found) == len(wanted)
+    for (points, face, edge, width, rank, light), (places, ink, kind) in zip(
+        found, wanted, strict=True
+    ):
+        middle = places.mean(axis=0)
+        exact = places if shrink is None else middle + shrink * (places - middle)
+        np.testing.assert_allclose(points, exact)
+        if kind == "SEG2":
+            assert (face, width, rank) == (None, 1.8, 2)
+            np.testing.assert_allclose(edge[:3], ink)
+            continue
+        assert (rank, light) == (1, "shaded" if filled else "")
+        assert 0.15 <= width <= 0.8
+        if filled:
+            base = np.array([0.72, 0.76, 0.81]) if kind == "QUA4" else 0.25 + 0.75 * ink
+            np.testing.assert_allclose(edge[:3], 0.45 * base if filled == "FACE" else 1.0)
+        else:
+            base = 0.9 + 0.1 * ink
+            np.testing.assert_allclose(edge[:3], ink)
+        np.testing.assert_allclose(face[:3], base)
+
+
+def test_outlines_colours_and_edges_of_a_layer(mesh: Mesh) -> None:
+    blue = np.array(to_rgb(shade("BLEU")))
+    for face, edge in (p[1:3] for p in drawn(mesh, colour=index_of("BLEU"))):
+        np.testing.assert_allclose(edge[:3], blue)
+        assert face is None or np.allclose(face[:3], 0.9 + 0.1 * blue)
+    assert [(p[1], p[3], p[4]) for p in drawn(mesh, outline=True)] == (
+        [(None, 1.1, 2)] * 2 + [(None, 0.8, 2)] * 4
+    )
+    assert {p[3] for p in drawn(mesh, edges=False)} == {1.8, 0.0}
+
+
+def test_points_are_dots_in_their_colour_or_that_of_their_value(mesh: Mesh) -> None:
+    recorder = Recorder()
+    add_points(recorder, visible_faces(mesh), Layer(mesh), None)
+    assert [p for p, _ in recorder.dots] == [[4.0, 0.75], [0.0, 0.0]]
+    np.testing.assert_allclose([ink[:3] for _, ink in recorder.dots], [to_rgb(shade("ROUG"))] * 2)
+    levels = choose_levels(np.array([-2.0, 3.0]), count=5)
+    recorder = Recorder()
+    add_points(recorder, visible_faces(mesh), Layer(mesh, field=field(mesh), component="T"), levels)
+    np.testing.assert_allclose(recorder.dots[0][1], levels.rgba(np.array([2.5]))[0])
+
+
+def size(polygon: np.ndarray) -> float:
+    x, y = polygon.T
+    return 0.5 * abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)))
+
+
+@pytest.mark.parametrize("iso", ["SURFACE", "LIGNE", "SULI"])
+def test_bands_lie_where_the_field_has_their_values(mesh: Mesh, iso: str) -> None:
+    layer = Layer(mesh, field=field(mesh), component="T")
+    faces = visible_faces(mesh)
+    values = band_values([(layer, faces)])
+    assert values is not None
+    levels = choose_levels(values, count=6)
+    recorder = Recorder()
+    add_bands(recorder, faces, layer, levels, PictureOptions(iso=iso), 5.0)
+    grey = [
+        p
+        for p in recorder.polygons
+        if p[1] is not None and np.allclose(p[1], [0.93, 0.94, 0.95, 1])
+    ]
+    wanted = [[[1.0, 1.25], [0.0, 0.0]], [[0.0, 0.0], [2.0, 0.5], [1.0, 0.5]]]
+    assert [p[0].tolist() for p in grey] == wanted
+    bands = [
+        p for p in recorder.polygons if p[1] is not None and len(p[0]) > 2 and p[5] == "tinted"
+    ]
+    lines = [p for p in recorder.polygons if p[1] is None and len(p[0]) == 2 and p[3] == 1.0]
+    assert bool(bands) == (iso != "LIGNE")
+    assert bool(lines) == (iso != "SURFACE")
+    middles = (levels.bounds[1:] + levels.bounds[:-1]) / 2
+    inks = levels.rgba(middles)
+    for points, ink, *_ in bands:
+        row = int(np.argmin(np.abs(inks - ink).sum(axis=1)))
+        assert np.all(linear(points) >= levels.bounds[row] - 1e-12)
+        assert np.all(linear(points) <= levels.bounds[row + 1] + 1e-12)
+    if bands:
+        known = 0.625 + sum(size(np.array([PLACES[i] for i in t])) for t in CELLS["TRI3"][0][:2])
+        assert sum(size(p[0]) for p in bands) == pytest.approx(known, rel=1e-12)
+    for points, _, ink, *_ in lines:
+        level = linear(points)
+        assert level[0] == pytest.approx(level[1], abs=1e-12)
+        row = int(np.argmin(np.abs(levels.bounds - level[0])))
+        assert levels.bounds[row] == pytest.approx(level[0], abs=1e-12)
+        ruled = (0, 0, 0, 0.8) if iso == "SULI" else levels.rgba(levels.bounds)[row]
+        np.testing.assert_allclose(ink, ruled)
+    bar = [p for p in recorder.polygons if p[3] == 3.2]
+    assert len(bar) == 8  # pieces of the one segment whose nodes both have a value
+    for points, _, ink, *_ in bar:
+        np.testing.assert_allclose(ink, levels.rgba(linear(points).mean(keepdims=True))[0])
+    rims = [
+        p
+        for p in recorder.polygons
+        if p[4] == 1 and p[3] < 1.0 and p[2] is not None and p[2][3] == 0.55
+    ]
+    assert len(rims) == 3
+
+
+@pytest.mark.parametrize("support", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE"])
+def test_values_in_cells_come_to_their_nodes(mesh: Mesh, support: Any) -> None:
+    """A linear field is kept; a node has the mean of its cells; other cells have none."""
+    parts = []
+    for block in mesh.blocks[2:]:
+        kind = block.kind.name
+        nodes = block.coordinates
+        if support == "NOEUD":
+            places = nodes
+        else:
+            x, y = support_rule(kind, support).points.T
+            shape = np.array(
+                [1.0 - x - y, x, y] if kind == "TRI3" else
+                [(1 + a * x) * (1 + b * y) / 4 for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            ).T  # fmt: skip
+            places = np.einsum("pk,nkd->npd", shape, nodes)
+        parts.append(CellFieldBlock(block, {"S": linear(places)}, support, kind))
+    found = CellField(tuple(parts), "")
+    means: dict[int, list[float]] = {}
+    for faces in all_faces(mesh):
+        values = values_on(faces, found, "S")
+        exact = linear(mesh.nodes.coordinates[faces.nodes])
+        if faces.block.kind.dimension < 2:
+            assert np.isnan(values).all()
+            continue
+        if support != "NOEUD" and len(support_rule(faces.kind, support).points) == 1:
+            exact = np.broadcast_to(exact.mean(axis=1, keepdims=True), exact.shape)
+        np.testing.assert_allclose(values, exact, atol=1e-12)
+        for nodes, row in zip(faces.nodes, values, strict=True):
+            for node, value in zip(nodes.tolist(), row.tolist(), strict=True):
+                means.setdefault(node, []).append(value)
+    nodal = nodal_means(all_faces(mesh), found, "S", 8)
+    for node in range(8):
+        if node in means:
+            assert nodal[node] == pytest.approx(np.mean(means[node]))
+        else:
+            assert np.isnan(nodal[node])
