@@ -248,11 +248,11 @@ def faults(path: Path) -> list[Fault]:
     return found
 
 
-def drawn(count: int, seed: int) -> tuple[list[Fault], str]:
-    """Faults at lines drawn over the package, and what share of it has such lines."""
+def drawn(count: int, seed: int, under: str = "ssilang") -> tuple[list[Fault], str]:
+    """Faults at lines drawn over a folder of the package, and what share of it has such lines."""
     places: dict[tuple[str, int], list[Fault]] = {}
     total = 0
-    for path in sorted((ROOT / "ssilang").rglob("*.py")):
+    for path in sorted((ROOT / under).rglob("*.py")):
         lines = path.read_text(encoding="utf-8").split("\n")
         total += sum(1 for line in lines if line.strip() and not line.strip().startswith("#"))
         for fault in faults(path):
@@ -266,7 +266,7 @@ def drawn(count: int, seed: int) -> tuple[list[Fault], str]:
             if fault.is_one():
                 chosen.append(fault)
                 break
-    share = f"{len(places)} of {total} lines of the package ({100 * len(places) / total:.0f} %)"
+    share = f"{len(places)} of {total} lines of {under} ({100 * len(places) / total:.0f} %)"
     return chosen, share
 
 
@@ -487,13 +487,14 @@ def main() -> None:
     parser.add_argument("count", nargs="?", type=int, default=100, help="mutants")
     parser.add_argument("seed", nargs="?", type=int, default=1, help="of the draw of lines")
     parser.add_argument("--seconds", type=float, default=60.0, help="of tests for a mutant")
+    parser.add_argument("--under", default="ssilang", metavar="FOLDER", help="draw from it alone")
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")
     asked = parser.parse_args()
     if asked.again:
         chosen, share = survivors(asked.again), f"the survivors of {asked.again.name}"
     else:
-        chosen, share = drawn(asked.count, asked.seed)
+        chosen, share = drawn(asked.count, asked.seed, asked.under)
     if asked.list:
         print("\n".join(map(str, chosen)))
         return

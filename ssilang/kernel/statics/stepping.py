@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ssilang.kernel.solvers.cholesky.inverse import Inverse
 from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
+from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.capacity import overloads
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -94,7 +96,8 @@ def _solver_of(problem: Problem) -> tuple[StepSolver, Inverse | None]:
     if problem.interface is not None and pays(problem, problem.K):
         return IteratedSolver(problem, iterated_system(problem, problem.K, 1.0), 1.0), None
     effective = effective_of(problem, problem.K, 0.0, 1.0, free=True)
-    return step_solver(problem, effective), effective.inverse
+    whole = replace(problem, scheme=Scheme())  # forces of the steps' ends, whatever scheme follows
+    return step_solver(whole, effective), effective.inverse
 
 
 def _at_load_step(

@@ -21,8 +21,10 @@ PLANE = [n for n in SOLIDS if CELL_TYPES[ELEMENTS[n].cell_type].dimension == 2]
 SPACE = [n for n in SOLIDS if CELL_TYPES[ELEMENTS[n].cell_type].dimension == 3]
 
 
-def _corners_only(cell_type):
-    linear = {"TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8"}
+def corners_only(cell_type):
+    """The linear cell on the corners of another."""
+    linear = {"TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
+              "SEG3": "SEG2"}  # fmt: skip
     return linear.get(cell_type, cell_type)
 
 
@@ -32,7 +34,7 @@ def cell_zone(element, mode, seed=1, offset=3.0, constituent=""):
 
     kind = ELEMENTS[element]
     reference = REFERENCE_CELLS[kind.cell_type]
-    linear = _corners_only(kind.cell_type)
+    linear = corners_only(kind.cell_type)
     corners = REFERENCE_CELLS[linear].nodes
     moves = np.random.default_rng(seed).uniform(-0.12, 0.12, corners.shape)
     d = corners.shape[1]

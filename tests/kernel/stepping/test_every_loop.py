@@ -12,20 +12,26 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from hypothesis import Phase, given, settings
-from references.awkward import LINES, PUSH, problems
+from references.awkward import LINES, POINTS, PUSH, problems
 from references.recorder import Recorder
 
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
+from ssilang.kernel.solvers.multigrid import hierarchy
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose, effective
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
+from ssilang.kernel.stepping.rests.reduced import run as reduced
+from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop
 from ssilang.kernel.stepping.run import integrate
-from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
 # steps are many and problems small as they are: nothing is gained by making them smaller
 BRIEF = settings(max_examples=8, derandomize=True, phases=(Phase.explicit, Phase.generate))
-LARGE: dict = {}
+LARGE = {"point_laws": POINTS}
 STILL = {"tied": False, "moving": False}
 LOOPS = {
     "springs": {"damping": "Rayleigh", "point_laws": PUSH, "line_laws": (), **STILL},
@@ -34,13 +40,15 @@ LOOPS = {
     "dissection": LARGE,
     "condensed": LARGE,
     "full Newton": LARGE,
+    "multigrid": LARGE | {"steps": 25},
 }
 
 
 def forced(patch, rule):
     """A loop for all problems; those of large ones take them for large."""
     patch.setattr(choose, "RULES", choose.only(rule))
-    if LOOPS[rule] == LARGE:
+    patch.setattr(hierarchy, "COARSEST", 6)  # several levels
+    if LARGE.items() <= LOOPS[rule].items():
         patch.setattr(effective, "SMALL", 0)
         patch.setattr(problem_module, "SMALL", 0)
 
@@ -50,10 +58,12 @@ def run(awkward, rule):
     with pytest.MonkeyPatch.context() as patch:
         forced(patch, rule)
         problem = awkward.problem()
+        if rule == "multigrid":
+            problem = replace(problem, solver=Solver(rule))
         recorder = Recorder(len(problem.times))
         history = integrate(problem, [recorder], full_newton=rule == "full Newton")
     assert history.loop == choose.rule_named(rule).loop
-    return problem, history, recorder.snapshots
+    return problem, problem.times, history.energies, recorder.snapshots
 
 
 def near(found, expected, size, tolerance=1e-8):
@@ -81,18 +91,20 @@ def joints_at(interface, u, state):
     return w, t, new, interface.J.T @ force.ravel(), energies
 
 
-def check_steps(problem, history, instants):
-    """All that a step is made of, at every step."""
+def check_steps(problem, times, energies, instants, static=False):
+    """All that a step is made of, at every step; `static` ones are in balance without inertia."""
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
+    if static:
+        M, C = 0.0 * M, 0.0 * C
     free = la.null_space(rows)
-    factors = np.stack([np.interp(p.times, x, y) for x, y in p.loading.curves], axis=1)
+    factors = np.stack([np.interp(times, x, y) for x, y in p.loading.curves], axis=1)
     F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
     state, before, was = p.state, None, None
     u, v, a = (np.array([getattr(i, n) for i in instants]) for n in "uva")
     sizes = [np.abs(x).max() for x in (u, v, a)]
     push = max(np.abs(F).max(), np.abs(u @ K).max(), np.abs(a @ M).max())
-    energy = np.abs(history.energies).max()
+    energy = np.abs(energies).max()
     for k, now in enumerate(instants):
         w, t, new, force, (stored, lost) = joints_at(p.interface, now.u, state)
         near(now.w, w, np.abs(w).max(), 1e-10)
@@ -101,26 +113,31 @@ def check_steps(problem, history, instants):
         state = now.state
         rest = C @ now.v + K @ now.u + force - F[k]
         near(now.reaction, M @ now.a + rest, push)
-        found = history.energies[k]
+        found = energies[k]
         near(found[KINETIC], 0.5 * now.v @ M @ now.v, energy)
         near(found[ELASTIC], 0.5 * now.u @ K @ now.u, energy)
         near(found[[STORED, LOST]], [stored, lost], energy)
         if before is None:
-            near(free.T @ (M @ now.a + rest), 0.0, push)
+            near(free.T @ (M @ now.a + rest) * (not static), 0.0, push)
         else:
-            dt, du = p.times[k] - p.times[k - 1], now.u - before.u
+            dt, du = times[k] - times[k - 1], now.u - before.u
             near(rows @ now.u, imposed[k], sizes[0], 1e-10)
-            beta, gamma = s.beta, s.gamma
-            ahead = before.u + dt * before.v + dt**2 * (0.5 - beta) * before.a
-            near(now.u, ahead + dt**2 * beta * now.a, sizes[0])
-            near(now.v, before.v + dt * ((1 - gamma) * before.a + gamma * now.a), sizes[1])
-            inertia = M @ ((1 - s.alpha_m) * now.a + s.alpha_m * before.a)
-            balance = inertia + (1 - s.alpha_f) * rest + s.alpha_f * was
-            near(free.T @ balance, 0.0, push)
-            step = found - history.energies[k - 1]
+            if static:
+                near(free.T @ rest, 0.0, push)
+                assert not np.any([now.v, now.a])
+            else:
+                beta, gamma = s.beta, s.gamma
+                ahead = before.u + dt * before.v + dt**2 * (0.5 - beta) * before.a
+                near(now.u, ahead + dt**2 * beta * now.a, sizes[0])
+                near(now.v, before.v + dt * ((1 - gamma) * before.a + gamma * now.a), sizes[1])
+                inertia = M @ ((1 - s.alpha_m) * now.a + s.alpha_m * before.a)
+                balance = inertia + (1 - s.alpha_f) * rest + s.alpha_f * was
+                near(free.T @ balance, 0.0, push)
+            step = found - energies[k - 1]
             near(step[DAMPED], 0.5 * du @ C @ (now.v + before.v), energy)
             supports = 0.5 * (rows @ du) @ la.lstsq(rows.T, now.reaction + before.reaction)[0]
-            near(step[EXTERNAL], 0.5 * du @ (F[k] + F[k - 1]) + supports, energy)
+            if not static or k > 1:  # what is out of balance at first grows from nothing
+                near(step[EXTERNAL], 0.5 * du @ (F[k] + F[k - 1]) + supports, energy)
         before, was = now, rest
 
 
@@ -130,6 +147,99 @@ def test_steps_are_those_of_the_equations(loop):
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
         check_steps(*run(awkward, loop))
+
+    holds()
+
+
+@pytest.mark.parametrize(
+    ("solver", "lines"), [(FIRST_FIT, LINES), (Solver("multigrid"), LINES[:1])],
+    ids=["condensed", "multigrid"],
+)  # fmt: skip
+def test_load_steps_are_equilibria(solver, lines):
+    """Also from a start that is none, whatever scheme the motion after them has."""
+
+    @settings(BRIEF, max_examples=5)
+    @given(problems(steps=25, line_laws=lines))
+    def holds(awkward):
+        problem = replace(awkward.problem(), solver=solver)
+        recorder = Recorder(len(problem.times))
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(hierarchy, "COARSEST", 6)
+            history = step_statics(problem, [recorder])
+        check_steps(problem, problem.times, history.energies, recorder.snapshots, static=True)
+
+    holds()
+
+
+def parts_of(patch):
+    """What adapted steps are made of: a list that fills with (end, state) of accepted parts."""
+    parts, run, step = [], SparseLoop.run, AdaptiveLoop._step
+
+    def run_one(loop, solver, n, *given):
+        outcome = run(loop, solver, n, *given)
+        parts.append((n.dt, Motion(*(x.copy() for x in loop.motion))))
+        return outcome
+
+    def step_one(loop, *given):
+        tried = len(parts)
+        outcome = step(loop, *given)
+        if len(parts) > tried + 1:
+            del parts[tried]  # it was split
+        return outcome
+
+    patch.setattr(SparseLoop, "run", run_one)
+    patch.setattr(AdaptiveLoop, "_step", step_one)
+    return parts
+
+
+def test_parts_of_adapted_steps_are_those_of_the_equations():
+    """In each joints stay open or closed, but for the shortest ones."""
+
+    @settings(BRIEF, max_examples=4)
+    @given(problems(steps=25))
+    def holds(awkward):
+        problem = awkward.problem()
+        problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
+        recorder = Recorder(len(problem.times))
+        with pytest.MonkeyPatch.context() as patch:
+            parts = parts_of(patch)
+            history = integrate(problem, [recorder])
+        assert history.loop == "adaptive"
+        instants = [recorder.snapshots[0], *(state for _, state in parts)]
+        lengths = np.array([dt for dt, _ in parts])
+        times = np.cumsum([problem.times[0], *lengths])
+        energies = np.array([history.energies[0], *(state.energies for _, state in parts)])
+        check_steps(problem, times, energies, instants)
+        ends = np.abs(times - problem.times[:, None]).argmin(axis=1)
+        near(times[ends], problem.times, problem.times[-1], 1e-12)
+        near(energies[ends], history.energies, np.abs(energies).max(), 1e-12)
+        near(recorder.of("u"), [instants[k].u for k in ends], 1.0, 1e-15)
+        whole = np.diff(problem.times)[np.searchsorted(ends, np.arange(1, len(times))) - 1]
+        halvings = np.log2(whole / lengths)
+        near(halvings, halvings.round(), 1.0)
+        closed = np.array([i.t[:, -1] < 0.0 for i in instants])
+        changed = (closed[1:] != closed[:-1]).any(axis=1)
+        assert changed.any()
+        assert (halvings.round()[changed] == 5).all()
+        assert set(halvings.round()) >= {0, 1, 5}
+
+    holds()
+
+
+def test_reduced_steps_on_all_vectors_are_those_of_the_equations():
+    @settings(BRIEF, max_examples=4)
+    @given(problems())
+    def holds(awkward):
+        problem = awkward.problem()
+        recorder = Recorder(len(problem.times))
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(reduced, "MOST_VECTORS", 1.0)
+            patch.setattr(reduced, "GROWTH", 1.0)
+            reduced._PAIRS.clear()
+            history = reduced.integrate_reduced(problem, 1e-9, [recorder])
+        assert (history.loop, history.reduction.refused) == ("reduced", None)
+        assert history.reduction.vectors == problem.constraints.T.shape[1]
+        check_steps(problem, problem.times, history.energies, recorder.snapshots)
 
     holds()
 
@@ -158,5 +268,19 @@ def test_conserving_steps_keep_the_energy_and_the_mean_velocity():
         rows = problem.constraints.C.toarray()
         factors = np.stack([np.interp(problem.times, x, y) for x, y in problem.loading.curves])
         near(u[1:] @ rows.T, (problem.loading.imposed @ factors).T[1:], np.abs(u).max())
+        F = (problem.loading.forces @ factors).T
+        a = np.diff(v, axis=0) / np.diff(problem.times)[:, None]
+        near(recorder.of("a")[1:], a, np.abs(a).max())
+        parts = a @ M.toarray() + rate @ C.toarray() + 0.5 * (u[1:] + u[:-1]) @ K.toarray()
+        rest, reaction = parts - 0.5 * (F[1:] + F[:-1]), recorder.of("reaction")[1:]
+        push = np.abs(F).max() + np.abs(parts).max()
+        near(reaction @ la.null_space(rows), 0.0, push)
+        joints, J = reaction - rest, problem.interface.J.toarray()
+        kept = np.diff(history.energies[:, STORED] + history.energies[:, LOST])
+        near(np.vecdot(joints, np.diff(u, axis=0)), kept, energy)
+        near(joints - joints @ la.pinv(J) @ J, 0.0, push)
+        work = np.vecdot(np.diff(u, axis=0), 0.5 * (F[1:] + F[:-1]))
+        support = np.vecdot(np.diff(u, axis=0) @ rows.T, reaction @ la.pinv(rows))
+        near(np.diff(history.energies[:, EXTERNAL]), work + support, energy)
 
     holds()

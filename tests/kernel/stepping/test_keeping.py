@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
+from references.awkward import Awkward
 from references.keeper import Ending
 from references.recorder import Recorder
 from references.rocking_beam import rocking
@@ -76,6 +77,14 @@ CASES = {
     "adaptive relations": ("adaptive", lambda: feet(scheme=Scheme(adaptive=True))),
     "full Newton": ("full Newton", lambda: longer(masses(3), 60)),
     "full Newton on relations": ("full Newton", lambda: feet(steps=60)),
+    "adaptive, zones of all laws": (
+        "adaptive",
+        lambda: replace(Awkward(3, tied=False).problem(), scheme=Scheme(adaptive=True)),
+    ),
+    "dense, zones of all laws": ("dense", lambda: Awkward(4, scheme=1, steps=90).problem()),
+    "conserving, zones of all laws": (
+        "conserving", lambda: replace(Awkward(5).problem(), scheme=Scheme(conserving=True)),
+    ),
     "relations on modes": ("relations on modes", feet),
     "penalty on modes": ("relations on modes", lambda: feet(PENALTY)),
     "relations": ("relations", lambda: feet(damping="dashpots", moving=True)),

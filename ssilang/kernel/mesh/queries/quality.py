@@ -44,7 +44,7 @@ def skewness(corners: FloatArray) -> FloatArray:
     k = corners.shape[1] - 1
     edges = corners[:, 1:] - corners[:, :1]
     gram = edges @ np.swapaxes(edges, 1, 2)
-    flat = np.linalg.det(gram) <= 1e-24 * np.abs(gram).max(axis=(1, 2)) ** k
+    flat = np.linalg.det(gram) <= 1e-14 * np.abs(gram).max(axis=(1, 2)) ** k
     safe = np.where(flat[:, None, None], np.eye(k), gram)
     # the centre c = sum s_i e_i has 2 c . e_j = |e_j|^2
     share = np.linalg.solve(2.0 * safe, np.einsum("nii->ni", safe)[..., None])[..., 0]

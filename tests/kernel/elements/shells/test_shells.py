@@ -146,13 +146,6 @@ def test_orthotropic_plate_is_stiff_along_its_first_axis():
     assert ends[1] == pytest.approx(10 * ends[0], rel=0.02)
 
 
-def test_shell_mass_is_its_matter():
-    zone, _ = plate(2, 3, 1.0, 0.7, rotation())
-    block = families.mass(zone, material(zone, **PLATE))
-    rows = [i for i, u in enumerate(block.unknowns) if u == "UY"]
-    assert block.values[:, rows][:, :, rows].sum() == pytest.approx(RHO * H * 0.7)
-
-
 def test_long_cylinder_under_pressure_and_clamped_at_one_end():
     R, L, p = 1.0, 2.0, 1e5
     z = np.linspace(0, L, 81)

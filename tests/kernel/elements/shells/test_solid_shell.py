@@ -6,7 +6,6 @@ from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
 
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -117,22 +116,6 @@ def test_membrane_and_bending_patches_are_in_balance_on_a_distorted_mesh(h):
     for name, k in {"EPXX": kx, "EPYY": ky, "GAXY": kxy}.items():
         np.testing.assert_allclose(strain[name], k * z + 0 * strain[name], atol=1e-9 * h)
     assert residual_inside(zone, mat, bent) < 1e-6  # round-off grows as the square of 1/h
-
-
-def test_forces_of_the_stresses_are_those_of_the_stiffness():
-    zone = distorted_plate(0.3)
-    mat = material(zone, YOUN=E, NU=NU)
-    rng = np.random.default_rng(0)
-    nodes = np.arange(32)
-    names = ("UX", "UY", "UZ")
-    u = NodeField.of(zone.cells.nodes, nodes, {n: rng.normal(size=32) for n in names}, "DIFFUS")
-    block = families.stiffness(zone, mat)
-    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
-    direct = layout.scatter(np.einsum("cij,cj->ci", block.values, layout.gather(u)))
-    balanced = families.internal_forces(zone, CellField((families.stress(zone, mat, u),)))
-    for name in ("FX", "FY", "FZ"):
-        expected = direct.values_at(name, nodes)
-        np.testing.assert_allclose(balanced.values_at(name, nodes), expected, rtol=1e-9, atol=1e-6)
 
 
 @pytest.mark.parametrize(("h", "rtol"), [(1.0, 0.01), (0.1, 0.004), (0.01, 0.004)])

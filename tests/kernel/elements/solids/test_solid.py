@@ -112,29 +112,6 @@ def test_axisymmetric_pressure_vessel_strain_has_the_hoop_component():
         np.testing.assert_allclose(block.components[name], value, atol=1e-14)
 
 
-@pytest.mark.parametrize("element", [*PLANE, *SPACE])
-def test_mass_matrix_holds_the_mass_in_every_direction(element):
-    mode = Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
-    zone = cell_zone(element, mode)
-    mat = material(zone, YOUN=E, NU=NU, RHO=7.0)
-    volume = families.integration_weights(zone, "RIGIDITE").sum()
-    for lumped in (False, True):
-        block = families.mass(zone, mat, lumped)
-        for name in dict.fromkeys(block.unknowns):
-            rows = [i for i, u in enumerate(block.unknowns) if u == name]
-            total = block.values[0][np.ix_(rows, rows)].sum()
-            assert total == pytest.approx(7.0 * volume, rel=1e-10)
-    assert np.count_nonzero(block.values[0] - np.diag(np.diag(block.values[0]))) == 0
-
-
-def test_mass_of_a_ring_counts_the_circumference():
-    zone = cell_zone("QUA8", Mode.AXISYMMETRIC)
-    block = families.mass(zone, material(zone, RHO=2.0))
-    rows = [i for i, u in enumerate(block.unknowns) if u == "UZ"]
-    weights = families.integration_weights(zone, "RIGIDITE").sum()
-    assert block.values[0][np.ix_(rows, rows)].sum() == pytest.approx(2.0 * weights, rel=1e-12)
-
-
 def test_thickness_scales_plane_stress_only():
     flat = cell_zone("QUA4", Mode.PLANE_STRESS)
     thin = families.stiffness(flat, material(flat, YOUN=E, NU=NU, DIM3=0.1)).values
