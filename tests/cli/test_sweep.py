@@ -321,7 +321,6 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     assert code == 0
     assert "a value is given to AG, and the script does not read it again" in wrong
     assert "a.csv and b.csv hold the same motion" in wrong
-    assert "in several units: a.csv (G) and c.csv (CM/S2)" in wrong
     assert "no run has a figure" in wrong
     code, _, wrong = run(replace(options, out=deck))
     assert (code, "is a file" in wrong) == (2, True)

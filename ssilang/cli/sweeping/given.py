@@ -147,8 +147,9 @@ def cases_of(
         name, values = parse_setting(text)
         if name in axes or (name == MOTION and motions is not None):
             raise GivenError("cli.set-twice", name=name)
-        known = Counter((type(v), v) for v in values)
-        if again := [str(v) for (_, v), count in known.items() if count > 1]:
+        if again := [
+            str(v) for (_, v), n in Counter((type(v), v) for v in values).items() if n > 1
+        ]:
             raise GivenError("cli.value-twice", name=name, values=again)
         axes[name] = values
     if motions is not None:

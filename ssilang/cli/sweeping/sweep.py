@@ -32,7 +32,6 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
-from ssilang.io.ground_motions.record import unit_named
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -146,7 +145,7 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     """
     source = read_source(options.deck)
     _check_names(source, cases[0].values, options, err)
-    _tell_motions(cases, source, options.language, err)
+    _tell_motions(cases, options.language, err)
     tasks = [
         _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
@@ -185,8 +184,7 @@ def _check_names(source: Source, values: Iterable[str], options: SweepOptions, e
             if name not in assigned:
                 refuse_unknown(name, source, assigned)
             if len(re.findall(rf"\b{re.escape(name)}\b", source.code, re.IGNORECASE)) < 2:
-                told = {"name": name}
-                err.write(sentence("cli.value-unread", told, options.language) + "\n")
+                err.write(sentence("cli.value-unread", {"name": name}, options.language) + "\n")
 
 
 def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
@@ -203,19 +201,14 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
     return cases
 
 
-def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: TextIO) -> None:
-    """Name motions that hold the same, and those in several units where the deck reads no unit."""
+def _tell_motions(cases: Sequence[Case], language: str, err: TextIO) -> None:
+    """Name motions whose files hold the same: a record that counts twice."""
     known: dict[str, list[str]] = {}
-    units: dict[str, str] = {}
     for path in dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values):
         known.setdefault(digest_of_file(path), []).append(path.name)
-        units.setdefault(unit_named(path), path.name)
     for names in known.values():
         if len(names) > 1:
             err.write(sentence("cli.same-motions", {"names": names}, language) + "\n")
-    if len(units) > 1 and not re.search(r"LIRE[^;]*'SI'", source.code, re.IGNORECASE):
-        named = [f"{name} ({unit or '?'})" for unit, name in units.items()]
-        err.write(sentence("cli.motions-of-other-units", {"names": named}, language) + "\n")
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:

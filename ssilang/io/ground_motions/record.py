@@ -89,19 +89,6 @@ def is_unit(said: str) -> bool:
     return plain_unit(said) in _IN_SI
 
 
-_NAMED = re.compile(
-    r"UNITS?\s*(?:OF|IN|=|:)?\s*([A-Z%][^\s,;]*)|[(\[]\s*([^()\[\]]+?)\s*[)\]]", re.IGNORECASE
-)
-
-
-def unit_named(path: Path) -> str:
-    """The first unit that the head of a file names, in its one spelling; '' if it names none."""
-    with path.open("rb") as stream:
-        head = stream.read(4096).decode("latin-1")
-    words = (word for pair in _NAMED.findall(head) for word in pair)
-    return next((plain_unit(w) for w in words if w and is_unit(w)), "")
-
-
 def lines_of(path: Path) -> list[str]:
     """Lines of a text file, whatever its letters.
 

@@ -171,9 +171,9 @@ def geometric_names(zone: Zone) -> Names:
 
 def idle_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that a zone takes and that change nothing: the thickness outside of a plane."""
-    turned = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
-    flat = zone.mode is Mode.PLANE_STRESS if family_name(zone) in SOLID_FAMILIES else not turned
-    return () if flat else ("DIM3",)
+    if family_name(zone) in SOLID_FAMILIES:
+        return () if zone.mode is Mode.PLANE_STRESS else ("DIM3",)
+    return ("DIM3",) if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else ()
 
 
 def known_names(zone: Zone) -> tuple[str, ...]:

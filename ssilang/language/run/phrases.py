@@ -201,8 +201,7 @@ class PhraseRunner(OperandReader):
         if wrong is None:
             wrong, code = next(_empty_ones(operands), None), "operand-holds-nothing"
         if wrong is not None:
-            told = {"operator": name, "operand": wrong.span.text[:40]}
-            raise SsiError(code, wrong.span, **told) from error
+            raise SsiError(code, wrong.span, operator=name, operand=wrong.span.text[:40]) from error
 
     def _tell_empty(self, operands: Sequence[Operand], name: str) -> None:
         """Tell of operands that hold nothing, where the script itself calls."""

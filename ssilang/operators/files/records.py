@@ -119,9 +119,8 @@ _SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
 
 def _odd(record: GroundMotion) -> Iterator[tuple[str, float, float]]:
     """What no ground motion shows: codes with a value and the most that is usual."""
-    steps = np.diff(record.times)
+    steps, peak = np.diff(record.times), record.in_si * float(np.abs(record.values).max())
     usual, longest = (float(np.median(steps)), float(steps.max())) if steps.size else (0.0, 0.0)
-    peak = record.in_si * float(np.abs(record.values).max())
     if usual > _SLOW:
         yield "operators.files.record-slow", usual, _SLOW
     elif longest > _GAP * usual:

@@ -92,11 +92,9 @@ class Bodies:
 
     def sunk(self) -> Iterator[Sunk]:
         """Bodies that closed joints alone hold, by less than what loads push them with."""
-        problem, count = self.problem, int(self.label.max(initial=-1)) + 1
-        joints, numbering = problem.interface, problem.numbering
-        if joints is None or count > MOST_BODIES:
-            return
-        for body in range(count):
+        problem, numbering = self.problem, self.problem.numbering
+        joints, count = problem.interface, int(self.label.max(initial=-1)) + 1
+        for body in range(count if joints is not None and count <= MOST_BODIES else 0):
             nodes = numbering.nodes[self.label == body]
             size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
             for axis in [a for a in AXES if a in numbering.unknowns]:
