@@ -17,7 +17,7 @@ from types import FunctionType
 from typing import Any, Literal
 
 from ssilang.language.filled import Filled
-from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range
+from ssilang.language.vocabulary.terms import CARRIED, UNSAID, Range
 from ssilang.messages.message import Translated, examples, help_texts, spoken
 
 ANY = "*"
@@ -180,7 +180,7 @@ def named(name: str, optional: bool = False, en: str = "") -> Argument:
 
 def main(name: str, *types: str, en: str = "") -> Argument:
     """The operand whose type decides which form of an operator runs; of numbers, any."""
-    return Argument(name, types, en=en, main=True, range=ANY_NUMBER)
+    return Argument(name, types, en=en, main=True, range=CARRIED)
 
 
 def opt(
@@ -514,6 +514,7 @@ class Operator:
     terminal: bool = False  # its result is not looked at as an operator's name
     full_name: str = ""  # as usually written: 'MODELISER', 'RIGIDITE'
     tables: Tables | None = None  # see `Help`
+    empties: bool = False  # objects that hold nothing are as good as others to it
     _choices: Choices | None = None
     _meant: dict[tuple[bool, ...], Choices] = field(default_factory=dict)
 
@@ -641,6 +642,7 @@ def operator(
     gives: str | Sequence[str] | Like | By | None = None,
     reads_itself: str = "",
     when: When | None = None,
+    empties: bool | None = None,
 ) -> Callable[[Function], Operator]:
     """Decorator that registers an operator with its first form.
 
@@ -659,6 +661,8 @@ def operator(
         Types of the results; by default what the function's annotation says.
     reads_itself : str
         Why the function takes the `call` and reads from it; `entries` are then for help and checks.
+    empties : bool, optional
+        Whether objects that hold nothing go by without a word; by the family where it is not said.
 
     Notes
     -----
@@ -668,11 +672,21 @@ def operator(
     """
 
     def add(function: Function) -> Operator:
-        made = shared(name, family, tables, aliases=aliases, terminal=terminal, full_name=full_name)
+        made = shared(
+            name, family, tables, aliases=aliases, terminal=terminal, full_name=full_name,
+            empties=empties,
+        )  # fmt: skip
         made.form(*entries, gives=gives, by_hand=reads_itself, when=when)(function)
         return made
 
     return add
+
+
+_OF_CONTAINERS = frozenset(
+    ("arithmetic", "clouds", "comparisons", "control", "functions", "lists", "numbers", "objects",
+     "output", "session", "tables", "words")
+)  # fmt: skip
+"""Families of operators that fill, take apart, compare and print: to them nothing is a value."""
 
 
 def shared(
@@ -683,9 +697,12 @@ def shared(
     aliases: Sequence[str] = (),
     terminal: bool = False,
     full_name: str = "",
+    empties: bool | None = None,
 ) -> Operator:
     """Register an operator whose forms stand in several families; `form` adds one."""
-    made = Operator(name, family, [], tuple(aliases), terminal, full_name or name, tables)
+    holds = family in _OF_CONTAINERS if empties is None else empties
+    called = full_name or name
+    made = Operator(name, family, [], tuple(aliases), terminal, called, tables, holds)
     for word in (name, *aliases):
         OPERATORS[word] = made
     return made

@@ -426,3 +426,19 @@ def normalised(value: object) -> object:
     if type(value) is str:
         return Mot(value)
     return value
+
+
+MAY_BE_EMPTY = frozenset(
+    ("MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "RIGIDITE", "EVOLUTIO", "CHARGEME", "LISTREEL",
+     "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE", "TABLE")
+)  # fmt: skip
+"""Types of objects that scripts build up from nothing."""
+_HOLDERS = ("blocks", "relations", "components", "zones", "parts", "categories", "tags")
+
+
+def is_empty(value: Any) -> bool:
+    """Whether an object holds nothing: a mesh no cell, a field no component, a list no item."""
+    if hasattr(value, "n_cells"):
+        return bool(value.n_cells == 0)
+    held = [getattr(value, name) for name in _HOLDERS if hasattr(value, name)]
+    return not any(map(len, held)) if held else len(value) == 0

@@ -4,6 +4,7 @@ import csv
 import io
 import os
 import time
+from dataclasses import replace
 from multiprocessing.context import SpawnContext
 
 import pyarrow.parquet as pq
@@ -62,7 +63,11 @@ def test_values_have_the_types_of_the_language():
     assert parse_setting("a=1,2.5,1.D-3,VRAI,mot") == ("A", [1, 2.5, 1e-3, True, "mot"])
 
 
-@pytest.mark.parametrize("text", ["AG", "=3", "AG=", "1X=2", "A=1:0:1", "A=0:1:0"])
+@pytest.mark.parametrize(
+    "text",
+    ["AG", "=3", "AG=", "1X=2", "A=1:0:1", "A=0:1:0", "A=0:1:0.3", "A=1,,2", "A=1,", "A=0.5,0.50",
+     "A=x,y,x", "A=1E400", "A=::"],
+)  # fmt: skip
 def test_what_cannot_be_read_is_refused(text):
     with pytest.raises(GivenError):
         cases_of([text], None)
@@ -151,7 +156,9 @@ def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
     (folder / "notes 1.md").write_text("# Records\nof 2024, 12 of them\n")
     (folder / "map.png").write_bytes(b"\x89PNG\0\n1 2 3\n")
     deck = tmp_path / "case.ssi"
-    deck.write_text("MOTION = 'none' ; AG = 1. ; T = TABL ; @VERIFIE T 'ag' AG 0. 10. ;")
+    deck.write_text(
+        "MOTION = 'none' ; AG = 1. ; T = TABL ; @VERIFIE T 'ag' AG 0. 10. ; MESS MOTION ;"
+    )
     options = SweepOptions(deck, ["AG=0.5,0.75"], folder, tmp_path / "out", jobs=1)
     code, _, wrong = run(options)
     assert code == 0
@@ -269,10 +276,56 @@ def test_a_file_that_changes_during_its_run_holds_for_no_later_one(tmp_path):
     deck = tmp_path / "case.ssi"
     (tmp_path / "data.csv").write_text("1.\n")
     os.utime(tmp_path / "data.csv", (time.time() + 1000.0,) * 2)
-    deck.write_text("N = 1 ; OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ;")
+    deck.write_text("N = 1 ; OPTI 'ACQU' 'data.csv' ; ACQU A*FLOTTANT ; SORT 'BILA' 'n' (FLOT N) ;")
     options = SweepOptions(deck, ["N=1"], out=tmp_path / "out", jobs=1)
     assert run(options)[2] == ""
     assert "1 run again: data.csv has changed" in run(options)[2]
+
+
+def figures(table):
+    """Rows of a table without what the clock says."""
+    with table.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream, delimiter=";"))
+    return [{k: v for k, v in row.items() if k != "seconds"} for row in rows]
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [('"square"', '"sqare"'), ("2.0", "NaN"), ("2.0", '"two"'), ('"AG": 1', '"AG": 3'), ("{", "[")],
+)
+def test_rows_that_were_changed_are_made_again(deck, tmp_path, before, after):
+    """A figure renamed, no number any more, of another value: what is kept is as it was written."""
+    options = SweepOptions(deck, ["AG=0.1", "N=1"], out=tmp_path / "out", jobs=1)
+    deck.write_text("AG = 1. ; N = 1 ; T = TABL ; @VERIFIE T 'square' (2. * AG * N) 0. 9. ;")
+    options = replace(options, settings=["AG=1,2", "N=1"])
+    run(options)
+    table = figures(tmp_path / "out" / "sweep.csv")
+    row = next(iter(sorted((tmp_path / "out").glob("runs/*/row.json"))))
+    text = row.read_text()
+    row.write_text(text.replace(before, after))
+    assert row.read_text() != text
+    _, said, wrong = run(options)
+    assert "1 of 2 runs are done already" in said
+    assert "1 run again: " in wrong
+    assert figures(tmp_path / "out" / "sweep.csv") == table
+
+
+def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
+    motions = tmp_path / "motions"
+    motions.mkdir()
+    for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c.csv", "cm/s^2")):
+        (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n")
+    deck.write_text("AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ;")
+    options = SweepOptions(deck, ["AG=0.1"], motions=motions, out=tmp_path / "out", jobs=1)
+    code, _, wrong = run(options)
+    assert code == 0
+    assert "a value is given to AG, and the script does not read it again" in wrong
+    assert "a.csv and b.csv hold the same motion" in wrong
+    assert "no run has a figure" in wrong
+    code, _, wrong = run(replace(options, out=deck))
+    assert (code, "is a file" in wrong) == (2, True)
+    code, _, wrong = run(replace(options, settings=["MOTION=a"]))
+    assert (code, "MOTION is set twice" in wrong) == (2, True)
 
 
 def test_the_table_is_a_csv_file_too(deck, tmp_path, monkeypatch):

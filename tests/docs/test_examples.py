@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,12 +18,18 @@ import pytest
 from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import OPERATORS
+from ssilang.language.run import phrases
+from ssilang.language.run.binding import run_operator
+from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
+from ssilang.language.say.errors import SsiError
 from ssilang.language.say.reference import operator_page, procedure_page
 from ssilang.language.text.source import Source
-from ssilang.language.values import type_of
+from ssilang.language.values import MAY_BE_EMPTY, Mot, is_empty, type_of
 from ssilang.operators.loader import load_operators
+from ssilang.operators.session.empty_objects import _MAKERS
+from ssilang.operators.workspace import workspace
 
 load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
@@ -45,6 +52,44 @@ def _examples(operator):
     name = re.compile(rf"\b{re.escape(operator.name)}\b")
     around = [p for p in _PROCEDURES if name.search(p.read_text(encoding="utf-8"))]
     return tuple(e for p in around for e in _PROCEDURES[p].help.examples)
+
+
+class Emptied:
+    """Calls an operator, before each call of its, with every operand in turn that holds nothing."""
+
+    def __init__(self, operator):
+        self.operator, self.tried, self.silent, self.busy = operator, set(), [], False
+
+    def __call__(self, found, call):
+        inner = call.session.frame.procedure in call.session.library.standard_names
+        if found is self.operator and not inner and not self.busy:
+            kinds = [type_of(o.value) for o in call.operands]
+            words = tuple(str(o.value)[:4] for o in call.operands if isinstance(o.value, str))
+            for place, kind in enumerate(kinds):
+                if kind in MAY_BE_EMPTY and (*kinds, place, words) not in self.tried:
+                    self.tried.add((*kinds, place, words))
+                    self.one(found, call, place, kind)
+        return run_operator(found, call)
+
+    def one(self, found, call, place, kind):
+        nothing = _MAKERS[kind](workspace(call.session), "")
+        operands = [
+            replace(o, value=nothing if n == place else o.value)
+            for n, o in enumerate(call.operands)
+        ]
+        before, self.busy = len(call.session.warnings), True
+        try:
+            call.session.evaluator._operate(
+                found, Operand(Mot(found.name), call.span), Call(call.session, operands, call.span)
+            )
+            told = [w.code for w in call.session.warnings[before:]]
+            told += ["excess"] * any(o.value is nothing for o in operands)
+        except SsiError as error:
+            told = [error.code]
+        self.busy = False
+        del call.session.warnings[before:]
+        if "internal" in told or (not (told or found.empties) and is_empty(nothing)):
+            self.silent.append((found.name, place, [type_of(o.value) for o in call.operands]))
 
 
 def _same(name, number, output):
@@ -82,6 +127,18 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
         assert _same(operator.name, number, result.output)
         _checked(text, result)
     assert ran.missing(operator) == untried.get(operator.name, [])
+
+
+@pytest.mark.parametrize(
+    "operator", [pytest.param(o, id=o.name) for o in _OPERATORS if not o.empties]
+)
+def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
+    """Each call of the examples is tried with nothing in place of each of its objects."""
+    emptied = Emptied(operator)
+    monkeypatch.setattr(phrases, "run_operator", emptied)
+    for number, text in enumerate(operator_page(operator).help.examples, 1):
+        run_text(text, output_directory=tmp_path / str(number))
+    assert not emptied.silent
 
 
 @pytest.mark.parametrize("path", [pytest.param(p, id=p.stem) for p in _PROCEDURES])

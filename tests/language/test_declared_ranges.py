@@ -1,6 +1,9 @@
 """Ranges of entries and operands: declared once, held by one check, for every declaration."""
 
+import ast
 import math
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,7 +28,7 @@ SENSELESS = (math.nan, math.inf, -math.inf, -1e300, -1.0, 0.0, 0.3, 1.0, 91.0, 1
 def belongs(bound: Range, value: float) -> bool:
     """Whether a number is in a range, by what help prints of it."""
     text = bound.text("x")
-    if bound == ANY_NUMBER:
+    if bound.carried:
         return True
     return math.isfinite(value) and (not text or eval(text.replace("|x|", "abs(x)"), {"x": value}))
 
@@ -64,18 +67,18 @@ def test_every_number_says_what_makes_sense():
 
 def test_every_entry_with_a_range_refuses_what_is_outside_of_it():
     session, tries, refused = open_session(Session()), 0, 0
-    for entry in BOUNDED:
-        assert set(entry.types) & set(NUMBERS), entry.path
+    for entry in RANGED:
+        bounded = entry.range != ANY_NUMBER
         for number in SENSELESS:
             for value in tried(entry.types, number):
-                tries += 1
+                tries += bounded
                 data = {"procedure": "P", "operator": "P"}
                 if belongs(entry.range, number):
                     checked(session, entry, value, entry.path, **data)
                     continue
                 with pytest.raises(SsiError) as caught:
                     checked(session, entry, value, entry.path, **data)
-                refused += 1
+                refused += bounded
                 for language in ("en", "fr"):
                     said = render(caught.value, language, ())
                     assert entry.index in said or entry.index in "I*", said
@@ -144,6 +147,59 @@ def test_ranges_of_operands_are_of_numbers_and_hold_their_defaults():
                 assert (flaw is None) is belongs(bound, number), (a.name, number)
         if isinstance(a.default, float) and a.range != UNSAID and a.default:
             assert belongs(a.range, a.default), a.name
+
+
+def reads_past_declarations(module):
+    """Places where an operator's code reads numbers by their types alone, and the types."""
+    for node in ast.walk(ast.parse(Path(module.__file__).read_text(encoding="utf-8"))):
+        match node:
+            case ast.Call(ast.Attribute(attr="read" | "required" | "optional" | "all"), args):
+                parts = [n for a in args for n in ast.walk(a)]
+                said = {n.value for n in parts if isinstance(n, ast.Constant)}
+                held = [vars(module).get(n.id) for n in parts if isinstance(n, ast.Name)]
+                said.update(*(t for t in held if isinstance(t, tuple)))
+                if said & set(NUMBERS):
+                    yield f"{module.__name__}:{node.lineno}", said
+
+
+def test_operators_that_read_by_hand_take_numbers_as_declared():
+    load_operators()
+    known = [m for n, m in sys.modules.items() if n.startswith("ssilang.operators")]
+    assert len(known) > 200
+    past = {at: said for m in known for at, said in reads_past_declarations(m)}
+    # what is written for people may be infinite: no number is calculated with
+    assert {at.split(":")[0] for at in past} == {"ssilang.operators.texts.words"}, past
+
+
+NAN = "X = EXTR ((PROG 0.) / (PROG 0.)) 1 ; XL = (PROG 1. 0.) / (PROG 1. 0.) ; "
+CURVE = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; S = SUIT C C ; "
+
+
+@pytest.mark.parametrize(
+    "text",
+    """Z = PROG 0. 'PAS' X 1. ;| Z = PROG 1. 'PAS' 1. 'GEOM' X 3. ;| Z = PROG 'SINU' X XL ;
+Z = PROG 'SINU' 1. 'PHAS' X XL ;| Z = PROG 'LINE' 'A' X XL ;| Z = EVOL 'TEMP' S XL 'UX' P ;
+OPTI 'DENS' X ;| OPTI 'PREC' X ;| Z = EXIS XL X ;| Z = EXIS XL 1. X ;
+Z = VIDE 'TABULER' XL 'MAILLAGE' ;| DENS X ;| Z = P PLUS (X 0.) ;| Z = MANU 'CHPO' P 'UX' X ;
+Z = COLI C X C X ;| Z = RACP X 1. 2. ;""".replace("\n", "|").split("|"),
+)
+def test_what_is_no_number_is_refused_where_it_stands(text):
+    (error,) = run_text(NAN + CURVE + text).errors
+    assert error.span.text in ("X", "XL", "X 0."), render(error, "en", ())
+    assert error.code in (
+        "out-of-range",
+        "not-finite",
+        "kernel.mesh.node-out-of-range",
+        "operand-not-finite",
+    )
+
+
+@pytest.mark.parametrize(
+    "text", ["MESS X ;", "Z = MASQ XL 'EGSUPE' 1. ;", "LIST XL ;", "Z = EVOL 'MANU' XL XL ;"]
+)
+def test_what_came_of_a_division_by_zero_may_be_looked_at(text):
+    result = run_text(NAN + text)
+    assert result.exit_code == 0, result.message
 
 
 RECORD = "EA = EVOL 'MANU' 'TEMP' (PROG 0. 'PAS' 0.01 2.) 'ACCE' (SIN (PROG 0. 'PAS' 20. 4000.)) ; "

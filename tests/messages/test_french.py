@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from ssilang.language.registry import OPERATORS, Operator
+from ssilang.language.registry import OPERATORS, Argument, Operator
 from ssilang.messages import message
 from ssilang.messages.message import Translated, french
 from ssilang.operators.loader import load_operators
@@ -37,7 +38,12 @@ def operators() -> list[Operator]:
 def declared() -> set[str]:
     """All English lines that operators and their forms declare."""
     forms = [form for operator in operators() for form in operator.forms]
-    return {t for form in forms for t in texts_in((form.entries or (), form.when))} - {""}
+    found = {t for form in forms for t in texts_in((form.entries or (), form.when))}
+    for name, module in list(sys.modules.items()):  # what operators read by hand
+        if name.startswith("ssilang.operators"):
+            held = (v for v in vars(module).values() if isinstance(v, Argument | dict))
+            found |= {t for v in held for t in texts_in(v)}
+    return found - {""}
 
 
 def kept() -> Counter[str]:

@@ -14,7 +14,36 @@ NASTRAN = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCROD,1,1,1,2\nENDDATA
 RECORD = "E = LIRE 'PEER' 'a.txt' 1. ; "
 READ = {"a.txt": PEER.format("ACCELERATION", 6)}
 
+TWICE = {
+    "m.inp": ABAQUS.replace("3, 0., 1.", "2, 5., 5.\n3, 0., 1."),
+    "c.inp": ABAQUS + "1, 2, 3, 1\n",
+    "m.bdf": NASTRAN.replace("CROD", "GRID,2,,7.,0.,0.\nCROD"),
+    "m.avs": AVS.replace("3 1. 1.", "2 1. 1."),
+    "m.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n2 0 1 0\n"
+    "$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 2\n$EndElements\n",
+}
 FILES = {
+    **{
+        f"a number borne twice, {name}": (
+            f"OPTI LECT '{name}' ; T = LIRE 'AVS' ;" if "avs" in name else f"T = LIRE '{name}' ;",
+            {name: text}, "io.mesh-number-twice",
+        )
+        for name, text in TWICE.items()
+    },
+    "steps of seconds": (
+        RECORD, {"a.txt": PEER.format("ACCELERATION", 6).replace(".01", "1.")},
+        "operators.files.record-slow",
+    ),
+    "a record with a part missing": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
+        {"a.csv": "time (s);acceleration (m/s2)\n0;0\n0.01;1\n0.02;2\n5.;0\n"},
+        "operators.files.record-gap",
+    ),
+    "an earthquake of tens of g": (
+        RECORD,
+        {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "G").replace("5 6", "5 60")},
+        "operators.files.record-strong",
+    ),
     "velocities in a spectrum": (
         RECORD + "S = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",
         {"a.txt": PEER.format("VELOCITY", 6)}, "operators.curves.no-accelerations",
@@ -181,6 +210,10 @@ MODELS = {
     ),
     # supports, weight, mass
     "no weight on joints": (FOOTING.format("", ""), "D.nothing-presses"),
+    "joints so soft that the body sinks in": (
+        FOOTING.replace("'KN' 1.E5", "'KN' 1.E3").format(WEIGHT, ""),
+        "D.sinks-in",
+    ),
     "no weight on stops": (
         BODY.format("K = K ET (BLOQ 'MINI' 'UY' B) ET (BLOQ 'UX' B) ;", ""),
         "D.nothing-presses",

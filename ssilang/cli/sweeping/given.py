@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,7 +37,10 @@ def parse_value(text: str) -> Value:
     if _NUMBER.fullmatch(text):
         if re.fullmatch(r"[+-]?\d+", text):
             return int(text)
-        return float(re.sub("[dD]", "E", text))
+        number = float(re.sub("[dD]", "E", text))
+        if math.isinf(number):
+            raise GivenError("cli.value-too-large", text=text)
+        return number
     if text.upper() in ("VRAI", "FAUX"):
         return text.upper() == "VRAI"
     return text
@@ -47,9 +52,11 @@ def parse_values(text: str) -> list[Value]:
     Raises
     ------
     GivenError
-        If a range is empty or goes the wrong way.
+        If a range is empty, goes the wrong way or has no value at its end.
     """
     parts = text.split(":")
+    if not all(p.strip() for p in (parts if len(parts) == 3 else text.split(","))):
+        raise GivenError("cli.value-empty", text=text)
     if len(parts) != 3 or not all(_NUMBER.fullmatch(p.strip()) for p in parts):
         return [parse_value(p) for p in text.split(",")]
     first, last, step = (parse_value(p) for p in parts)
@@ -58,7 +65,11 @@ def parse_values(text: str) -> list[Value]:
     assert isinstance(step, int | float)
     if step == 0 or (last - first) / step < 0:
         raise GivenError("cli.range-no-values-first", text=text)
-    count = int((last - first) / step + 1e-9) + 1
+    steps = (last - first) / step
+    count = int(steps + 1e-9) + 1
+    if abs(steps - round(steps)) > 1e-6:
+        end = first + (count - 1) * step
+        raise GivenError("cli.range-misses-end", text=text, last=last, end=end)
     if count > MOST_VALUES:
         raise GivenError("cli.range-values", text=text, count=count)
     if all(isinstance(v, int) for v in (first, last, step)):
@@ -134,8 +145,12 @@ def cases_of(
     axes: dict[str, list[Value]] = {}
     for text in settings:
         name, values = parse_setting(text)
-        if name in axes:
+        if name in axes or (name == MOTION and motions is not None):
             raise GivenError("cli.set-twice", name=name)
+        if again := [
+            str(v) for (_, v), n in Counter((type(v), v) for v in values).items() if n > 1
+        ]:
+            raise GivenError("cli.value-twice", name=name, values=again)
         axes[name] = values
     if motions is not None:
         axes[MOTION] = [*motions_in(motions, [] if left is None else left)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.cli.run import deck_of, refuse_unknown, write_report
-from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
+from ssilang.cli.sweeping.given import MOTION, Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.histories import Joined, join_histories
 from ssilang.cli.sweeping.pool import (
     can_share,
@@ -21,6 +22,7 @@ from ssilang.cli.sweeping.pool import (
     run_on_cluster,
 )
 from ssilang.cli.sweeping.table import (
+    RESERVED,
     Row,
     can_write,
     draw_figures,
@@ -29,6 +31,7 @@ from ssilang.cli.sweeping.table import (
 )
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
+from ssilang.io.checkpoint import digest_of_file
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -74,6 +77,8 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     """
     try:
         asked = _asked(options)
+        if options.folder.exists() and not options.folder.is_dir():
+            raise SsiError("cli.out-no-folder", None, path=options.folder)
         cases = _checked_cases(options, err)
         rows = run_cases(cases, options, out, err)
     except SsiError as error:
@@ -139,7 +144,8 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         If the script cannot be read, or does not have a name that is given a value.
     """
     source = read_source(options.deck)
-    _check_names(source, cases[0].values)
+    _check_names(source, cases[0].values, options, err)
+    _tell_motions(cases, options.language, err)
     tasks = [
         _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
@@ -167,13 +173,18 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     return [rows[k] for k in sorted(rows)]
 
 
-def _check_names(source: Source, values: Iterable[str]) -> None:
-    """Refuse a name that the script does not have; one that cannot be read says so in each run."""
+def _check_names(source: Source, values: Iterable[str], options: SweepOptions, err: TextIO) -> None:
+    """Refuse a name that the script does not have, tell of one that it does not read.
+
+    A script that cannot be read says so in each run.
+    """
     with suppress(SeveralErrors):
         assigned = first_assignments(parse(source).body)
         for name in values:
             if name not in assigned:
                 refuse_unknown(name, source, assigned)
+            if len(re.findall(rf"\b{re.escape(name)}\b", source.code, re.IGNORECASE)) < 2:
+                err.write(sentence("cli.value-unread", {"name": name}, options.language) + "\n")
 
 
 def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
@@ -188,6 +199,16 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
         told = {"count": len(left), "names": [p.name for p in left]}
         err.write(sentence("cli.files-no-motions", told, options.language) + "\n")
     return cases
+
+
+def _tell_motions(cases: Sequence[Case], language: str, err: TextIO) -> None:
+    """Name motions whose files hold the same: a record that counts twice."""
+    known: dict[str, list[str]] = {}
+    for path in dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values):
+        known.setdefault(digest_of_file(path), []).append(path.name)
+    for names in known.values():
+        if len(names) > 1:
+            err.write(sentence("cli.same-motions", {"names": names}, language) + "\n")
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
@@ -238,7 +259,9 @@ def write_results(rows: list[Row], swept: list[str], folder: Path) -> dict[str, 
     pictures = draw_figures(rows, swept, folder)
     joined = join_histories(rows, swept, folder)
     failed = sum(row["exit_code"] != 0 for row in rows)
+    figures = {n for row in rows for n in row} - {*swept, *RESERVED}
     return {
+        "figures": len(figures),
         "runs": len(rows),
         "failed": failed,
         "table": table,
@@ -252,6 +275,8 @@ def _tell_left(made: dict[str, object], language: str, err: TextIO) -> None:
     """Name what was not joined."""
     joined = made["joined"]
     assert isinstance(joined, Joined)
+    if not made["figures"] and made["failed"] != made["runs"]:
+        err.write(sentence("cli.sweep-without-figures", {}, language) + "\n")
     if joined.others:
         told = {"count": joined.others}
         err.write(sentence("cli.histories-other-columns", told, language) + "\n")

@@ -6,6 +6,7 @@ import json
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,7 +82,7 @@ def run_task(task: Task) -> Row:
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }
-    kept = {**_inputs(result, wall), "row": row}
+    kept = {**_inputs(result, wall), "row": row, "seal": _seal(row)}
     write_text(task.folder / ROW, json.dumps(kept, ensure_ascii=False) + "\n")
     return row
 
@@ -112,6 +113,8 @@ def row_of(task: Task, deck: Deck) -> Row | Sentence | None:
     try:
         kept = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
         row: Row = kept["row"]
+        if kept["seal"] != _seal(row):
+            return Sentence("cli.again-changed")
         if row["exit_code"] != 0:
             return None
         if changed := deck.change_since(kept):
@@ -125,6 +128,11 @@ def row_of(task: Task, deck: Deck) -> Row | Sentence | None:
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return Sentence("cli.again-unknown")
     return Sentence("cli.again-files", files=files) if files else {**row, "run": task.number}
+
+
+def _seal(row: Row) -> str:
+    """What tells that nobody changed a row since it was written."""
+    return sha256(json.dumps(row, sort_keys=True).encode()).hexdigest()
 
 
 def row_anyhow(task: Task, work: Work = run_task) -> Row:

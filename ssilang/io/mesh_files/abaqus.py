@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded
+from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.system_reasons import system_reason
 
@@ -112,9 +112,9 @@ def _read(blocks: Iterator[tuple[str, dict[str, str], list[str]]], deck: _Deck, 
             if deck.parts > 1:
                 raise InputError("io.abaqus-several-parts", name=name)
         elif word == "NODE":
-            _read_nodes(said, data, deck)
+            _read_nodes(said, data, deck, name)
         elif word == "ELEMENT":
-            _read_cells(said, data, deck)
+            _read_cells(said, data, deck, name)
         elif word in ("NSET", "ELSET"):
             sets = deck.node_sets if word == "NSET" else deck.cell_sets
             _set(sets, said[word]).extend(_members("GENERATE" in said, data))
@@ -136,15 +136,17 @@ def _members(generated: bool, data: list[str]) -> Iterator[str | int]:
             yield from (int(t) if t.lstrip("-").isdigit() else t for t in words)
 
 
-def _read_nodes(said: dict[str, str], data: list[str], deck: _Deck) -> None:
+def _read_nodes(said: dict[str, str], data: list[str], deck: _Deck, name: str) -> None:
     members = _set(deck.node_sets, said["NSET"]) if "NSET" in said else []
     for line in data:
         number, *x = line.rstrip().rstrip(",").split(",")
-        deck.points[int(number)] = [float(t.upper().replace("D", "E") or 0) for t in x[:3]]
+        point = [float(t.upper().replace("D", "E") or 0) for t in x[:3]]
+        known = deck.points.setdefault(int(number), point)
+        refuse_doubles(name, [(int(number), known), (int(number), point)])
         members.append(int(number))
 
 
-def _read_cells(said: dict[str, str], data: list[str], deck: _Deck) -> None:
+def _read_cells(said: dict[str, str], data: list[str], deck: _Deck, name: str) -> None:
     kind = said["TYPE"].upper()
     cell_type = _cell_type(kind)
     numbers = [int(t) for line in data for t in line.split(",") if t.strip()]
@@ -161,7 +163,8 @@ def _read_cells(said: dict[str, str], data: list[str], deck: _Deck) -> None:
         raise ValueError(f"*ELEMENT, TYPE={kind}")
     rows = deck.rows.setdefault(cell_type, [])
     for i in range(0, len(numbers), size):
-        deck.place[numbers[i]] = cell_type, len(rows)
+        number, row = numbers[i], (cell_type, len(rows))
+        refuse_doubles(name, [(number, deck.place.setdefault(number, row)), (number, row)])
         rows.append(numbers[i + 1 : i + size])
         members.append(numbers[i])
 

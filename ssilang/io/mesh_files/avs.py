@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.mesh_files.file_mesh import refuse_doubles
 from ssilang.io.vtk.grid import ORDERS, cell_means
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
@@ -124,21 +125,22 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
     lines = iter([t for t in text.splitlines() if t.strip() and not t.startswith("#")])
     try:
         for _ in range(skip):
-            if _structure(lines) is None:
+            if _structure(lines, path.name) is None:
                 return None
-        return _structure(lines)
+        return _structure(lines, path.name)
     except (StopIteration, RuntimeError) as error:
         raise InputError("io.avs-file-cut", name=path.name) from error
     except (ValueError, LookupError, OverflowError) as error:
         raise InputError("io.no-readable-avs-file", name=path.name, error=error) from error
 
 
-def _structure(lines: Iterator[str]) -> Structure | None:
+def _structure(lines: Iterator[str], name: str) -> Structure | None:
     head = next(lines, None)
     if head is None:
         return None
     n_nodes, n_cells, per_node, per_cell, per_model = (int(t) for t in head.split()[:5])
     nodes = [next(lines).split() for _ in range(n_nodes)]
+    refuse_doubles(name, ((int(t[0]), t) for t in nodes))
     row_of = {int(t[0]): i for i, t in enumerate(nodes)}
     points = np.array([[float(x) for x in t[1:4]] for t in nodes]).reshape(n_nodes, 3)
     cells, order = _cells([next(lines).split() for _ in range(n_cells)], row_of)

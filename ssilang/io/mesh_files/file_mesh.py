@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,6 +11,23 @@ from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 
 NONE = np.empty(0, dtype=np.int64)
+
+
+def refuse_doubles(name: str, numbered: Iterable[tuple[int, object]]) -> None:
+    """Refuse a number that two nodes or two cells of a file bear: which one is meant is not said.
+
+    Parameters
+    ----------
+    numbered : pairs of a number and what bears it; the same twice is once
+
+    Raises
+    ------
+    InputError
+    """
+    known: dict[int, object] = {}
+    for number, held in numbered:
+        if known.setdefault(number, held) != held:
+            raise InputError("io.mesh-number-twice", name=name, number=number)
 
 
 @dataclass(frozen=True, eq=False)

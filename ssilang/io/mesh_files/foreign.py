@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded
+from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
@@ -137,10 +137,18 @@ def _remarks(text: str) -> tuple[str, ...]:
     return tuple(t.strip() for t in re.split(r"(?:Warning|Info|Error):", flat) if t.strip())
 
 
+# nodes of a text of version 2; meshio counts them, whatever their numbers
+_MSH2 = re.compile(rb"\$MeshFormat\s+2\S*\s+0\s.*?\$Nodes\s+\d+\s*\n(.*?)\$EndNodes", re.DOTALL)
+_GRID = re.compile(r"^GRID\*?[ ,]+(\d+)(.*)$", re.MULTILINE)
+
+
 def _by_meshio(path: Path, kind: str) -> Any:
     from importlib import import_module
 
     library()
+    if kind == "GMSH" and (nodes := _MSH2.search(path.read_bytes())) is not None:
+        lines = nodes[1].decode("latin-1").strip().split("\n")
+        refuse_doubles(path.name, ((int(t.split()[0]), t) for t in lines))
     return import_module(f"meshio.{FOREIGN[kind].reader}").read(str(path))
 
 
@@ -162,6 +170,7 @@ def _nastran(path: Path, kind: str) -> Any:
         text = "BEGIN BULK\n" + text
     if not re.search(r"^ENDDATA", text, re.MULTILINE):
         raise InputError("io.mesh-file-cut", name=path.name, kind=kind, end="ENDDATA")
+    refuse_doubles(path.name, ((int(n), rest) for n, rest in _GRID.findall(text)))
     read = _nastran.read_buffer(io.StringIO(text.rstrip() + "\n"))
     if np.any(read.point_data.get("nastran:ref", 0)):
         raise InputError("io.nastran-coordinate-system", name=path.name)

@@ -169,6 +169,13 @@ def geometric_names(zone: Zone) -> Names:
     return _GEOMETRY.get(family, Names())
 
 
+def idle_names(zone: Zone) -> tuple[str, ...]:
+    """Parameters that a zone takes and that change nothing: the thickness outside of a plane."""
+    if family_name(zone) in SOLID_FAMILIES:
+        return () if zone.mode is Mode.PLANE_STRESS else ("DIM3",)
+    return ("DIM3",) if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else ()
+
+
 def known_names(zone: Zone) -> tuple[str, ...]:
     """All parameters that a zone takes."""
     return material_names(zone).all + geometric_names(zone).all

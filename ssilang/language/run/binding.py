@@ -229,26 +229,19 @@ class Binder:
         SsiError
             'out-of-range' or 'not-increasing'.
         """
+        call = self.call
         for a, operand in self._given_ones:
-            if wrong := a.range.flaw(operand.value, a.name):
-                raise self._told(wrong[0], a, operand, wrong[1])
-        report, values = self.call.session.report, {a.name: o.value for a, o in self._given_ones}
+            call.refuse(a, operand)
+        report, values = call.session.report, {a.name: o.value for a, o in self._given_ones}
         for n, (a, operand) in enumerate(self._given_ones):
-            if odd := a.usual.flaw(operand.value, a.name):
-                report(self._told("unusual", a, operand, odd[1]))
+            call.tell_odd(a, operand)
             least = values.get(a.above)
             if isinstance(least, int | float) and not operand.value > least:
                 told = {"value": operand.value, "other": a.above, "least": least}
-                report(self._told("not-above", a, operand, told))
+                report(call.flaw("not-above", a, operand, told))
             before = [o.value for b, o in self._given_ones[:n] if b is a] if a.distinct else []
             if a.distinct and (twice := _twice(operand.value, before)):
-                report(self._told("given-twice", a, operand, {"twice": twice}))
-
-    def _told(
-        self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
-    ) -> SsiError:
-        said = {"operator": self.call.name, "name": a.name, "en": a.en, "fr": a.fr}
-        return SsiError(code, operand.span, **said, **data)
+                report(call.flaw("given-twice", a, operand, {"twice": twice}))
 
     def _lacking(self, a: Argument) -> SsiError:
         """The error of an operand that is not there: a word stands where another must be said."""

@@ -6,12 +6,12 @@ over operands of other types and never passes an unread word; results are put ba
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.registry import ANY, When
+from ssilang.language.registry import ANY, Argument, When
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import Mot, Procedure, Texte, type_of
 
@@ -176,6 +176,48 @@ class Call:
         while (operand := self.read(*types)) is not None:
             values.append(operand.value)
         return values
+
+    def given(self, a: Argument, after: int = -1) -> Any:
+        """Value of the next operand as it is declared, its default where an optional one lacks.
+
+        Operators that read by hand take their numbers so; the binder judges at its end.
+
+        Raises
+        ------
+        SsiError
+            As `required`; 'out-of-range' or 'not-increasing'.
+        """
+        operand = self.read(*a.types, after=after)
+        if operand is None:
+            if a.optional:
+                return a.default
+            raise self.missing(a.types)
+        self.refuse(a, operand)
+        self.tell_odd(a, operand)
+        return operand.value
+
+    def refuse(self, a: Argument, operand: Operand) -> None:
+        """Refuse a number outside of the range of its declaration.
+
+        Raises
+        ------
+        SsiError
+            'out-of-range' or 'not-increasing'.
+        """
+        if wrong := a.range.flaw(operand.value, a.name):
+            raise self.flaw(wrong[0], a, operand, wrong[1])
+
+    def tell_odd(self, a: Argument, operand: Operand) -> None:
+        """Tell of a number outside of what is usual."""
+        if odd := a.usual.flaw(operand.value, a.name):
+            self.session.report(self.flaw("unusual", a, operand, odd[1]))
+
+    def flaw(
+        self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
+    ) -> SsiError:
+        """What is wrong with an operand, at its place."""
+        said = {"operator": self.name, "name": a.name, "en": a.en, "fr": a.fr}
+        return SsiError(code, operand.span, **said, **data)
 
     def word(self) -> str | None:
         """Consume the first unread word, whatever it says; None if there is none."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.registry import Operator, find_operator
@@ -20,7 +20,17 @@ from ssilang.language.run.procedures import call_procedure
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
-from ssilang.language.values import Mot, Procedure, Texte, normalised
+from ssilang.language.values import (
+    MAY_BE_EMPTY,
+    LazyRows,
+    LazyTable,
+    Mot,
+    Procedure,
+    Texte,
+    is_empty,
+    normalised,
+    type_of,
+)
 from ssilang.messages.message import Said
 
 if TYPE_CHECKING:
@@ -129,10 +139,11 @@ class PhraseRunner(OperandReader):
             tell_held_word(error, operand)
             tell_line_begun(error, operand)
             tell_unread_word(error, call.operands, found)
-            if error.code == "internal" and (cause := self._not_finite(call.used)) is not None:
-                told = {"operator": found.full_name, "operand": cause.span.text[:40]}
-                raise SsiError("operand-not-finite", cause.span, **told) from error
+            if error.code == "internal":
+                self._blame(call.used, found.full_name, error)
             raise
+        if not found.empties:
+            self._tell_empty(call.used, found.full_name)
         span = operand.span
         if self._overflowed:
             self._overflowed = False
@@ -177,6 +188,28 @@ class PhraseRunner(OperandReader):
         if self.session.was_interrupted():
             raise KeyboardInterrupt
         return result
+
+    def _blame(self, operands: Sequence[Operand], name: str, error: SsiError) -> None:
+        """Refuse the operand that an operator failed over: NaN, or nothing in it.
+
+        Raises
+        ------
+        SsiError
+            'operand-not-finite' or 'operand-holds-nothing'.
+        """
+        wrong, code = self._not_finite(operands), "operand-not-finite"
+        if wrong is None:
+            wrong, code = next(_empty_ones(operands), None), "operand-holds-nothing"
+        if wrong is not None:
+            raise SsiError(code, wrong.span, operator=name, operand=wrong.span.text[:40]) from error
+
+    def _tell_empty(self, operands: Sequence[Operand], name: str) -> None:
+        """Tell of operands that hold nothing, where the script itself calls."""
+        session = self.session
+        for operand in _empty_ones(operands):
+            if session.frame.procedure not in session.library.standard_names:
+                told = {"operator": name, "operand": operand.span.text[:40]}
+                session.warn("operand-empty", operand.span, found=type_of(operand.value), **told)
 
     def _refuse_overflow(self, call: Call, results: Any, name: str) -> None:
         """Refuse results with infinite numbers made of finite ones.
@@ -223,6 +256,16 @@ def _begins_long_chain(operands: Sequence[Operand]) -> bool:
     return all(
         isinstance(o.value, Mot) and o.value in _SIGNS for o in operands[1 : _PART + 1 : 2]
     ) and not any(isinstance(o.value, Mot | Procedure | Texte) for o in operands[:_PART:2])
+
+
+def _empty_ones(operands: Iterable[Operand]) -> Iterator[Operand]:
+    """Operands that hold nothing; tables that are made when they are asked for hold something."""
+    for operand in operands:
+        value = operand.value
+        if type_of(value) not in MAY_BE_EMPTY or isinstance(value, LazyTable | LazyRows):
+            continue
+        if is_empty(value):
+            yield operand
 
 
 def _words_of(item: tree.Quoted) -> list[tree.Item]:

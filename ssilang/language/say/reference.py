@@ -233,9 +233,9 @@ def _said(a: Argument, language: str) -> str:
     default = f" (= {a.default})" if a.optional and a.default not in (None, ()) else ""
     bounds = [("", a.range), ("help.usual-range", a.usual)]
     told = [
-        f"; {teller(language)(code) + ' ' if code else ''}{bounds_told(b, a.name, language)}"
+        f"; {teller(language)(code) + ' ' if code else ''}{bound}"
         for code, b in bounds
-        if b.bounded
+        if (bound := bounds_told(b, a.name, language))
     ]
     return f"{_meaning(a, language)}{unit}{default}{''.join(told)}"
 

@@ -92,6 +92,8 @@ class TableEntry:
         Numbers outside of `range` are refused, outside of `usual` told.
     only : dict
         Words of entries beside it without which it counts for nothing.
+    by : str
+        What any index is the name of: 'unknown'.
     """
 
     path: tuple[str, ...]
@@ -111,6 +113,7 @@ class TableEntry:
     range: Range = UNSAID
     usual: Range = UNSAID
     only: Mapping[str, tuple[str, ...]] | None = None
+    by: str = ""
 
     @property
     def index(self) -> str:
@@ -280,6 +283,7 @@ def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntr
         range=read_range(said.get("range", "")),
         usual=read_range(said.get("usual", "")),
         only={i: tuple(words) for i, words in said["only"].items()} if "only" in said else None,
+        by=said.get("by", ""),
     )
 
 

@@ -120,7 +120,7 @@ def _sameness(entry: TableEntry) -> tuple[object, ...]:
 
 def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> Row:
     entry = group[0]
-    deep, names = len(entry.path) - 2, [_index(e.index, language) for e in group]
+    deep, names = len(entry.path) - 2, [_index(e, language) for e in group]
     if deep and declared.at(entry.path[:-2], entry.path[-2]) is None:  # the table has no row
         deep -= 1
         names = [f"{e.path[-2]} . {name}" for e, name in zip(group, names, strict=True)]
@@ -130,8 +130,7 @@ def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> R
     if entry.values:
         meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
     for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
-        if bound.bounded:
-            told = bounds_told(bound, entry.index, language)
+        if told := bounds_told(bound, entry.index, language):
             meaning += f"\n{teller(language)(code)}{COLON[language]}{told}"
     types = " | ".join(entry.types) or teller(language)("help.any")
     return index, types, entry.unit, _default(entry, language), meaning
@@ -143,9 +142,12 @@ def bounds_told(bound: Range, name: str, language: str) -> str:
     return ", ".join(filter(None, words))
 
 
-def _index(index: str, language: str) -> str:
-    special = {NUMBER: "help.any-integer", ANYTHING: "help.any-index"}.get(index)
-    return teller(language)(special) if special else index
+_ANY = {"": "help.any-index", "unknown": "help.any-unknown"}
+
+
+def _index(entry: TableEntry, language: str) -> str:
+    special = {NUMBER: "help.any-integer", ANYTHING: _ANY[entry.by]}.get(entry.index)
+    return teller(language)(special) if special else entry.index
 
 
 def _allowed(entry: TableEntry) -> str:

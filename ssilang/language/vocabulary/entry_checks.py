@@ -32,7 +32,10 @@ _TRUTH = "LOGIQUE"
 _TRUTH_WORDS = {"VRAI": True, "FAUX": False}
 
 
-_OF_ENTRIES = {"out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing"}
+_OF_ENTRIES = {
+    "out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing",
+    "not-finite": "entry-not-finite",
+}  # fmt: skip
 
 MADE_BY = {
     "CHARGEME": "CHAR 'MECA' CHPO1 EVOL1",

@@ -68,7 +68,7 @@ class Range:
     """Finite numbers from `low` to `high`; an open end does not belong to it.
 
     Lists of `increasing` ones have at least one number, and each is above the one before. Of one
-    without `zero` that number makes no sense.
+    without `zero` that number makes no sense. What is `carried` may be infinite or no number.
     """
 
     low: float = -math.inf
@@ -77,17 +77,18 @@ class Range:
     open_high: bool = False
     increasing: bool = False
     zero: bool = True
+    carried: bool = False
 
     @property
     def bounded(self) -> bool:
         """Whether there are numbers outside of it."""
-        return self is not UNSAID and self is not ANY_NUMBER
+        return self is not UNSAID and not self.carried
 
     def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
         """What is wrong with a number or a list of them: a code and data; None if nothing is.
 
-        Nothing is judged where any number has sense, and of other objects a vector alone, where
-        it must not be zero.
+        Nothing is judged where numbers are carried, and of other objects a vector alone, where it
+        must not be zero.
         """
         if not self.bounded or isinstance(value, bool):
             return None
@@ -114,7 +115,8 @@ class Range:
         return "not-increasing", {**told, "count": numbers.size}
 
     def _outside(self, value: float, name: str) -> tuple[str, dict[str, object]]:
-        return "out-of-range", {"value": value, "range": self.text(name) or f"|{name}| < inf"}
+        text = self.text(name)
+        return "out-of-range" if text else "not-finite", {"value": value, "range": text}
 
     def __contains__(self, value: float) -> bool:
         above = value > self.low if self.open_low else value >= self.low
@@ -155,7 +157,9 @@ def read_range(text: str) -> Range:
 UNSAID = Range()
 """Nothing is declared: of what is no number."""
 ANY_NUMBER = Range(open_low=True, open_high=True)
-"""Any number has sense: coordinates, forces, terms of lists; of NaN operators tell themselves."""
+"""Any finite number has sense: coordinates, forces, factors."""
+CARRIED = Range(open_low=True, open_high=True, carried=True)
+"""What came with a warning when a list was divided by zero goes on: values of lists."""
 NOT_ZERO = Range(zero=False)
 CELLS_ALONG = Range(-1e7, 1e7, zero=False)
 """Elements of a line, layers of a body, graded if negative; more would not fit in memory."""

@@ -38,7 +38,7 @@ from ssilang.language.values import (
     ListReel,
     Table,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE, POSITIVE
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -58,6 +58,19 @@ _ORDINATE = opt("y_name", "MOT", en="name of the ordinates")
 _COMPONENT = opt("name", "MOT", en="component", kind="component")
 
 _BASIS = arg("basis", "TABLE", "MMODEL", en="basis of shapes")
+_X = arg("x", *_LISTS, en="abscissas", range=CARRIED)
+_Y = arg("y", *_LISTS, en="ordinates", range=CARRIED)
+_REALS = arg("x", "LISTREEL", en="abscissas", range=CARRIED)
+_PARTS = (
+    arg("first", "LISTREEL", en="first parts", range=CARRIED),
+    arg("second", "LISTREEL", en="second parts", range=CARRIED),
+)
+TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER)
+_ITS_TIMES = arg("times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER)
+STEPS = opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE)
+COUNT = opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it")
+SHAPES = opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE)
+_CELL = arg("cell", "ENTIER", en="zone, cell, point", range=POSITIVE)
 
 # what EVOL reads, for its help
 _ENTRIES: dict[str, list[Entry]] = {
@@ -65,9 +78,9 @@ _ENTRIES: dict[str, list[Entry]] = {
         key("type", "TYPE", arg("type", "MOT"), en="type of the ordinates"),
         key("legend", "LEGE", arg("legend", "MOT"), en="legend"),
         _ABSCISSA,
-        arg("x", *_LISTS, en="abscissas", range=ANY_NUMBER),
+        _X,
         _ORDINATE,
-        arg("y", *_LISTS, en="ordinates", range=ANY_NUMBER),
+        _Y,
     ],
     "COMP": [
         choice(
@@ -81,11 +94,11 @@ _ENTRIES: dict[str, list[Entry]] = {
             en="legends",
         ),
         _ABSCISSA,
-        arg("x", "LISTREEL", en="abscissas", range=ANY_NUMBER),
+        _REALS,
         _ORDINATE,
-        arg("first", "LISTREEL", en="first parts", range=ANY_NUMBER),
+        _PARTS[0],
         opt("second_name", "MOT", en="name of the second"),
-        arg("second", "LISTREEL", en="second parts", range=ANY_NUMBER),
+        _PARTS[1],
     ],
     "CHPO": [
         arg("field", "CHPOINT", en="field"),
@@ -94,9 +107,9 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
     "TEMP": [
         arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
-        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
+        TIMES,
         opt("index", "MOT", en="what of the results"),
-        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
+        STEPS,
         opt(
             "names",
             "MOT",
@@ -109,9 +122,9 @@ _ENTRIES: dict[str, list[Entry]] = {
     ],
     "RECO": [
         arg("history", "LISTCHPO", "TABLE", en="contributions in time"),
-        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
+        TIMES,
         _BASIS,
-        opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
+        COUNT,
         opt("load", "CHARGEME", en="load of pseudo-modes"),
         choice(
             "quantity",
@@ -133,14 +146,14 @@ _ENTRIES: dict[str, list[Entry]] = {
         flag("modes", "ALFA", en="of its modes"),
         opt("support", "POINT", "MAILLAGE", "CHPOINT", en="marks"),
         _COMPONENT,
-        opt("times", "LISTREEL", en="times", unit="s", range=ANY_NUMBER),
+        TIMES,
     ],
     "PJBA": [
         arg("history", "LISTCHPO", "TABLE", en="fields in time"),
-        opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
-        opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE),
+        TIMES,
+        STEPS,
         _BASIS,
-        opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE),
+        SHAPES,
         opt("metric", "RIGIDITE", en="matrix of the product"),
     ],
 }
@@ -170,9 +183,9 @@ def _manual(call: Call, colours: list[int]) -> Curve:
         value = str(call.required("MOT", after=call.keyword_end))
         kind, legend = (value.strip().upper()[:4], legend) if said == "TYPE" else (kind, value)
     x_name = axis_name(call)
-    x = call.required(*_LISTS)
+    x = call.given(_X)
     y_name = axis_name(call)
-    y = call.required(*_LISTS)
+    y = call.given(_Y)
     if len(x) != len(y):
         raise call.error(
             "operators.curves.abscissas-and-ordinates-differ", y, n_x=len(x), n_y=len(y)
@@ -200,11 +213,11 @@ def _complex(call: Call, colours: list[int]) -> Curve:
         else:
             form = said
     x_name = axis_name(call)
-    x = call.required("LISTREEL")
+    x = call.given(_REALS)
     names, values = [], []
-    for _ in range(2):
+    for part in _PARTS:
         names.append(axis_name(call))
-        values.append(call.required("LISTREEL").values)
+        values.append(call.given(part).values)
     if len({len(x), len(values[0]), len(values[1])}) > 1:
         raise call.error(
             "operators.curves.lists-differ",
@@ -292,11 +305,11 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     results = next((o.value for o in call.operands if isinstance(o.value, Table)), None)
     fields, times, title = history(call, unmade=True)
     results = results if title else None
-    chosen = call.read("LISTENTI")
+    chosen = call.given(STEPS)
     if chosen is not None:
-        places = chosen.value.values - 1 if not title else chosen.value.values
+        places = chosen.values - 1 if not title else chosen.values
         if np.any(places < 0) or np.any(places >= len(fields)):
-            raise call.error("operators.curves.no-such-step", chosen.value, n_fields=len(fields))
+            raise call.error("operators.curves.no-such-step", chosen, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
     if isinstance(fields, RecordedPoints) or (fields and isinstance(fields[0], CellField)):
         return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
@@ -345,7 +358,7 @@ def _in_a_cell(
 ) -> Curve:
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()
-    zone, cell, point = (call.required("ENTIER") for _ in range(3))
+    zone, cell, point = (call.given(_CELL) for _ in range(3))
     if isinstance(fields, RecordedPoints):
         recorded = fields.history(name, zone, cell, point)
         if recorded is not None:
@@ -390,7 +403,7 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
     if operand is None:
         raise call.missing(("LISTCHPO", "TABLE"))
     if isinstance(operand.value, ListChpo):
-        times = call.required("LISTREEL").values
+        times = call.given(_ITS_TIMES).values
         fields = list(operand.value.values)
         if len(times) != len(fields):
             raise call.error(

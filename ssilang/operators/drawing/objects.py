@@ -43,8 +43,8 @@ def _arrows_union(left: Arrows, right: Arrows) -> Arrows:
 
 
 def is_colour(word: str) -> bool:
-    """Whether a word names a colour."""
-    return word.strip().upper()[:4] in COLOURS
+    """Whether a word names a colour, by four letters; several words are a text."""
+    return word.strip().upper()[:4] in COLOURS and " " not in word.strip()
 
 
 @operator(

@@ -84,7 +84,11 @@ def _loose(problem: Problem, _: Inputs) -> Told:
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
-    loose = list(Bodies(problem).loose())
+    bodies = Bodies(problem)
+    for sunk in bodies.sunk():
+        told = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
+        yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
+    loose = list(bodies.loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
         yield "operators.dynamics.turns-away", {}
     for found in loose:

@@ -25,7 +25,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
 from ssilang.operators.dispatch import MAXI, MINI
 
 Numbers = ListReel | ListEnti
@@ -141,13 +141,13 @@ def _add_forms(operator: Operator, largest: bool) -> None:
     operator.form(
         main("value", "ENTIER", "FLOTTANT", en="first number"),
         _ABSOLUTE,
-        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=ANY_NUMBER),
+        many("others", "ENTIER", "FLOTTANT", en="more numbers", range=CARRIED),
         gives="FLOTTANT|ENTIER",
     )(partial(_of_numbers, largest=largest))
     operator.form(
         main("value", "LISTREEL", "LISTENTI", en="list"),
         _ABSOLUTE,
-        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=ANY_NUMBER),
+        many("others", "LISTREEL", "LISTENTI", en="lists of the same length", range=CARRIED),
         gives=by("others", {True: "LISTREEL|LISTENTI"}, "FLOTTANT|ENTIER"),
     )(partial(_of_lists, largest=largest))
     operator.form(

@@ -19,9 +19,10 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import Nature, NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import When, arg, main
+from ssilang.language.registry import When, arg, main, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import INVE, PSCA, PVEC, worded_union
 from ssilang.operators.numbers.arithmetic import _ARRAY, RULES, SIGNS, rule, rule_with_call
 
@@ -196,15 +197,18 @@ def _multiply_cells(
     return cell_algebra.multiplied(a, b, sign == "/", _of_objects)
 
 
+_FACTORS = opt("factors", "LISTREEL", en="factors of triples of names", range=ANY_NUMBER)
+
+
 def _coefficients(call: Call, count: int) -> FloatArray | None:
     """A factor for each triple of names, if a list of numbers follows them."""
-    given = call.read("LISTREEL")
+    given = call.given(_FACTORS)
     if given is None:
         return None
-    factors = np.asarray(given.value.values, dtype=float)
+    factors = np.asarray(given.values, dtype=float)
     if len(factors) != count:
         raise call.error(
-            "operators.fields.factor-count", given.value, n_factors=len(factors), n_names=count
+            "operators.fields.factor-count", given, n_factors=len(factors), n_names=count
         )
     return factors
 

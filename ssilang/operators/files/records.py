@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
+
 from ssilang.io.ground_motions.cosmos import read_cosmos
 from ssilang.io.ground_motions.esm import read_esm
 from ssilang.io.ground_motions.peer import read_peer
@@ -98,6 +102,8 @@ def _curve(
         elif nameless:
             call.warn("operators.files.record-without-unit", file=file, kind=kind)
     for record in records:
+        for code, value, most in _odd(record):
+            call.warn(code, file=file, value=value, most=most)
         if record.left_out:
             call.warn(
                 "operators.files.record-longer", file=file, count=len(record.values),
@@ -105,6 +111,22 @@ def _curve(
             )  # fmt: skip
     parts = tuple(_part(call, r, factor, in_si) for r in records)
     return Curve(parts, records[0].event[:72])
+
+
+_SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
+"""Longest step of a record (s), longest over the median step, largest acceleration (m/s2)."""
+
+
+def _odd(record: GroundMotion) -> Iterator[tuple[str, float, float]]:
+    """What no ground motion shows: codes with a value and the most that is usual."""
+    steps, peak = np.diff(record.times), record.in_si * float(np.abs(record.values).max())
+    usual, longest = (float(np.median(steps)), float(steps.max())) if steps.size else (0.0, 0.0)
+    if usual > _SLOW:
+        yield "operators.files.record-slow", usual, _SLOW
+    elif longest > _GAP * usual:
+        yield "operators.files.record-gap", longest, usual
+    if record.has_unit and record.quantity == "ACCE" and peak > _STRONG:
+        yield "operators.files.record-strong", peak, _STRONG
 
 
 def _part(call: Call, record: GroundMotion, factor: float | None, in_si: bool) -> CurvePart:

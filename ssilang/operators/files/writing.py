@@ -23,7 +23,7 @@ from ssilang.language.registry import (
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import CARRIED, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
@@ -58,7 +58,7 @@ _NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
         "TABLE",
         at_least=1,
         en="lists, or what holds them",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
     key("width", "NCOL", _NUMBER, en="columns side by side"),
     key("digits", "DIGI", _NUMBER, en="decimals"),
@@ -117,8 +117,8 @@ def _chai(call: Call, word: str) -> None:
 @SORT.form(
     said("BILA"),
     lead("name", "MOT", en="name of the figure"),
-    arg("value", "FLOTTANT", en="figure", range=ANY_NUMBER),
-    opt("expected", "FLOTTANT", en="value expected", range=ANY_NUMBER),
+    arg("value", "FLOTTANT", en="figure", range=CARRIED),
+    opt("expected", "FLOTTANT", en="value expected", range=CARRIED),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
 )
 def _bila(

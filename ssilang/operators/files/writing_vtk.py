@@ -59,6 +59,9 @@ class _Said:
             self.cells[name or f"CHEL{len(self.cells) + 1}"] = value
 
 
+_TIME = arg("t", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
+
+
 @SORT.form(
     said("VTK"),
     many(
@@ -73,7 +76,7 @@ class _Said:
         _FORMATS,
         en="files by instant and mesh with a list, or one file for all (VTU if nothing is said)",
     ),
-    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
+    key("time", "TEMP", _TIME, en="time, in s"),
     flag("double", "DOUBLE_PRECISION", en="changes nothing"),
     gives=(),
     by_hand="a word right behind an object is its name, unless it says an option",
@@ -159,7 +162,7 @@ def _read(call: Call) -> _Said:
         elif word in _LISTS:
             said.listing = str(word)
         elif word == "TEMP":
-            said.time = float(call.required("FLOTTANT", after=call.keyword_end))
+            said.time = float(call.given(_TIME, call.keyword_end))
         if word is not None:
             continue
         operand = call.read(*_OBJECTS)

@@ -19,7 +19,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
@@ -49,8 +49,8 @@ def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("whole", "LISTREEL", en="list of reals", range=ANY_NUMBER),
-    arg("number", "FLOTTANT", en="number looked for", range=ANY_NUMBER),
+    arg("whole", "LISTREEL", en="list of reals", range=CARRIED),
+    arg("number", "FLOTTANT", en="number looked for", range=CARRIED),
 )
 def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
     return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
@@ -58,8 +58,8 @@ def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
 
 @DANS.form(
     _WAY,
-    arg("part", "LISTREEL", en="list of reals", range=ANY_NUMBER),
-    arg("whole", "LISTREEL", en=_SECOND, range=ANY_NUMBER),
+    arg("part", "LISTREEL", en="list of reals", range=CARRIED),
+    arg("whole", "LISTREEL", en=_SECOND, range=CARRIED),
 )
 def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
     left, right = part.values, whole.values
@@ -94,8 +94,8 @@ Subtracted = ListReel | ListEnti | ListMots
 
 @operator(
     "SAUF",
-    arg("first", *_SUBTRACTED, en="list", range=ANY_NUMBER),
-    arg("second", *_SUBTRACTED, en="items to leave out", range=ANY_NUMBER),
+    arg("first", *_SUBTRACTED, en="list", range=CARRIED),
+    arg("second", *_SUBTRACTED, en="items to leave out", range=CARRIED),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("first"),
@@ -115,7 +115,7 @@ def sauf(
 
 @INTE.form(
     main("first", "LISTREEL", en="first list"),
-    arg("second", "LISTREEL", en="second list", range=ANY_NUMBER),
+    arg("second", "LISTREEL", en="second list", range=CARRIED),
 )
 def common_reals(first: ListReel, second: ListReel) -> ListReel:
     """Values in both lists, in the order of the first."""

@@ -32,7 +32,7 @@ from ssilang.language.values import (
     Mot,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, POSITIVE
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
@@ -139,7 +139,7 @@ _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
 
 @ENLE.form(
     main("places", "LISTENTI", en="places, before the list"),
-    arg("value", *_OTHER_LISTS, en="list", range=ANY_NUMBER),
+    arg("value", *_OTHER_LISTS, en="list", range=CARRIED),
     gives=Like("value"),
 )
 def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
@@ -170,7 +170,7 @@ for _kind, _item in _ITEM.items():
     INSE.form(
         _list(_kind),
         arg("place", "ENTIER", en="place, from 1", range=POSITIVE),
-        arg("item", _item, en="item to put there", range=ANY_NUMBER),
+        arg("item", _item, en="item to put there", range=CARRIED),
         gives=_kind,
     )(_insert)
 
@@ -191,9 +191,9 @@ def _replace(call: Call, value: AnyList, places: int | ListEnti, new: Any) -> No
 
 def _replacing(kind: str) -> None:
     REMP.form(
-        arg("value", kind, en="list", range=ANY_NUMBER),
+        arg("value", kind, en="list", range=CARRIED),
         _PLACES,
-        arg("new", _ITEM[kind], kind, en="item, or one for each place", range=ANY_NUMBER),
+        arg("new", _ITEM[kind], kind, en="item, or one for each place", range=CARRIED),
     )(_replace)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.language.registry import Entry, arg, key, many, operator, select
+from ssilang.language.registry import Entry, arg, key, many, operator, opt, select
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.values import (
     ListChpo,
@@ -22,41 +22,53 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 
 _REAL = ("ENTIER", "FLOTTANT")
+LONGEST = 20_000_000
+"""Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 _FREE = "its items, steps and repetitions stand in any order"
+
+
+_KINDS = {"FLOTTANT": _REAL, "ENTIER": ("ENTIER",)}
+_STEP = {k: arg("step", *v, en="step", range=ANY_NUMBER) for k, v in _KINDS.items()}
+_ITEM = {k: arg("item", *v, en="item", range=CARRIED) for k, v in _KINDS.items()}
+_NEXT = {
+    k: opt("item", *v, "LISTREEL", "LISTENTI", en="item, or list of them", range=CARRIED)
+    for k, v in _KINDS.items()
+}
+_RATIO = arg("ratio", "FLOTTANT", en="ratio of steps", range=ANY_NUMBER)
+_COUNT = arg("count", "ENTIER", en="number of steps", range=NOT_NEGATIVE)
+_TIMES = arg("count", "ENTIER", en="repetitions", range=NOT_NEGATIVE)
+_FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER)
+_SETTINGS = {
+    "PHAS": arg("phase", "FLOTTANT", en="phase", unit="deg", range=ANY_NUMBER),
+    "AMPL": arg("size", "FLOTTANT", en="amplitude", range=ANY_NUMBER),
+    "A": arg("a", "FLOTTANT", en="slope", range=ANY_NUMBER),
+    "B": arg("b", "FLOTTANT", en="constant", range=ANY_NUMBER),
+}
 
 
 def _items(kind: str) -> tuple[Entry, ...]:
     """What `_read_items` reads."""
     return (
         many(
-            "items",
-            kind,
-            "LISTREEL",
-            "LISTENTI",
-            en="items, lists of them, or N * item",
-            range=ANY_NUMBER,
+            "items", kind, "LISTREEL", "LISTENTI", en="items, lists of them, or N * item",
+            range=CARRIED,
         ),
         key(
-            "steps",
-            "PAS",
-            arg("step", kind, range=ANY_NUMBER),
-            repeated=True,
+            "steps", "PAS", _STEP[kind], repeated=True,
             en="from the item before to the one behind by steps",
         ),
-        key("ratio", "GEOM", arg("ratio", "FLOTTANT", range=ANY_NUMBER), en="ratio of steps"),
-        key("count", "NPAS", arg("count", "ENTIER", range=NOT_NEGATIVE), en="number of steps"),
-    )
+        key("ratio", "GEOM", _RATIO, en="ratio of steps"),
+        key("count", "NPAS", _COUNT, en="number of steps"),
+    )  # fmt: skip
 
 
 _FACTORS = (
-    key("a", "A", arg("a", "FLOTTANT", range=ANY_NUMBER), en="slope, 1 by default"),
-    key("b", "B", arg("b", "FLOTTANT", range=ANY_NUMBER), en="constant, 1 by default"),
+    key("a", "A", _SETTINGS["A"], en="slope, 1 by default"),
+    key("b", "B", _SETTINGS["B"], en="constant, 1 by default"),
 )
-LONGEST = 20_000_000
-"""Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 
 
 def check_length(count: float) -> None:
@@ -107,10 +119,9 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
             _extend(items, _steps(call, items[-1] if items else 0, kinds))
             check_length(len(items))
             continue
-        operand = call.read(*kinds, "LISTREEL", "LISTENTI")
-        if operand is None:
+        value = call.given(_NEXT[kinds[-1]])
+        if value is None:
             return items
-        value = operand.value
         if isinstance(value, ListReel | ListEnti):
             _extend(items, value.values)
         elif _star(call):
@@ -141,21 +152,19 @@ def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if not 0 <= count < math.inf or count != int(count):
         raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
-    return [call.required(*kinds)] * int(count)
+    return [call.given(_ITEM[kinds[-1]])] * int(count)
 
 
 def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatArray:
-    step = call.required(*kinds, after=call.keyword_end)
+    step = call.given(_STEP[kinds[-1]], call.keyword_end)
     ratio = None
     if call.keyword(("GEOM",)) is not None:
-        ratio = call.required("FLOTTANT", after=call.keyword_end)
+        ratio = call.given(_RATIO, call.keyword_end)
     if call.keyword(("NPAS",)) is not None:
-        count = call.required("ENTIER", after=call.keyword_end)
-        if count < 0:
-            raise call.error("operators.lists.negative-step-count", count, count=count)
+        count = call.given(_COUNT, call.keyword_end)
         check_length(count)
         return _progression(start, step, count, ratio)
-    end = call.required(*kinds)
+    end = call.given(_ITEM[kinds[-1]])
     more: list[Any] = []
     if _star(call):
         more = _repeated(call, end, kinds)
@@ -253,9 +262,9 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
         "function",
         {
             "SINU": [
-                arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
-                key("phase", "PHAS", arg("p", "FLOTTANT", range=ANY_NUMBER), en="phase, degrees"),
-                key("size", "AMPL", arg("a", "FLOTTANT", range=ANY_NUMBER), en="amplitude"),
+                _FREQUENCY,
+                key("phase", "PHAS", _SETTINGS["PHAS"], en="phase, degrees"),
+                key("size", "AMPL", _SETTINGS["AMPL"], en="amplitude"),
             ],
             "LINE": _FACTORS,
             "EXPO": _FACTORS,
@@ -305,10 +314,10 @@ def _by_integers(call: Call, table: Table, kinds: tuple[str, ...] = ()) -> list[
 
 def _function_of_list(call: Call, word: str) -> ListReel:
     settings = {"PHAS": 0.0, "AMPL": 1.0, "A": 1.0, "B": 0.0}
-    frequency = call.required("FLOTTANT", after=call.keyword_end) if word == "SINU" else 0.0
+    frequency = call.given(_FREQUENCY, call.keyword_end) if word == "SINU" else 0.0
     names = ("PHAS", "AMPL") if word == "SINU" else ("A", "B")
     while (name := call.keyword(names)) is not None:
-        settings[name] = call.required("FLOTTANT", after=call.keyword_end)
+        settings[name] = call.given(_SETTINGS[name], call.keyword_end)
     call.keyword(("PROG",))
     x = np.asarray(_read_items(call, _REAL), dtype=float)
     if word == "SINU":
@@ -349,10 +358,10 @@ def mots(call: Call) -> ListMots:
         call.take_first(row)
         operand = call.operands[0] if call.operands else None
         if operand is not None and type(operand.value) is int:
-            count = call.required("ENTIER")
+            count = call.given(_TIMES)
             if not _star(call):
                 raise call.error("operators.lists.number-among-words", count)
-            check_length(len(words) + max(count, 0))
+            check_length(len(words) + count)
             words += [str(call.required("MOT"))] * count
             continue
         found = call.read("MOT")

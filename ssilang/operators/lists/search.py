@@ -27,7 +27,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
 
@@ -56,7 +56,7 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     key(
         "where",
         "DANS",
-        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=ANY_NUMBER),
+        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=CARRIED),
         optional=False,
         en="where it is looked for",
     ),
@@ -173,7 +173,7 @@ _COST = (
     choice("method", ("HONG", "COMP"), en="changes nothing: the best is found"),
 )
 _SORTED = main("value", *SORTABLE, en="list to sort by")
-_OTHERS = many("others", *SORTABLE, en="lists that follow it", range=ANY_NUMBER)
+_OTHERS = many("others", *SORTABLE, en="lists that follow it", range=CARRIED)
 
 
 @ORDO.form(
@@ -195,7 +195,14 @@ def _sort_by_cost(
     return (total, *(taken(v, order) for v in lists))
 
 
-@ORDO.form(_SORTED, *_ORDER, _DISTINCT, _OTHERS, gives=Like("value", ("others",)))
+@ORDO.form(
+    _SORTED,
+    *_ORDER,
+    _DISTINCT,
+    _OTHERS,
+    opt("table", "TABLE", en="refused: a table of lists stands before the list"),
+    gives=Like("value", ("others",)),
+)
 def _sort_lists(
     call: Call,
     value: Sortable,
@@ -204,7 +211,10 @@ def _sort_lists(
     fold: bool,
     distinct: float | None,
     others: tuple[Sortable, ...],
+    table: Table | None,
 ) -> Any:
+    if table is not None:
+        raise call.error("operators.lists.table-before-list", table)
     lists = _together(call, value, others)
     places = sorting(value.values, order == "DECR", absolute, fold)
     if distinct is not None:
@@ -289,7 +299,7 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
 
 @UNIQ.form(
     main("value", *SORTABLE, "MAILLAGE", en="list, or mesh"),
-    many("others", *SORTABLE, "MAILLAGE", en="further ones", range=ANY_NUMBER),
+    many("others", *SORTABLE, "MAILLAGE", en="further ones", range=CARRIED),
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
     flag("fold", "NOCA", en="whatever the case"),
     gives=Like("value", ("others",)),

@@ -13,7 +13,16 @@ from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
-from ssilang.operators.curves.evol import KINDS, history, names_in_time, nodes_named
+from ssilang.operators.curves.evol import (
+    COUNT,
+    KINDS,
+    SHAPES,
+    STEPS,
+    TIMES,
+    history,
+    names_in_time,
+    nodes_named,
+)
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
@@ -43,12 +52,11 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     if isinstance(first, Table):
         return _recombined_results(call, colours)
     fields, times, _ = history(call)
-    steps = call.read("LISTENTI")
+    steps = call.given(STEPS)
     shapes = _basis(call)
-    count = call.optional("ENTIER")
-    shapes = shapes[:count]
+    shapes = shapes[: call.given(COUNT)]
     if steps is not None:
-        places = _places(call, steps.value, len(fields))
+        places = _places(call, steps, len(fields))
         fields, times = [fields[i] for i in places], times[places]
     known = [s.field for s in shapes]
     names = names_in_time(call, known)
@@ -96,9 +104,9 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
         weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
         known += [p.field for p in pseudo]
     places = _places_asked(call, known)
-    at = call.read("LISTREEL")
+    at = call.given(TIMES)
     if at is not None:
-        weights, times = _at(call, at.value, times, weights), np.asarray(at.value.values)
+        weights, times = _at(call, at, times, weights), np.asarray(at.values)
     return _curves(call, times, weights, known, places, colours)
 
 
@@ -146,9 +154,9 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         places = _places_asked(call, fields[:1])
     names = [c for c, _ in places]
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
-    at = call.read("LISTREEL")
+    at = call.given(TIMES)
     if at is not None:
-        weights, times = _at(call, at.value, times, weights), np.asarray(at.value.values)
+        weights, times = _at(call, at, times, weights), np.asarray(at.values)
     parts = [
         CurvePart(times, weights[:, i], "TEMP", c, c, colours[i % len(colours)])
         for i, c in enumerate(names)
@@ -165,19 +173,18 @@ def _places(call: Call, steps: ListEnti, count: int) -> list[int]:
 
 def _projected(call: Call, colours: list[int]) -> Curve:
     fields, times, _ = history(call)
-    steps = call.read("LISTENTI") if _lists_before_table(call) else None
+    steps = call.given(STEPS) if _lists_before_table(call) else None
     shapes = _basis(call)
-    chosen = call.read("ENTIER", "LISTENTI")
+    chosen = call.given(SHAPES)
     matrix = call.optional("RIGIDITE")
     if steps is not None:
-        places = _places(call, steps.value, len(fields))
+        places = _places(call, steps, len(fields))
         fields, times = [fields[i] for i in places], times[places]
     numbers = list(range(1, len(shapes) + 1))
     if chosen is not None:
-        value = chosen.value
-        numbers = [int(i) for i in value.values] if isinstance(value, ListEnti) else [value]
-        if any(not 1 <= i <= len(shapes) for i in numbers):
-            raise call.error("operators.modal.no-such-shape", value, n_shapes=len(shapes))
+        numbers = [int(i) for i in chosen.values] if isinstance(chosen, ListEnti) else [chosen]
+        if any(i > len(shapes) for i in numbers):
+            raise call.error("operators.modal.no-such-shape", chosen, n_shapes=len(shapes))
     parts = []
     for k, number in enumerate(numbers):
         shape = shapes[number - 1].field

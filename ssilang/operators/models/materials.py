@@ -17,7 +17,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.materials.parameters import geometric_names, known_names
+from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
 from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
 from ssilang.kernel.materials.plastic.tension_curve import hardening_of
@@ -142,7 +142,7 @@ def _parameters(
             check_joint(zone, {name: value for name, (value, _) in values.items()})
     for zone, values in zip(model.zones, given, strict=True):
         refuse_outside(call, zone, values, said)
-        _warn_of_nothing(call, values, said)
+        _warn_of_nothing(call, zone, values, said)
         if of_laws:
             check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
@@ -181,15 +181,20 @@ def check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) 
         raise call.error(problem.code, at, **problem.data) from problem
 
 
-def _warn_of_nothing(call: Call, values: Values, said: dict[str, Any]) -> None:
-    """Warn of a modulus of nought, which leaves a system singular where nothing else holds it."""
+def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
+    """Warn of a modulus of nought, which leaves a system singular where nothing else holds it,
+    and of what changes nothing in the zone's mode."""
     session = call.session
-    if "YOUN" not in said or "YOUN" not in values or "VISQ" in values:
+    if session.frame.procedure in session.library.standard_names:
         return
-    if session.frame.procedure not in session.library.standard_names:
-        array = values["YOUN"][0]
-        if array.dtype == float and (array == 0.0).any():
-            warning = call.error("operators.models.no-stiffness", said["YOUN"])
+    told = [(n, "operators.models.idle-parameter") for n in idle_names(zone) if n in values]
+    youn = values["YOUN"][0] if "YOUN" in values and "VISQ" not in values else np.empty(0)
+    if youn.dtype == float and (youn == 0.0).any():
+        told.append(("YOUN", "operators.models.no-stiffness"))
+    for name, code in told:
+        if name in said:
+            data = {"name": name, "mode": zone.mode.value}
+            warning = call.error(code, said[name], **data)
             warning.warns = True
             session.report(warning)
 

@@ -284,6 +284,15 @@ def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
         raise call.error("operators.models.points-across", count=count)
 
 
+OTHER_ELEMENTS = (
+    "BAEX", "DST", "TUFI", "LISP", "LISM", "LIA2", "LIA3", "LIA4", "LIA6", "LIA8", "JOP3", "JOP6",
+    "JOP8", "JGI2", "JGI4", "JGT3", "JCI4", "JCT3", "SHB6", "TRIP", "QUAP", "CUBP", "TETP",
+    "PRIP", "TRIQ", "QUAQ", "CUBQ", "ZCO2", "ZCO3", "ZCO4", "XQ4R", "XC8R", "RACO", "TRH6",
+    "BBCA", "CIFL", "CAF2", "CAF3",
+)  # fmt: skip
+"""Elements of Cast3M that are not built."""
+
+
 def read_word(call: Call, word: str, wish: Wish) -> None:
     """A formulation, a law or an element.
 
@@ -329,6 +338,8 @@ def _unknown(call: Call, said: str) -> Exception:
             code, written, said=other, known=FORMULATIONS,
             outside="" if subject == IN_SCOPE else Sentence(f"help.subject-{subject}"),
         )  # fmt: skip
+    if said[:4].rstrip() in OTHER_ELEMENTS:
+        return call.error("operators.models.element-not-built", written, said=said)
     if full_word(said, OTHER_BEHAVIOURS):
         code = "operators.models.behaviour-not-available"
         return call.error(code, written, said=said, words=laws)

@@ -16,7 +16,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import CARRIED
 
 
 def nearest(x: Any) -> Any:
@@ -56,7 +56,7 @@ def _whole(call: Call, values: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
     gives="ENTIER|LISTENTI|CHPOINT",
     family="numbers",
@@ -86,7 +86,7 @@ def enti(call: Call, way: str, value: Any) -> Any:
         "LISTMOTS",
         "MOT",
         en="numbers, or words that say them",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
     gives="FLOTTANT|LISTREEL",
     family="numbers",
@@ -103,7 +103,7 @@ def flot(call: Call, value: Any) -> Any:
 
 @operator(
     "VERI",
-    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=ANY_NUMBER),
+    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=CARRIED),
     family="numbers",
 )
 def veri(value: Any) -> bool:

@@ -17,7 +17,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.registry import Like, arg, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED
 
 Function = Callable[[Any], Any]
 OPERANDS = ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")
@@ -123,7 +123,7 @@ _FUNCTIONS: dict[str, Function] = {
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
-_VALUE = arg("value", *OPERANDS, en="argument", range=ANY_NUMBER)
+_VALUE = arg("value", *OPERANDS, en="argument", range=CARRIED)
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
@@ -162,8 +162,8 @@ def ifre(limit: float) -> tuple[float, float]:
 
 @operator(
     "ATG",
-    arg("first", *OPERANDS, en="tangent, or numerator", range=ANY_NUMBER),
-    opt("second", *OPERANDS, en="denominator", range=ANY_NUMBER),
+    arg("first", *OPERANDS, en="tangent, or numerator", range=CARRIED),
+    opt("second", *OPERANDS, en="denominator", range=CARRIED),
     gives=_REALS,
     family="functions",
 )

@@ -28,7 +28,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, POSITIVE
 from ssilang.operators.numbers.functions import mapped
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
@@ -52,15 +52,15 @@ _EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]
 
 def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
-    limit = arg("limit", *limits, en="value to compare with", range=ANY_NUMBER)
+    limit = arg("limit", *limits, en="value to compare with", range=CARRIED)
     return (
         select(
             "test",
             {
                 **{word: [limit] for word in _TESTS},
                 "COMPRIS": [
-                    arg("low", *limits, en="lower bound", range=ANY_NUMBER),
-                    arg("high", *limits, en="upper bound", range=ANY_NUMBER),
+                    arg("low", *limits, en="lower bound", range=CARRIED),
+                    arg("high", *limits, en="upper bound", range=CARRIED),
                 ],
                 **(_EXISTE if kind == "MCHAML" else {}),
             },

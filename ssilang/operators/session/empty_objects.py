@@ -15,7 +15,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import ANY, flag, many, operator, opt
+from ssilang.language.registry import ANY, arg, flag, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import (
     ListChpo,
@@ -25,9 +25,10 @@ from ssilang.language.values import (
     ListReel,
     Mot,
     Table,
+    is_empty,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import ANY_NUMBER, between
 from ssilang.operators.workspace import Workspace, workspace
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
@@ -55,18 +56,11 @@ _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
 }
 
 
-def is_empty(value: Any) -> bool:
-    """Whether an object holds nothing."""
-    if isinstance(value, Annotation):
-        return not value.categories and not value.tags
-    for name in ("blocks", "components", "zones", "parts"):
-        if hasattr(value, name):
-            held = getattr(value, name)
-            relations = getattr(value, "relations", ())
-            if isinstance(value, Mesh):
-                return value.n_cells == 0
-            return len(held) == 0 and len(relations) == 0
-    return len(value) == 0
+_COUNT = arg("count", "ENTIER", en="number of objects", range=between(1, 1e6))
+_PLACES = opt(
+    "places", "LISTENTI", "LISTREEL", "LISTMOTS", en="indices of the table, else 1, 2 ...",
+    range=ANY_NUMBER,
+)  # fmt: skip
 
 
 def _group(call: Call) -> list[Any] | None:
@@ -83,7 +77,7 @@ def _group(call: Call) -> list[Any] | None:
     while call.operands and call.operands[0].span.text in ("/", "*"):
         mark = call.operands.pop(0).span.text
         if mark == "*":
-            count = call.required("ENTIER")
+            count = call.given(_COUNT)
         else:
             sub = str(call.required("MOT")).strip()
     if kind == "MAILLAGE" and sub and sub.upper() not in CELL_TYPES:
@@ -95,14 +89,7 @@ def _group(call: Call) -> list[Any] | None:
 @operator(
     "VIDE",
     flag("tabulated", "TABU", en="in a table"),
-    opt(
-        "places",
-        "LISTENTI",
-        "LISTREEL",
-        "LISTMOTS",
-        en="indices of the table, else 1, 2 ...",
-        range=ANY_NUMBER,
-    ),
+    _PLACES,
     many("types", en="types with sub-type and number, or an object to test"),
     gives=ANY,
     family="objects",
@@ -119,7 +106,7 @@ def vide(call: Call) -> Any:
             )
         return is_empty(tested.value)
     tabulated = call.keyword(("TABU",)) is not None
-    places = call.read("LISTENTI", "LISTREEL", "LISTMOTS") if tabulated else None
+    places = call.given(_PLACES) if tabulated else None
     made: list[Any] = []
     while (group := _group(call)) is not None:
         made += group
@@ -128,9 +115,9 @@ def vide(call: Call) -> Any:
     if not tabulated:
         return tuple(made)
     table = Table()
-    indices = [] if places is None else list(getattr(places.value.values, "tolist", list)() or [])
-    if places is not None and isinstance(places.value, ListMots):
-        indices = list(places.value.values)
+    indices = [] if places is None else list(places.values)
+    if isinstance(places, ListReel | ListEnti):
+        indices = places.values.tolist()
     for i, value in enumerate(made):
         table.set(indices[i] if i < len(indices) else i + 1, value)
     return table

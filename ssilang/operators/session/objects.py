@@ -25,6 +25,7 @@ from ssilang.language.values import (
     Table,
     type_of,
 )
+from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.files.outputs import forbidden_path, run_output
 from ssilang.operators.lists.search import equal_items
 
@@ -114,9 +115,16 @@ def _in_words(call: Call, words: ListMots) -> Any:
     return all(found) if word == "ET" else any(found)
 
 
+_ITEMS = {
+    True: arg("item", "ENTIER", en="integer looked for", range=ANY_NUMBER),
+    False: arg("item", "FLOTTANT", en="real looked for", range=ANY_NUMBER),
+}
+_TOLERANCE = opt("tolerance", "FLOTTANT", en="distance still counted as equal", range=NOT_NEGATIVE)
+
+
 def _in_numbers(call: Call, values: Any) -> bool:
-    item = call.required("ENTIER" if isinstance(values, ListEnti) else "FLOTTANT")
-    tolerance = call.optional("FLOTTANT")
+    item = call.given(_ITEMS[isinstance(values, ListEnti)])
+    tolerance = call.given(_TOLERANCE)
     return bool(np.any(equal_items(values.values, item, tolerance, False)))
 
 

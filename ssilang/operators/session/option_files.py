@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TextIO
 
+from ssilang.language.registry import arg
 from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot
+from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.files.outputs import input_path, output_path, run_output
 from ssilang.operators.workspace import workspace
 
@@ -17,17 +20,20 @@ from ssilang.operators.workspace import workspace
 _FORMATS = ("FORMAT", "FORM", "BINA", "BINAIRE", "XDR", "SUITE", "SUIT", "TAILLE", "FORMATTE")
 
 
+UNIT = arg("unit", "ENTIER", "MOT", en="name of a file, or number of a unit", range=POSITIVE)
+_SIZE = arg("TAILLE", "FLOTTANT", en="size of the file", range=POSITIVE)
+
+
 def read_file_option(call: Call, word: str) -> None:
     """A file's name, or the number of a logical unit; words of format around it are kept."""
     options = workspace(call.session).options
     formats: list[str] = []
     _formats(call, formats)
-    operand = call.read("ENTIER", "MOT")
-    if operand is None:
-        raise call.missing(("MOT", "ENTIER"))
+    value = call.given(UNIT)
     _formats(call, formats)
-    value = operand.value
     options[word] = Mot(value) if isinstance(value, str) else value
+    if word == "FTRA" and isinstance(value, str) and len(Path(value.strip()).parts) > 1:
+        call.warn("operators.session.folder-of-pictures", name=value, kept=Path(value.strip()).stem)
     options[word + " FORMAT"] = tuple(formats)
     run_output(call.session).reopen(word)
     if word == "IMPR":
@@ -65,7 +71,7 @@ def _formats(call: Call, formats: list[str]) -> None:
     while (said := call.keyword(_FORMATS, length=12)) is not None:
         formats.append(said)
         if said == "TAILLE":
-            call.required("FLOTTANT", after=call.keyword_end)
+            call.given(_SIZE, call.keyword_end)
 
 
 def include(call: Call, name: str) -> None:

@@ -14,14 +14,14 @@ from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
 from ssilang.language.near import nearest, nearest_names
-from ssilang.language.registry import ANY, arg, each, flag, lead, operator
+from ssilang.language.registry import ANY, arg, each, flag, lead, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListMots, Mot, type_of
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
-from ssilang.operators.session.option_files import include, read_file_option
+from ssilang.operators.session.option_files import UNIT, include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE, Workspace, workspace
 
 Reader = Callable[[Call, str], None]
@@ -48,6 +48,22 @@ _MODES: dict[str, Mode] = {
 _UNID = (
     "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
 )  # fmt: skip
+_KEPT_INTEGERS = ("ASSI", "ATTE", "DEBU", "ECHO", "EPTR", "IMPI", "NBP", "NGMA", "NIVE", "PLAC",
+                  "SURV", "VERI", "ZERO", "SOUC")  # fmt: skip
+_KEPT_REALS = ("CADR", "PETI", "GRAN", "PREC")
+_NUMBERS = {
+    "DIME": arg("DIME", "ENTIER", en="dimensions of space", range=between(1, 3)),
+    "DENS": arg("DENS", "FLOTTANT", en="mesh size", range=POSITIVE),
+    "FOUR": arg("FOUR", "ENTIER", en="number of the harmonic", range=ANY_NUMBER),
+    **{w: arg(w, "ENTIER", range=ANY_NUMBER) for w in _KEPT_INTEGERS},
+    **{w: arg(w, "FLOTTANT", range=POSITIVE) for w in _KEPT_REALS},
+}
+"""What options that are numbers may be."""
+_RESIDUAL = opt(
+    "MULTIGRILLE", "FLOTTANT", en="residual at which it ends, 1e-12 without a number",
+    range=between(FINEST, COARSEST),
+)  # fmt: skip
+_SCALES = arg("NORM", "LISTREEL", en="scales of unknowns", range=POSITIVE)
 _ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
 _UNNUMBERED = 5  # what an error without a number of Cast3M's counts as
 _KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
@@ -116,9 +132,7 @@ def _shown(word: str, quoted: bool) -> str:
 
 @reader("DIME")
 def _dime(call: Call, word: str) -> None:
-    n = call.required("ENTIER", after=call.keyword_end)
-    if n not in (1, 2, 3):
-        raise call.error("operators.session.dimension", n, n=n)
+    n = call.given(_NUMBERS[word], call.keyword_end)
     ws = workspace(call.session)
     ws.dimension = n
     if ws.mode.dimension != n:
@@ -132,13 +146,7 @@ def _elem(call: Call, word: str) -> None:
 
 @reader("DENS")
 def _dens(call: Call, word: str) -> None:
-    _set_density(call, call.required("FLOTTANT", after=call.keyword_end))
-
-
-def _set_density(call: Call, size: float) -> None:
-    if size <= 0:
-        raise call.error("operators.session.mesh-size", size, size=size)
-    workspace(call.session).density = float(size)
+    workspace(call.session).density = float(call.given(_NUMBERS[word], call.keyword_end))
 
 
 @reader("COUL")
@@ -159,7 +167,7 @@ def _mode(call: Call, word: str) -> None:
     elif said == "FOURIER":
         said = "FOUR"
         if call.keyword(("NOHARM",)) is None:
-            ws.fourier = call.required("ENTIER", after=call.keyword_end)
+            ws.fourier = call.given(_NUMBERS[said], call.keyword_end)
         if ws.dimension == 3:  # a harmonic asked for after CREER_3D went to space
             ws.dimension = 2
     elif said == "UNID":
@@ -173,17 +181,9 @@ def _oeil(call: Call, word: str) -> None:
     _store(call, word, call.required("POINT", after=call.keyword_end))
 
 
-@reader(
-    "ASSI", "ATTE", "DEBU", "ECHO", "EPTR", "IMPI", "NBP", "NGMA", "NIVE", "PLAC", "SURV", "VERI",
-    "ZERO", "SOUC",
-)  # fmt: skip
-def _integer(call: Call, word: str) -> None:
-    _store(call, word, call.required("ENTIER", after=call.keyword_end))
-
-
-@reader("CADR", "PETI", "GRAN", "PREC")
-def _real(call: Call, word: str) -> None:
-    _store(call, word, call.required("FLOTTANT", after=call.keyword_end))
+@reader(*_KEPT_INTEGERS, *_KEPT_REALS)
+def _number(call: Call, word: str) -> None:
+    _store(call, word, call.given(_NUMBERS[word], call.keyword_end))
 
 
 @reader("OMBR", "PARA", "LOCA")
@@ -221,16 +221,8 @@ def _solv(call: Call, word: str) -> None:
     said = _one_of(call, "SOLVEUR", ("AUTO", PETSC, MULTIGRID_WORD))
     if said == PETSC and workspace(call.session).petsc is None:
         raise call.error("kernel.solvers.petsc-no-command", call.used[-1].value)
-    tolerance = None
-    if said == MULTIGRID_WORD:
-        tolerance = call.optional("FLOTTANT")
-    if tolerance is not None and not FINEST <= tolerance <= COARSEST:
-        raise call.error(
-            "operators.session.tolerance-of-solver", tolerance, tolerance=tolerance,
-            finest=FINEST, coarsest=COARSEST,
-        )  # fmt: skip
     _store(call, word, Mot(said))
-    _store(call, TOLERANCE, tolerance)
+    _store(call, TOLERANCE, call.given(_RESIDUAL) if said == MULTIGRID_WORD else None)
 
 
 @reader("LANG")
@@ -267,7 +259,7 @@ def _norm(call: Call, word: str) -> None:
         return
     pairs = []
     while (names := call.read("LISTMOTS")) is not None:
-        pairs.append((names.value, call.required("LISTREEL")))
+        pairs.append((names.value, call.given(_SCALES)))
     _store(call, word, tuple(pairs))
 
 
@@ -278,9 +270,9 @@ READERS.update(
 
 @reader("DONN")
 def _donn(call: Call, word: str) -> None:
-    operand = call.read("ENTIER", "MOT")
-    if operand is not None and isinstance(operand.value, str):
-        include(call, operand.value)
+    said = call.given(UNIT)
+    if isinstance(said, str):
+        include(call, said)
 
 
 @operator(
@@ -402,6 +394,6 @@ def _worst_error(call: Call) -> int:
     family="mesh",
     full_name="DENSITE",
 )
-def dens(session: Session, call: Call, size: float) -> None:
+def dens(session: Session, size: float) -> None:
     """Set the density in force."""
-    _set_density(call, size)
+    workspace(session).density = size

@@ -28,7 +28,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.vocabulary.terms import CARRIED
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
@@ -336,7 +336,7 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
         "numbers",
         "ENTIER",
         en="values in a line, depth of tables, or first and last line",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
 )
 def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:

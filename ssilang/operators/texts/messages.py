@@ -9,7 +9,7 @@ from ssilang.language.registry import arg, choice, key, many, operator, opt, sha
 from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, between
+from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, between
 from ssilang.messages.message import Sentence, find
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 from ssilang.operators.workspace import workspace
@@ -82,7 +82,7 @@ ERRE = shared("ERRE", "output", full_name="ERREUR")
             "LISTMOTS",
             "LISTENTI",
             "LISTREEL",
-            range=ANY_NUMBER,
+            range=CARRIED,
         ),
         default=(),
         en="what completes the message",
@@ -108,7 +108,7 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         "FLOTTANT",
         "LOGIQUE",
         en="what completes a sentence of the library",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
 )
 def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:

@@ -16,7 +16,7 @@ from ssilang.language.values import (
     known_types,
     type_of,
 )
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.progressions import check_length
@@ -38,7 +38,7 @@ TEXT = (
         "FLOTTANT",
         "LOGIQUE",
         en="what is written, each with a column if one is given",
-        range=ANY_NUMBER,
+        range=CARRIED,
     ),
 )
 """What `read_text` reads."""
@@ -67,13 +67,16 @@ def _place(mark: str, column: int, length: int, size: int) -> int:
     return max(start - length, 0)
 
 
+_COLUMN = arg("column", "ENTIER", en="column of a mark * / < >", usual=POSITIVE)
+
+
 def _tab(call: Call) -> tuple[str, int] | None:
     """The tab mark (`*N /N <N >N`) that follows the item just read."""
     if not call.operands or call.operands[0].span.text not in _MARKS:
         return None
     mark = call.operands.pop(0)
     call.used.append(mark)
-    column = call.required("ENTIER")
+    column = call.given(_COLUMN)
     return mark.span.text, int(column)
 
 

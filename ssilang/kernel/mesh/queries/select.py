@@ -142,11 +142,13 @@ def junctions(mesh: Mesh) -> IntArray:
     return chosen
 
 
-def inside_contour(positions: FloatArray, contour: Mesh, strict: bool) -> BoolArray:
+def inside_contour(
+    positions: FloatArray, contour: Mesh, strict: bool, near: float = 0.0
+) -> BoolArray:
     """Which positions (m, 3) lie inside closed plane lines; on the line counts unless `strict`.
 
     The plane is that of the contour (its mean plane); quadratic sides count as two straight
-    ones.
+    ones. What is as `near` (m) as that to the line lies on it.
     """
     starts, ends = _segments(contour)
     origin = starts.mean(axis=0)
@@ -160,7 +162,7 @@ def inside_contour(positions: FloatArray, contour: Mesh, strict: bool) -> BoolAr
     b = np.column_stack([(ends - origin) @ first, (ends - origin) @ second])
     scale = float(np.ptp(a, axis=0).max())
     inside = crossing_inside(p, a, b)
-    border = segment_distance(p, a, b) <= 1e-9 * scale
+    border = segment_distance(p, a, b) <= max(near, 1e-9 * scale)
     flat = np.abs((positions - origin) @ (normal / size)) <= 1e-6 * scale
     return np.asarray(flat & (inside & ~border if strict else inside | border))
 

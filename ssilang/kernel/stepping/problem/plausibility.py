@@ -47,6 +47,16 @@ class Loose:
 
 
 @dataclass(frozen=True)
+class Sunk:
+    """A body that loads, standing still, would push further along an axis than it is large (m)."""
+
+    node: int
+    axis: str
+    way: float
+    size: float
+
+
+@dataclass(frozen=True)
 class Swing:
     """The motion that a load asks for: period (s), damping ratio, whether it comes at once.
 
@@ -80,12 +90,33 @@ class Bodies:
                     node = problem.numbering.nodes[np.argmax(self.label == body)]
                     yield Loose(int(node), axis, way == "pressed")
 
+    def sunk(self) -> Iterator[Sunk]:
+        """Bodies that closed joints alone hold, by less than what loads push them with."""
+        problem, numbering = self.problem, self.problem.numbering
+        joints, count = problem.interface, int(self.label.max(initial=-1)) + 1
+        for body in range(count if joints is not None and count <= MOST_BODIES else 0):
+            nodes = numbering.nodes[self.label == body]
+            size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
+            for axis in [a for a in AXES if a in numbering.unknowns]:
+                motion = self._along(body, axis)
+                delta = joints.J @ motion
+                held = float(delta @ (joints.closed_stiffness() @ delta))
+                if held > 0.0 and size > 0.0 and not self._holds(motion):
+                    push = self.factors @ (problem.loading.forces.T @ motion)
+                    way = float(np.abs(push).max(initial=0.0)) / held
+                    if way > size:
+                        yield Sunk(int(nodes[0]), axis, way, size)
+
+    def _along(self, body: int, axis: str) -> FloatArray:
+        """The body's translation by one."""
+        motion = np.zeros(self.problem.numbering.size)
+        motion[self.problem.numbering.where(axis)] = 1.0
+        motion[self.label != body] = 0.0
+        return motion
+
     def _way(self, body: int, axis: str) -> str:
         """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
-        problem = self.problem
-        motion = np.zeros(problem.numbering.size)
-        motion[problem.numbering.where(axis)] = 1.0
-        motion[self.label != body] = 0.0
+        problem, motion = self.problem, self._along(body, axis)
         if not motion.any() or not motion @ (problem.M @ motion):
             return ""
         if self._holds(motion):

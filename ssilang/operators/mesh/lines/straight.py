@@ -94,6 +94,7 @@ def lign(
     START,
     arg("vector", "POINT", en="vector to the end", usual=NOT_ZERO),
     SIZES,
+    opt("angle", "FLOTTANT", en="of 'ROTA' alone, refused", range=ANY_NUMBER),
 )
 def segment(
     call: Call,
@@ -101,11 +102,11 @@ def segment(
     start: Point | Mesh,
     vector: Point,
     sizes: Sizes,
+    angle: float | None,
 ) -> Mesh:
     """Draw a segment from a point along a vector."""
-    angle = call.read("FLOTTANT")
     if angle is not None:
-        raise call.error("operators.mesh.no-angle-of-segment", angle.value)
+        raise call.error("operators.mesh.no-angle-of-segment", angle)
     step = vector.coordinates.copy()
 
     def way(at: FloatArray) -> tuple[CurveMap, float]:

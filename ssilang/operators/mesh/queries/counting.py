@@ -26,6 +26,7 @@ from ssilang.operators.dispatch import listing
     arg("mesh", "MAILLAGE", en="mesh"),
     opt("types", "LISTMOTS", en="types of cells", kind="element"),
     family="mesh",
+    empties=True,
 )
 def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     """Count cells, or cells by type."""
@@ -48,6 +49,7 @@ def nbno(mesh: Mesh | Point) -> int:
         "what", ("LONG", "SURF", "VOLU"), en="length, area, volume; by default as the cells are"
     ),
     family="mesh",
+    empties=True,
     full_name="MESURE",
 )
 def mesu(mesh: Mesh, what: str | None) -> float:

@@ -13,10 +13,12 @@ from ssilang.kernel.mesh.combine import (
 )
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
+from ssilang.kernel.mesh.queries.signed_distance import nearest_on_triangles
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.language.registry import arg, choice, flag, operator, opt
+from ssilang.language.run.call import Call
 from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.workspace import workspace
 
 
@@ -24,19 +26,30 @@ from ssilang.operators.workspace import workspace
     "DEDA",
     arg("point", "POINT", en="point"),
     arg("mesh", "MAILLAGE", en="closed line or closed surface"),
-    opt("tolerance", "FLOTTANT", en="accepted, without effect", range=ANY_NUMBER),
+    opt(
+        "tolerance",
+        "FLOTTANT",
+        default=0.0,
+        en="distance still inside",
+        unit="m",
+        range=NOT_NEGATIVE,
+    ),
     family="mesh",
 )
-def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) -> bool:
+def deda(session: Session, point: Point, mesh: Mesh, tolerance: float) -> bool:
     """Whether a point is inside."""
     at = point.coordinates[None].copy()
     if workspace(session).dimension < 3:
         border = contour(mesh) if mesh.dimension == 2 else mesh
-        return bool(inside_contour(at, border, strict=False)[0])
+        return bool(inside_contour(at, border, strict=False, near=tolerance)[0])
     corners = [b.connectivity[:, list(b.kind.corners)] for b in mesh.blocks]
     if not corners or any(t.shape[1] != 3 for t in corners):
         raise MeshError("operators.mesh.closed-triangles-wanted")
-    return bool(ray_inside(at, mesh.nodes.coordinates, np.concatenate(corners))[0])
+    triangles = np.concatenate(corners)
+    if ray_inside(at, mesh.nodes.coordinates, triangles)[0]:
+        return True
+    gaps = nearest_on_triangles(at, mesh.nodes.coordinates[triangles])[0] - at
+    return bool(np.linalg.norm(gaps, axis=1).min() <= tolerance)
 
 
 @operator(
@@ -60,9 +73,17 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float | None) ->
     full_name="INCLUS",
 )
 def incl(
-    volume: bool, mesh: Mesh, outer: Mesh, how: str | None, allowed: bool, margin: float | None
+    call: Call,
+    volume: bool,
+    mesh: Mesh,
+    outer: Mesh,
+    how: str | None,
+    allowed: bool,
+    margin: float | None,
 ) -> Mesh:
     """Cells inside a contour (or the contour of a surface), or inside a volume."""
+    if margin is not None and not volume:
+        call.warn("operators.mesh.margin-without-volume", margin=margin)
     border = contour(outer) if not volume and outer.dimension == 2 else outer
 
     def inside(at: FloatArray) -> NDArray[np.bool_]:
