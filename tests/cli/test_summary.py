@@ -47,16 +47,15 @@ def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
     assert made["statements"] == 5
 
 
-def test_a_warning_of_every_turn_is_shown_once_and_counted(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> None:
     text = (
         "OPTI DIME 2 ELEM SEG2 ; C = MANU 'CHPO' (DROI 2 (0. 0.) (1. 0.)) 1 'X' -1. ;\n"
         "REPE B 5 ; D = C ** 0.5 ; FIN B ; D = C ** 0.5 ;\n"
     )
-    made = run(tmp_path, text)
-    told = capsys.readouterr().err
-    assert len(made["warnings"]) == 6
+    options, err = RunOptions(output_directory=tmp_path, summary=True), io.StringIO()
+    result = run_source(Source("deck.ssi", text), options, io.StringIO(), err)
+    told = err.getvalue()
+    assert len(result.session.warnings) == 6
     assert told.count("have no power 0.5") == 2  # at two places
     assert "6 warnings (4 word for word again, shown once)" in told
 
