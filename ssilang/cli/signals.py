@@ -19,14 +19,16 @@ from ssilang.system import ENDS
 
 ENDED_BY_CLOSED_PIPE = 141  # what a shell gives for a tool that SIGPIPE ended: 128 + 13
 
-_arrived = threading.Event()  # signals belong to the process, not to a session
-_held = threading.Event()  # a first signal waits until somebody looks
+# signals belong to the process, not to a session; no locks: a handler would wait for what it broke into
+_arrived: list[int] = []
+_held: list[None] = []  # a first signal waits until somebody looks
 
 
 def take() -> bool:
     """Whether a signal came since the last call (which counts as having been seen)."""
-    seen = _arrived.is_set()
-    _arrived.clear()
+    seen = bool(_arrived)
+    if seen:  # one that comes between these lines stays
+        _arrived.clear()
     return seen
 
 
@@ -60,20 +62,18 @@ def holding() -> Iterator[None]:
 
     Whoever insists is heard: a second signal ends what goes on.
     """
-    outer = _held.is_set()
-    _held.set()
+    _held.append(None)
     try:
         yield
     finally:
-        if not outer:
-            _held.clear()
+        _held.pop()
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
     """A signal's handler."""
-    first = not _arrived.is_set()
-    _arrived.set()
-    if first and _held.is_set():
+    first = not _arrived
+    _arrived.append(number)
+    if first and _held:
         return
     raise KeyboardInterrupt
 

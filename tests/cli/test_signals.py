@@ -16,6 +16,38 @@ from ssilang.cli import main, signals
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.language.text.source import Source
 
+ANYWHERE = """
+import sys
+from ssilang.cli import signals
+inside = []
+def look(frame, event, argument):
+    if not inside:
+        inside.append(1)
+        try:
+            signals.interrupt(2, None)
+        except KeyboardInterrupt:
+            pass
+        finally:
+            inside.clear()
+    return look
+sys.settrace(look)
+for _ in range(3):
+    signals.take()
+with signals.holding():
+    pass
+sys.settrace(None)
+print(signals.take(), signals.take())
+"""
+
+
+def test_a_signal_may_arrive_at_any_line_of_those_that_ask_for_it():
+    """A lock in the handler would wait for ever for the one that it broke into."""
+    done = subprocess.run(
+        [sys.executable, "-c", ANYWHERE], capture_output=True, text=True, timeout=30, check=False
+    )
+    assert done.stdout == "True False\n", done.stderr
+
+
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of one system")
 
 

@@ -61,24 +61,24 @@ def working_table(table: Table) -> Table:
     return work
 
 
-def tell_parts(work: Table) -> None:
+def tell_parts(inner: Table) -> None:
     """What WTABLE holds beside the entries: the model by formulations, the nodes' places."""
-    model, material = work.get("MODELE"), work.get("CARACTERISTIQUES")
+    model, material = inner.get("MODELE"), inner.get("CARACTERISTIQUES")
     if not isinstance(model, Model):
         return
     for formulation, (part, values) in PARTS.items():
         zones = tuple(z for z in model.zones if z.formulation == formulation)
         if zones:
-            work.set(Mot(part), Model(zones))
+            inner.set(Mot(part), Model(zones))
         if zones and isinstance(material, CellField):
-            work.set(Mot(values), field_on_model(material, Model(zones)))
-    work.set(Mot("MEC1"), work.has("MOD_MEC"))
-    work.set(Mot("MO_TOT"), model)
-    work.set(Mot("MA_TOT"), material)
-    if not work.has("FOR0"):
-        work.set(Mot("FOR0"), Configuration(model.mesh.nodes.coordinates.copy()))
-    if not work.has("FOR"):
-        work.set(Mot("FOR"), work.get("FOR0"))
+            inner.set(Mot(values), field_on_model(material, Model(zones)))
+    inner.set(Mot("MEC1"), inner.has("MOD_MEC"))
+    inner.set(Mot("MO_TOT"), model)
+    inner.set(Mot("MA_TOT"), material)
+    if not inner.has("FOR0"):
+        inner.set(Mot("FOR0"), Configuration(model.mesh.nodes.coordinates.copy()))
+    if not inner.has("FOR"):
+        inner.set(Mot("FOR"), inner.get("FOR0"))
 
 
 class Steering:
@@ -94,7 +94,7 @@ class Steering:
         self, entries: Entries, work: Entries, results: ResultTables, n_times: int, begins: bool
     ) -> None:
         self.call, self.table = entries.call, entries.table
-        self.work, self.results = work.table, results
+        self.inner, self.results = work.table, results
         self.prepared = work.flag("PROCEDURE_REEV_MEC")
         self.steered = work.flag("PROCEDURE_PERSO1")
         self.moves = work.flag("GRANDS_DEPLACEMENTS")
@@ -113,21 +113,21 @@ class Steering:
         """
         state = state_table(self.results.values(snapshot))
         self.table.set(Mot("ESTIMATION"), state)
-        before = [self.work.get(word) for word in CHANGEABLE]
+        before = [self.inner.get(word) for word in CHANGEABLE]
         if self.prepared:
             self.table.set(Mot("TT"), state)
             call_user(self.call, "REEV_MEC", self.table, int(snapshot.step > 0))
-        moved, at_start = state.get("DEPLACEMENTS"), self.work.get("FOR0")
+        moved, at_start = state.get("DEPLACEMENTS"), self.inner.get("FOR0")
         if self.moves and isinstance(moved, NodeField) and isinstance(at_start, Configuration):
-            self.work.set(Mot("FOR"), at_start.moved(moved))
+            self.inner.set(Mot("FOR"), at_start.moved(moved))
         if self.steered and snapshot.step > 0:
             call_user(self.call, "PERSO1", self.table)
         if self.table.get("ARRET") is True:
             raise StopCalculation
-        after = [self.work.get(word) for word in CHANGEABLE]
+        after = [self.inner.get(word) for word in CHANGEABLE]
         same = all(_is_same(a, b) for a, b in zip(before, after, strict=True))
         if not same or isinstance(self.table.get(TIMES), ListReel):
-            tell_parts(self.work)
+            tell_parts(self.inner)
             raise ChangedCalculation(snapshot.step)
 
     def close(self) -> None:
