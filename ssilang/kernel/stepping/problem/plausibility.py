@@ -94,7 +94,9 @@ class Bodies:
         """Bodies that closed joints alone hold, by less than what loads push them with."""
         problem, numbering = self.problem, self.problem.numbering
         joints, count = problem.interface, int(self.label.max(initial=-1)) + 1
-        for body in range(count if joints is not None and count <= MOST_BODIES else 0):
+        if joints is None or count > MOST_BODIES:
+            return
+        for body in range(count):
             nodes = numbering.nodes[self.label == body]
             size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
             for axis in [a for a in AXES if a in numbering.unknowns]:
