@@ -19,7 +19,8 @@ from ssilang.system import ENDS
 
 ENDED_BY_CLOSED_PIPE = 141  # what a shell gives for a tool that SIGPIPE ended: 128 + 13
 
-# signals belong to the process, not to a session; no locks: a handler would wait for what it broke into
+# signals belong to the process, not to a session
+# no locks: a handler would wait for the one that it broke into
 _arrived: list[int] = []
 _held: list[None] = []  # a first signal waits until somebody looks
 
