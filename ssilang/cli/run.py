@@ -205,9 +205,7 @@ def phrase_values(session: Session, source: Source) -> list[Any]:
 def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
-    shown: set[str] = (
-        set()
-    )  # a warning in a loop comes at each turn: word for word it is shown once
+    shown: set[str] = set()  # a loop warns at each turn: what is word for word the same shows once
 
     def show(warning: SsiError) -> None:
         text = render(warning, session.language)
