@@ -182,7 +182,7 @@ def test_words_of_operators_are_no_misspelt_names(text):
         ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT MAZARS ;",
          "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT DST ;",
-         "operators.models.word-unknown", "DST"),
+         "operators.models.element-not-built", "DST"),
         ("M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT POUT ;",
          "kernel.materials.elements-family-no-plastic-law", "MODE"),
         ("T . 'LAGRANGIEN' = MOT 'JADIS' ; PASAPAS T ;", "entry-value", "T . 'LAGRANGIEN'"),

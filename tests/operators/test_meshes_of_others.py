@@ -236,7 +236,7 @@ def test_sets_of_an_abaqus_deck(tmp_path: Path) -> None:
         (("both\n", "none\n"), "io.no-readable-mesh-file"),
         (("both\n", "again\n"), "io.no-readable-mesh-file"),
         (("more.inc", "/etc/passwd"), "forbidden-path"),
-        (("more.inc", "m.inp"), "io.no-readable-mesh-file"),
+        (("more.inc", "m.inp"), "io.mesh-number-twice"),
         (("*HEADING", "*PART, NAME=a\n*PART, NAME=b"), "io.abaqus-several-parts"),
     ],
 )

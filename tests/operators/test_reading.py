@@ -306,7 +306,7 @@ def test_a_table_without_units_is_told_and_taken_as_it_is(tmp_path: Path) -> Non
     assert values(result, "E")[0].parts[0].units == ("", "")
     assert [w.code for w in result.session.warnings] == ["operators.files.record-without-unit"]
     result = run("OPTI 'UNIT' 'N-MM' ; E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path,
-                 a_csv="t (s);a (g)\n0;1\n1;2\n")  # fmt: skip
+                 a_csv="t (s);a (g)\n0;1\n0.1;2\n")  # fmt: skip
     assert values(result, "E")[0].parts[0].units == ("", "")  # they are not those of the deck
     assert [w.code for w in result.session.warnings] == ["operators.files.record-in-other-units"]
     result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
