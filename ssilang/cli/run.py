@@ -9,6 +9,7 @@ import sys
 import time
 import traceback
 import warnings
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -206,12 +207,15 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
     shown: set[str] = set()  # a loop warns at each turn: what is word for word the same shows once
+    again: Counter[str] = Counter()
 
     def show(warning: SsiError) -> None:
         text = render(warning, session.language)
-        if text not in shown:
-            shown.add(text)
-            err.write(coloured(text, err) + "\n")
+        if text in shown:
+            again[warning.severity] += 1
+            return
+        shown.add(text)
+        err.write(coloured(text, err) + "\n")
 
     session.on_warning = show
     if options.verbose:
@@ -258,7 +262,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     if not refused:
         _tell_imbalance(session)
     if summary and not refused:  # what stands there is the other run's
-        _summarise(result, source, err, options.quiet)
+        _summarise(result, source, err, options.quiet, again["warning"])
         if options.report:
             _report(result, err, options.quiet)
     _release_folder(session)
@@ -430,7 +434,7 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
         errors.append(SsiError.of(problem, None))
 
 
-def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> None:
+def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, again: int) -> None:
     """Write summary.json; one line says what the run leaves: files, warnings, energy."""
     from ssilang.cli.summary import write_summary
     from ssilang.io.errors import OutputError
@@ -449,12 +453,11 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool) -> N
     quiet = quiet or result.exit_code == ENDED_BY_CLOSED_PIPE
     if quiet or not (output.files or session.warnings or calculations):
         return
-    told_of = [w for w in session.warnings if w.severity == "warning"]
     told = {
         "count": len(output.files),
         "folder": output.directory,
-        "warnings": len(told_of),
-        "again": len(told_of) - len({render(w, session.language) for w in told_of}) or None,
+        "warnings": sum(w.severity == "warning" for w in session.warnings),
+        "again": again or None,
         **_energy(session, calculations),
     }
     with suppress(OSError):
