@@ -414,12 +414,14 @@ class Call:
 
     def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""
-        span = next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
-        return SsiError(code, span, **{"operator": self.name, **data})
+        return SsiError(code, self._place(value), **{"operator": self.name, **data})
 
-    def warn(self, code: str, /, **data: object) -> None:
-        """A warning placed at the operator."""
-        self.session.warn(code, self.span, **{"operator": self.name, **data})
+    def warn(self, code: str, value: object = None, /, **data: object) -> None:
+        """A warning placed as an error is."""
+        self.session.warn(code, self._place(value), **{"operator": self.name, **data})
+
+    def _place(self, value: object) -> Span:
+        return next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
 
 
 def _is_operand(held: object, value: object) -> bool:

@@ -193,10 +193,7 @@ def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any
         told.append(("YOUN", "operators.models.no-stiffness"))
     for name, code in told:
         if name in said:
-            data = {"name": name, "mode": zone.mode.value}
-            warning = call.error(code, said[name], **data)
-            warning.warns = True
-            session.report(warning)
+            call.warn(code, said[name], name=name, mode=zone.mode.value)
 
 
 def _set_value(
@@ -368,9 +365,7 @@ def reference_to_curve(
 def _warn_of_percent(call: Call, value: Any, half: float) -> None:
     """Warn of strains that are percentages."""
     if half > _PERCENT:
-        warning = call.error("operators.models.strains-in-percent", value, half=half)
-        warning.warns = True
-        call.session.report(warning)
+        call.warn("operators.models.strains-in-percent", value, half=half)
 
 
 def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> None:

@@ -53,9 +53,7 @@ def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:
     wrong = array[(array < 0.0) & (array != -1.0)] if array.dtype == float else array[:0]
     if wrong.size:
         told = {"name": "FROT", "value": float(wrong[0])}
-        warning = call.error("operators.models.friction-negative", said, **told)
-        warning.warns = True
-        call.session.report(warning)
+        call.warn("operators.models.friction-negative", said, **told)
 
 
 def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
@@ -67,7 +65,7 @@ def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> Non
         array, said = given[name]
         value = float(array.max()) if array.dtype == float and array.size else 0.0
         if value > meant.usual.high:
-            warning = call.error(
+            call.warn(
                 "operators.models.friction-as-angle",
                 said,
                 name=name,
@@ -75,8 +73,6 @@ def _warn_of_friction(call: Call, zone: Zone, given: Mapping[str, Given]) -> Non
                 tangent=float(np.tan(np.radians(min(value, 89.0)))),
                 degrees=value < 90.0,
             )
-            warning.warns = True
-            call.session.report(warning)
 
 
 def _warn(call: Call, meant: Quantity, value: float, said: Any, system: UnitSystem) -> None:
