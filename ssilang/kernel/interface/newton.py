@@ -14,11 +14,8 @@ from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
-from ssilang.kernel.interface.factors.changed import Changes
-from ssilang.kernel.interface.factors.inverse import VANISHING, Inverse, solve_small
+from ssilang.kernel.interface.factors.inverse import VANISHING, solve_small
 from ssilang.kernel.interface.factors.kept import FORCING, Factors, new_factors, solve_tangent
-from ssilang.kernel.interface.factors.krylov import Krylov
-from ssilang.kernel.interface.factors.lu import LU
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
     OPEN_SHEAR,
@@ -226,29 +223,6 @@ class Workspace(NamedTuple):
 def workspace(shape: tuple[int, ...], q: int) -> Workspace:
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
     return Workspace(new_trial(shape, q), new_factors(shape, q), np.full(shape, np.nan))
-
-
-@compiled
-def workspace_at(works: Workspace, j: int) -> Workspace:
-    """One of several workspaces that are stacked array by array."""
-    t, x = works.trial, works.factors
-    return Workspace(
-        Trial(
-            t.y0[j], t.y[j], t.delta[j], t.f[j], t.w[j], t.t[j], t.state[j], t.D[j], t.h[j],
-            t.r[j], t.dy[j],
-        ),
-        Factors(
-            x.tangents[j],
-            LU(x.lu.A[j], x.lu.exchanges[j]),
-            Inverse(
-                x.inverse.Y[j], x.inverse.room[j], x.inverse.updates[j], x.inverse.matrix[j],
-                x.inverse.rows[j], x.inverse.changes[j],
-            ),
-            Changes(x.changes.Z[j], x.changes.row[j], x.changes.held[j]),
-            Krylov(x.krylov.V[j], x.krylov.asked[j], x.krylov.spent[j]),
-        ),
-        works.shares[j],
-    )  # fmt: skip
 
 
 @compiled

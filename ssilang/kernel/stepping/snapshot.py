@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -137,11 +136,6 @@ def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> S
         problem, step, float(problem.times[step]), r.u[row], r.v[row], r.a[row], r.reaction[row],
         r.w[row], r.t[row], r.state[row], r.contact[row],
     )  # fmt: skip
-
-
-def kept_instants(problem: Problem, recorder: Recorder) -> Instants:
-    """The instants of what was kept."""
-    return partial(kept_instant, problem, recorder)
 
 
 class Observer(Protocol):

@@ -89,37 +89,3 @@ def end_of_step(x: Motion, to: Recorder, k: int) -> None:
         tap(x, to.tap, to.tap.row[k])
     if len(to.peaks.u):
         watch(x, to.peaks, k)
-
-
-@compiled
-def motion_at(x: Motion, j: int) -> Motion:
-    """One of several motions, that lie in the first direction of each array."""
-    return Motion(
-        x.u[j], x.v[j], x.a[j], x.delta[j], x.f[j], x.w[j], x.t[j], x.state[j], x.reaction[j],
-        x.energies[j], x.contact[j],
-    )  # fmt: skip
-
-
-@compiled
-def recorder_at(x: Recorder, j: int) -> Recorder:
-    """What is kept of one of several motions."""
-    return Recorder(
-        x.row[j], x.energies[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
-        x.state[j], x.contact[j], x.jumps[j], x.work[j], x.balance[j], tap_at(x.tap, j),
-        peaks_at(x.peaks, j),
-    )  # fmt: skip
-
-
-@compiled
-def peaks_at(x: Peaks, j: int) -> Peaks:
-    """The largest values of one of several motions."""
-    return Peaks(x.first[j], x.u[j], x.when[j], x.joints[j], x.joints_when[j])
-
-
-@compiled
-def tap_at(x: Tap, j: int) -> Tap:
-    """The tap of one of several motions."""
-    return Tap(
-        x.row[j], x.at[j], x.u[j], x.v[j], x.a[j], x.reaction[j], x.f[j], x.w[j], x.t[j],
-        x.state[j], x.contact[j],
-    )  # fmt: skip

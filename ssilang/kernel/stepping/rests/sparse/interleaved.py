@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,16 +99,6 @@ class InterleavedLoop:
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
-
-    def alike(self, problem: Problem, motion: Motion) -> InterleavedLoop:
-        """The loop of another problem with the same model."""
-        other = copy(self)
-        other.problem, other.motion = problem, motion
-        other.forces = np.ascontiguousarray((self.T.T @ problem.loading.forces).T)
-        other.plan = self.plan._replace(forces=other.forces)
-        other.supports = MovingSupports(problem, self.plan.newmark.dt, self.T)
-        other.newton = workspace(motion.w.shape, len(motion.f))
-        return other
 
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
         return sp.csr_array(self.T.T @ A @ self.T)
