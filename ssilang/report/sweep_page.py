@@ -12,8 +12,13 @@ import numpy as np
 from ssilang.io.file_names import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, Line, charts_html
-from ssilang.report.floors import floor_charts
-from ssilang.report.fragilities import asked_of, fits_of, fragility_charts, fragility_html
+from ssilang.report.fragilities import (
+    asked_of,
+    fits_of,
+    floor_charts,
+    fragility_charts,
+    fragility_html,
+)
 from ssilang.report.html import asset, json_in_page, number, section, table, text
 from ssilang.report.sweep_table import MOTION, Sweep, link_to, real, short
 

@@ -13,11 +13,11 @@ from scipy import stats
 from ssilang.cli.main import main
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.messages.message import teller
-from ssilang.report.floors import floor_charts
 from ssilang.report.fragilities import (
     Asked,
     Limit,
     fits_of,
+    floor_charts,
     fragility_charts,
     fragility_html,
     intensities_of,

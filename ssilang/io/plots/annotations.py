@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.io.plots.levels import Levels
+from ssilang.io.plots.bands import Levels
 from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.io.plots.bands import cut_bands, cut_lines
+from ssilang.io.plots.bands import Levels, cut_bands, cut_lines
 from ssilang.io.plots.cutting import nodal_means, section_of
-from ssilang.io.plots.levels import Levels
 from ssilang.io.plots.painter import CLEAR, Painter
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.patches import Faces, all_faces, pieces

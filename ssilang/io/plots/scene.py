@@ -17,6 +17,7 @@ import numpy as np
 from ssilang.io.errors import OutputError
 from ssilang.io.plots import annotations as notes
 from ssilang.io.plots.annotations import Ends
+from ssilang.io.plots.bands import Levels, choose_levels
 from ssilang.io.plots.cutting import behind
 from ssilang.io.plots.faces import (
     add_bands,
@@ -28,7 +29,6 @@ from ssilang.io.plots.faces import (
 from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.labels import draw_categories, draw_tags
 from ssilang.io.plots.layers import Layer, PictureOptions
-from ssilang.io.plots.levels import Levels, choose_levels
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.patches import Faces, visible_faces

@@ -27,7 +27,7 @@ from ssilang.kernel.plasticity.zone_points import plastic_points
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.solving.blocks import ZonePass
-    from ssilang.kernel.plasticity.solving.pattern import Pattern
+    from ssilang.kernel.plasticity.solving.positive import Pattern
 
 FreeStrain = Callable[[float], FloatArray]
 """Strain without stress (n_cells, n_strains, n_points) of a zone at a time."""
@@ -217,7 +217,7 @@ class Bulk:
     @cached_property
     def terms(self) -> Pattern:
         """Where the terms of the tangent stand."""
-        from ssilang.kernel.plasticity.solving.pattern import Pattern
+        from ssilang.kernel.plasticity.solving.positive import Pattern
 
         sizes = [p.shape[1] for p in self.places]
         ones = [np.ones((len(p), k, k)) for p, k in zip(self.places, sizes, strict=True)]

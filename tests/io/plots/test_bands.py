@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ssilang.io.plots.bands import cut_bands, cut_lines
-from ssilang.io.plots.levels import choose_levels
+from ssilang.io.plots.bands import choose_levels, cut_bands, cut_lines
 
 
 def areas(polygons: np.ndarray) -> np.ndarray:

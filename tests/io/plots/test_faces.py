@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
+from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.cutting import nodal_means
 from ssilang.io.plots.faces import add_bands, add_faces, add_points, band_values
 from ssilang.io.plots.layers import Layer, PictureOptions
-from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import all_faces, visible_faces
 from ssilang.io.plots.values import values_on

@@ -11,11 +11,11 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from ssilang.io.errors import OutputError
+from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import behind, section_of
 from ssilang.io.plots.labels import Annotation, Category
 from ssilang.io.plots.layers import Layer, PictureOptions
-from ssilang.io.plots.levels import choose_levels
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import visible_faces
 from ssilang.io.plots.scene import draw_scene

@@ -19,7 +19,7 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import RIGID, BulkSolver, BulkTrial
-from ssilang.kernel.plasticity.solving.pattern import Pattern
+from ssilang.kernel.plasticity.solving.positive import Pattern
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import Motion
 

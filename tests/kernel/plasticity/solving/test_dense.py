@@ -13,7 +13,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import run
 from ssilang.kernel.plasticity.solving import dense
 from ssilang.kernel.plasticity.solving.dense import places_of
-from ssilang.kernel.plasticity.solving.pattern import Pattern
+from ssilang.kernel.plasticity.solving.positive import Pattern
 
 STEPS = 40
 

@@ -15,7 +15,7 @@ from ssilang.kernel.plasticity.points import PointState
 from ssilang.kernel.plasticity.solving.blocks import cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.passes import zone_pass
-from ssilang.kernel.plasticity.solving.pattern import Pattern
+from ssilang.kernel.plasticity.solving.positive import Pattern
 
 M = 900
 RANGES = {
