@@ -16,7 +16,8 @@ from ssilang.cli.check import check_source
 from ssilang.cli.run import RunOptions, RunResult, run_source
 from ssilang.cli.signals import listening
 from ssilang.language.say.errors import SsiError
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.values import type_of
 
 Script = str | os.PathLike[str]

@@ -164,7 +164,8 @@ def _run(options: argparse.Namespace) -> int:
         from ssilang.cli.run import run_source
         from ssilang.language.say.diagnostics import render
         from ssilang.language.say.errors import SsiError
-        from ssilang.language.text.source import Source, read_source
+        from ssilang.language.text.source import Source
+        from ssilang.language.text.source_files import read_source
 
     try:
         if options.file == "-":
@@ -298,7 +299,7 @@ def _check(options: argparse.Namespace) -> int:
     from ssilang.cli.check import check_file
     from ssilang.language.say.diagnostics import render
     from ssilang.language.say.errors import SsiError
-    from ssilang.language.text.source import read_source
+    from ssilang.language.text.source_files import read_source
 
     code, sources = OK, []
     for file in options.files:

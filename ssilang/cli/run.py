@@ -29,7 +29,8 @@ from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
 from ssilang.language.say.visible import visible
 from ssilang.language.text import tree
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.language.values import Mot

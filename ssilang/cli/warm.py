@@ -18,7 +18,7 @@ from ssilang.cli.run import RunOptions, run_source
 from ssilang.kernel.base.compiled.cache import kept_code
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.messages.message import Teller, teller
 from ssilang.resources import resource
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from ssilang.cli.check import check_file, check_source
 from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import render
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.operators.loader import load_operators
 
 _ROOT = Path(__file__).resolve().parents[2]

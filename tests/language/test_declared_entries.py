@@ -10,7 +10,7 @@ import pytest
 
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.values import known_types
 from ssilang.language.vocabulary.entries import (
     ANYTHING,

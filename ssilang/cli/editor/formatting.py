@@ -13,7 +13,8 @@ from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.parser import end_of_run, quick_reader
 from ssilang.language.text.printer import same_tree
-from ssilang.language.text.source import Source, encoding_of, read_source
+from ssilang.language.text.source import Source, encoding_of
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.late_imports import without_collections
 from ssilang.messages.message import teller

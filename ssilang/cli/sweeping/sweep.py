@@ -34,7 +34,8 @@ from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller

@@ -24,7 +24,8 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
 from ssilang.operators.texts.words import written

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ssilang.language.say.errors import SsiError
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import Procedure

@@ -22,7 +22,7 @@ from ssilang.language.registry import (
     find_operator,
     operators_by_family,
 )
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
 from ssilang.messages.message import spoken, teller

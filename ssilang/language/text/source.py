@@ -1,4 +1,4 @@
-"""Source texts, of files too, and places in them."""
+"""Source texts and places in them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,6 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-
-from ssilang.language.say.errors import SsiError
-from ssilang.system_reasons import system_reason
 
 # strings, so that what stands in them is passed over, and the ends of statements
 STRING = r"'[^']*(?:''[^']*)*'"
@@ -95,18 +92,3 @@ class Span:
     def text(self) -> str:
         """The characters themselves."""
         return self.source.text[self.start : self.end]
-
-
-def read_source(path: Path) -> Source:
-    """Read a file, UTF-8 or else Latin-1.
-
-    Raises
-    ------
-    SsiError
-        'missing-file' if it cannot be read.
-    """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise SsiError("missing-file", None, path=str(path), reason=system_reason(error)) from None
-    return Source.decode(str(path), data, path)

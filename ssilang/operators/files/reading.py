@@ -13,7 +13,7 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.language.registry import arg, choice, key, lead, opt, said, shared
 from ssilang.language.run.call import Call
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
 from ssilang.language.values import ListReel, Mot, Procedure, Table

@@ -9,7 +9,7 @@ from typing import Any, TextIO
 
 from ssilang.language.registry import arg
 from ssilang.language.run.call import Call
-from ssilang.language.text.source import read_source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot
 from ssilang.language.vocabulary.terms import POSITIVE

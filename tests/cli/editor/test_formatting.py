@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from ssilang.cli.editor.formatting import formatted
 from ssilang.language.text.printer import same_tree
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.resources import resource
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.printer import print_script, same_tree
-from ssilang.language.text.source import Source, read_source
+from ssilang.language.text.source import Source
+from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 
 _SECONDS = 2.0  # for a text of a few hundred characters; a loop without end would pass it

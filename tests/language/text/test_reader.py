@@ -11,7 +11,8 @@ from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.by_grammar import parse_by_grammar, words_of_grammar
 from ssilang.language.text.parser import grammar_words, quick_reader
 from ssilang.language.text.reader import Unsound
-from ssilang.language.text.source import Source, Span, read_source
+from ssilang.language.text.source import Source, Span
+from ssilang.language.text.source_files import read_source
 
 _ROOT = Path(__file__).resolve().parents[3]
 _FILES = sorted([*_ROOT.glob("cases/*/*.ssi"), *_ROOT.glob("stdlib/*.ssi")])

@@ -1,0 +1,24 @@
+"""Source texts from files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Source
+from ssilang.system_reasons import system_reason
+
+
+def read_source(path: Path) -> Source:
+    """Read a file, UTF-8 or else Latin-1.
+
+    Raises
+    ------
+    SsiError
+        'missing-file' if it cannot be read.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise SsiError("missing-file", None, path=str(path), reason=system_reason(error)) from None
+    return Source.decode(str(path), data, path)
