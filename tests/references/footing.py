@@ -44,11 +44,6 @@ class Strip:
         """Rotation at which an edge lifts off."""
         return 2.0 * self.normal / (self.k0 * self.length * self.width**2)
 
-    @property
-    def limit_moment(self) -> float:
-        """Moment that no rotation exceeds."""
-        return self.normal * self.width / 2.0
-
     def contact(self, theta: Array) -> Array:
         """Width in contact."""
         ratio = np.maximum(np.asarray(theta, float) / self.uplift_rotation, 1.0)
@@ -115,11 +110,6 @@ class Disc:
         """Rotation at which the edge lifts off."""
         return self.normal / (np.pi * self.k0 * self.radius**3)
 
-    @property
-    def limit_moment(self) -> float:
-        """Moment that no rotation exceeds."""
-        return self.normal * self.radius
-
     def half_angle(self, theta: float) -> float:
         """Half angle of the segment in contact (pi: full contact)."""
         if theta <= self.uplift_rotation:
@@ -140,34 +130,6 @@ class Disc:
         s, c = np.sin(phi), np.cos(phi)
         inertia = (phi - s * c + 2.0 * s**3 * c) / 4.0
         return float(self.k0 * theta * self.radius**4 * (inertia - 2.0 / 3.0 * c * s**3))
-
-
-@dataclass(frozen=True)
-class TwoSprings:
-    """Two springs of stiffness k (N/m each) at +-b: linear, then a constant moment."""
-
-    half_width: float
-    k: float
-    normal: float
-
-    @property
-    def stiffness(self) -> float:
-        """Rotational stiffness with both in contact."""
-        return 2.0 * self.k * self.half_width**2
-
-    @property
-    def uplift_moment(self) -> float:
-        """Moment at which one opens: also the limit."""
-        return self.normal * self.half_width
-
-    @property
-    def uplift_rotation(self) -> float:
-        """Rotation at which one opens."""
-        return self.normal / (2.0 * self.k * self.half_width)
-
-    def moment(self, theta: Array) -> Array:
-        """Moment about the centre."""
-        return np.minimum(self.stiffness * np.asarray(theta, float), self.uplift_moment)
 
 
 def macro_element(

@@ -41,11 +41,6 @@ class ClubA:
         n = int(np.floor(end * self.w / np.pi + 0.5))
         return np.asarray((np.arange(n) + 0.5) * np.pi / self.w)
 
-    @property
-    def impact_impulse(self) -> float:
-        """Impulse of each impact divided by the mass, 2 w u0."""
-        return 2.0 * self.w * self.u0
-
     def energy(self, t: Array, mass: float = MASS) -> Array:
         """Kinetic and elastic energy."""
         u, v = self.motion(t)
@@ -94,11 +89,6 @@ class ClubB:
         v = np.where(flying, speed * np.cos(w1 * s), -speed * np.cos(w2 * r))
         return u, v
 
-    def closings(self, end: float) -> Array:
-        """Times at which contact begins."""
-        first = 0.5 * np.pi / self.w_open
-        return np.arange(first, end, self.period)
-
     def openings(self, end: float) -> Array:
         """Times at which contact ends."""
         first = 0.5 * np.pi / self.w_open + np.pi / self.w_closed
@@ -115,11 +105,6 @@ class ClubB:
         spring = UnilateralSpring(np.ones(1), self.k_y)
         one = np.ones((1, 1))
         return System(self.mass * one, self.k_s * one, (spring,), (Forcing(0.0, np.zeros(1)),))
-
-
-def series_stiffness(*stiffnesses: float) -> float:
-    """Stiffness of springs one behind the other."""
-    return 1.0 / sum(1.0 / k for k in stiffnesses)
 
 
 @dataclass(frozen=True)
@@ -187,10 +172,6 @@ class ClubC:
     def openings(self, end: float) -> Array:
         """Times of lift-off."""
         return np.arange(self.half_contact, end, self.period)
-
-    def closings(self, end: float) -> Array:
-        """Times of landing."""
-        return np.arange(self.half_contact + self.flight, end, self.period)
 
     @property
     def energy(self) -> float:

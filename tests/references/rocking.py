@@ -151,19 +151,6 @@ class HousnerBlock:
         """Period of free rocking from rest at theta < alpha, slender (linearised) equation."""
         return 4.0 / self.p * float(np.arccosh(1.0 / (1.0 - theta / self.alpha)))
 
-    def period_large(self, theta: float) -> float:
-        """Period without linearisation: theta'' = -p^2 sin(alpha - theta)."""
-
-        def integrand(a: float) -> float:
-            # theta - phi = theta (1 - sin a) = theta x^2 with x = sqrt(2) sin((pi/2 - a)/2)
-            drop = theta * 2.0 * np.sin(0.5 * (np.pi / 2.0 - a)) ** 2
-            mean = self.alpha - theta + 0.5 * drop
-            gap = 2.0 * np.sin(mean) * np.sin(0.5 * drop)  # cos(alpha-theta) - cos(alpha-phi)
-            return float(theta * np.cos(a) / (self.p * np.sqrt(2.0 * gap)))
-
-        edge = np.pi / 2.0
-        return 4.0 * float(quad(integrand, 0.0, edge, epsabs=0.0, epsrel=1e-12, limit=200)[0])
-
     @property
     def restitution(self) -> float:
         """Ratio of the angular velocities after and before an impact, from angular momentum."""

@@ -87,24 +87,10 @@ def test_one_spring_steps_as_the_sparse_loop(law, scheme, monkeypatch):
     compared(problem_of(law, scheme), monkeypatch, light=True)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES[::2])
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
-def test_several_joints_with_shear_step_as_the_sparse_loop(law, scheme, monkeypatch):
-    compared(problem_of(law, scheme, 4, shear=True), monkeypatch, light=False, tolerance=1e-10)
-
-
 @pytest.mark.parametrize("joints", [0, 1, 3])
 def test_damping_of_rayleigh_is_diagonal(joints, monkeypatch):
     problem = problem_of(LAWS["no tension"], joints=joints, damping=2.0)
     compared(problem, monkeypatch, light=joints < 2)
-
-
-@pytest.mark.parametrize("scheme", SCHEMES[1:])
-@pytest.mark.parametrize("joints", [1, 3])
-def test_damped_energy_is_the_same_by_all_loops(joints, scheme, monkeypatch):
-    """Work of the mean damping forces, whatever the scheme."""
-    problem = problem_of(LAWS["no tension"], scheme, joints, damping=2.0)
-    compared(problem, monkeypatch, light=joints < 2, tolerance=1e-10)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)

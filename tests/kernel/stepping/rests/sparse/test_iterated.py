@@ -11,13 +11,11 @@ from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import multigrid
 from ssilang.kernel.stepping import choose
-from ssilang.kernel.stepping.newmark import hht
 from ssilang.kernel.stepping.problem import initial
 from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
 from ssilang.kernel.stepping.rests.sparse import iterated
 from ssilang.kernel.stepping.run import integrate
 
-SOFTENING = {"KN": 2e8, "KS": 1e8, "FU": 2e4, "GF": 200.0, "FC": -1e4}
 BY_MULTIGRID = Solver("multigrid")
 
 
@@ -60,19 +58,6 @@ def assert_same(problem, tolerance=1e-9):
     return kept
 
 
-@pytest.mark.parametrize(
-    ("joint", "words"),
-    [(FRICTION, ()), (SOFTENING, ()), ({"KN": 2e8, "KS": 1e8}, ("CISAILLEMENT_ELASTIQUE",))],
-)
-def test_laws_of_the_joint(joint, words):
-    problem = soil_block(
-        steps=30, size=(16, 8, 4), joint=joint, words=words, damping=(0.5, 2e-3), acceleration=6.0
-    )
-    openings = np.array([s.w[:, -1] for s in assert_same(problem)])
-    assert (openings > 1e-6).any()
-    assert (openings < 0.0).any()
-
-
 def test_steps_begin_where_the_last_ones_lead(monkeypatch):
     """The same motion by fewer turns of the linear iterations, joints and supports moving."""
 
@@ -95,10 +80,6 @@ def test_steps_begin_where_the_last_ones_lead(monkeypatch):
     alone, exact = turns()
     assert led < 0.9 * alone
     assert np.abs(u - exact).max() < 1e-9 * np.abs(exact).max()
-
-
-def test_moving_supports_and_a_dissipating_scheme():
-    assert_same(soil_block(steps=20, size=(16, 8, 4), moving=True, scheme=hht(0.1)))
 
 
 def test_without_joints_the_energy_of_each_step_is_in_balance():
