@@ -7,7 +7,7 @@ key is first looked for; without one a table holds what was imported, whoever di
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
@@ -62,6 +62,16 @@ class Filled(MutableMapping[K, V]):
         if module not in known:
             known.append(module)
         return module
+
+    def entry(self, *keys: K) -> Callable[[V], V]:
+        """Decorator: what stands under some keys."""
+
+        def add(value: V) -> V:
+            for key in keys:
+                self[key] = value
+            return value
+
+        return add
 
     def in_order(self, key: K) -> tuple[str, ...]:
         """Modules that have filled a key, in the order in which what they bring stands there."""

@@ -6,7 +6,7 @@ objects of the language by `name_types`, which needs their names alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -141,6 +141,19 @@ class Table:
         self._items: dict[tuple[object, ...], tuple[object, object]] = {}
         if subtype:
             self.set(Mot("SOUSTYPE"), Mot(subtype))
+
+    @classmethod
+    def of(cls, entries: Mapping[Any, object], subtype: str = "") -> Table:
+        """A table of values by index, a string being a word."""
+        table = cls(subtype)
+        for index, value in entries.items():
+            table.set(Mot(index) if isinstance(index, str) else index, value)
+        return table
+
+    @classmethod
+    def numbered(cls, values: Iterable[object], subtype: str = "") -> Table:
+        """A table of values at 1, 2 ..."""
+        return cls.of(dict(enumerate(values, start=1)), subtype)
 
     def get(self, index: object, default: object = None) -> object:
         """Value at an index, `default` if there is none."""

@@ -51,53 +51,23 @@ INTE = shared("INTE", "objects", full_name="INTERSECTION")
 ListingEntry = Callable[[Any, bool, Teller], str]
 LISTINGS: Filled[str, ListingEntry] = Filled("listings")
 """LIST: type -> function (value, whether in brief, what makes texts of codes)."""
-
-
-def listing(*types: str) -> Callable[[ListingEntry], ListingEntry]:
-    """Decorator: how LIST prints objects of these types."""
-
-    def add(entry: ListingEntry) -> ListingEntry:
-        for word in types:
-            LISTINGS[word] = entry
-        return entry
-
-    return add
-
+listing = LISTINGS.entry
+"""Decorator: how LIST prints objects of these types."""
 
 UnionRule = Callable[[Any, Any], Any]
 UNIONS: Filled[tuple[str, str], UnionRule] = Filled("unions")
 """ET: (left type, right type) -> function."""
-
-
-def union(*pairs: tuple[str, str]) -> Callable[[UnionRule], UnionRule]:
-    """Decorator: what ET does on pairs of types."""
-
-    def add(entry: UnionRule) -> UnionRule:
-        for pair in pairs:
-            UNIONS[pair] = entry
-        return entry
-
-    return add
-
+union = UNIONS.entry
+"""Decorator: what ET does on pairs of types."""
 
 WordedUnionRule = Callable[[Collection[str], Any, Any], Any]
 WORDED_UNIONS: Filled[tuple[str, str], WordedUnionRule] = Filled("unions with words")
 """ET for rules that heed the words 'TELQUEL' and 'NOER'."""
+worded_union = WORDED_UNIONS.entry
+"""Decorator: what ET does on pairs of types, a function `(words, left, right)`.
 
-
-def worded_union(*pairs: tuple[str, str]) -> Callable[[WordedUnionRule], WordedUnionRule]:
-    """Decorator: what ET does on pairs of types, a function `(words, left, right)`.
-
-    `words` are those of 'TELQ' and 'NOER' that stand with ET.
-    """
-
-    def add(entry: WordedUnionRule) -> WordedUnionRule:
-        for pair in pairs:
-            WORDED_UNIONS[pair] = entry
-        return entry
-
-    return add
-
+`words` are those of 'TELQ' and 'NOER' that stand with ET.
+"""
 
 WORDS_OF_UNION = ("TELQ", "NOER")
 """Words that may stand anywhere beside ET."""

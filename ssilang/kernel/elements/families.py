@@ -168,7 +168,7 @@ def geometric_stiffness(
 ) -> ElementMatrices:
     """Geometric stiffness of a stress field."""
     family = family_of(zone)
-    values = _components(zone, stress, family.stress_names(zone))
+    values = components_of(zone, stress, family.stress_names(zone))
     matrices = family.geometric_values(zone, values, zone_field(zone, material))
     return element_matrices(zone, family.layout(zone), matrices, "RIGIDITE", keep_zone=False)
 
@@ -194,7 +194,7 @@ def elastic_stress(zone: Zone, material: CellField, strains: CellField) -> CellF
     """Stresses of given strains."""
     family, parameters = family_of(zone), zone_field(zone, material)
     moduli = _moduli(zone, parameters, "STRESSES")
-    values = apply_moduli(moduli, _components(zone, strains, family.strain_names(zone)))
+    values = apply_moduli(moduli, components_of(zone, strains, family.strain_names(zone)))
     return cell_block(zone, family.stress_names(zone), values)
 
 
@@ -208,7 +208,7 @@ def elastic_strain(zone: Zone, material: CellField, stresses: CellField) -> Cell
     """
     family, parameters = family_of(zone), zone_field(zone, material)
     compliance = compliance_of(zone, parameters)
-    values = apply_moduli(compliance, _components(zone, stresses, family.stress_names(zone)))
+    values = apply_moduli(compliance, components_of(zone, stresses, family.stress_names(zone)))
     return cell_block(zone, family.strain_names(zone), values)
 
 
@@ -225,7 +225,7 @@ def internal_forces(
 ) -> NodeField:
     """Nodal forces in balance with a stress field (BSIG)."""
     family = family_of(zone)
-    values = _components(zone, stresses, family.stress_names(zone))
+    values = components_of(zone, stresses, family.stress_names(zone))
     vectors = family.force_vectors(zone, values, zone_field(zone, material))
     return family.layout(zone).scatter(vectors)
 
@@ -237,7 +237,7 @@ def integration_weights(
     return family_of(zone).weights(zone, zone_field(zone, material), support)
 
 
-def _components(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:
+def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:
     """Components (n_cells, n_names, n_points) at 'STRESSES', zero where absent."""
     seen = zone_field(zone, field)
     if not any(name in seen for name in names):

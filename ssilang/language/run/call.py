@@ -157,8 +157,8 @@ class Call:
         operand = self.read(*types)
         return default if operand is None else operand.value
 
-    def required(self, *types: str, after: int = -1) -> Any:
-        """Value of the next operand of one of the types.
+    def needed(self, *types: str, after: int = -1) -> Operand:
+        """The next operand of one of the types.
 
         Raises
         ------
@@ -168,7 +168,11 @@ class Call:
         operand = self.read(*types, after=after)
         if operand is None:
             raise self.missing(types)
-        return operand.value
+        return operand
+
+    def required(self, *types: str, after: int = -1) -> Any:
+        """Value of the operand that is `needed`."""
+        return self.needed(*types, after=after).value
 
     def all(self, *types: str) -> list[Any]:
         """Values of all readable operands of the types, up to a word (unless MOT is wanted)."""

@@ -1,8 +1,4 @@
-"""From a parsed script back to its text; parsing that text gives the same tree again.
-
-Comments and layout are not kept. Names are printed in capitals, one statement a line, blocks
-indented by two blanks.
-"""
+"""From parsed items back to their text, names in capitals; parsing that gives the same again."""
 
 from __future__ import annotations
 
@@ -18,52 +14,6 @@ _PLAIN_WORD = re.compile(r"[^\W\d]\w*\Z|[@&!#$]\w+\Z")
 _IGNORED_FIELDS = frozenset({"span", "spelling", "cache"})
 
 
-def print_script(script: tree.Script) -> str:
-    """The whole script, ending with a line end."""
-    return "".join(line + "\n" for line in _block(script.body, 0))
-
-
-def _block(nodes: Iterable[tree.Node], depth: int) -> list[str]:
-    lines: list[str] = []
-    for node in nodes:
-        lines += _NODES[type(node)](node, depth)
-    return lines
-
-
-def _line(text: str, depth: int) -> str:
-    # a star or a library mark in the first column would be a comment
-    shift = " " if depth == 0 and text.startswith(("*", "$$$$")) else "  " * depth
-    return shift + text
-
-
-def _statement(node: tree.Statement, depth: int) -> list[str]:
-    text = print_items(node.items)
-    if node.assigns:
-        text = f"{print_items(node.targets)} = {text}"
-    return [_line(f"{text} ;", depth)]
-
-
-def _if(node: tree.If, depth: int) -> list[str]:
-    head = f"SI {print_items(node.condition.items)} ;"
-    lines = [_line(head, depth), *_block(node.then, depth + 1)]
-    if node.otherwise:
-        lines += [_line("SINON ;", depth), *_block(node.otherwise, depth + 1)]
-    return [*lines, _line("FINSI ;", depth)]
-
-
-def _loop(node: tree.Loop, depth: int) -> list[str]:
-    name = _word(node.name)
-    head = " ".join(p for p in ("REPE", name, print_items(node.count)) if p)
-    return [_line(f"{head} ;", depth), *_block(node.body, depth + 1), _line(f"FIN {name} ;", depth)]
-
-
-def _definition(node: tree.Definition, depth: int) -> list[str]:
-    first, last = ("DEBM", "FINM") if node.method else ("DEBP", "FINP")
-    head = f"{first} {heading(node)}"
-    end = " ".join(p for p in (last, print_items(node.results)) if p)
-    return [_line(f"{head} ;", depth), *_block(node.body, depth + 1), _line(f"{end} ;", depth)]
-
-
 def heading(node: tree.Definition) -> str:
     """Name and arguments of a procedure, as they are declared."""
     return " ".join([_word(node.name), *(_parameter(p) for p in node.parameters)])
@@ -74,17 +24,6 @@ def _parameter(p: tree.Parameter) -> str:
     if p.type or p.optional:
         text += ("/" if p.optional else "*") + _word(p.type)
     return f"{text}*{_word(p.subtype)}" if p.subtype else text
-
-
-_NODES: dict[type, Callable[[Any, int], list[str]]] = {
-    tree.Statement: _statement,
-    tree.If: _if,
-    tree.Loop: _loop,
-    tree.Definition: _definition,
-}
-
-
-# ---- items -----------------------------------------------------------------------------------
 
 
 def print_items(items: Iterable[tree.Item]) -> str:

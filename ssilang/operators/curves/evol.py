@@ -314,9 +314,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     if isinstance(fields, RecordedPoints) or (fields and isinstance(fields[0], CellField)):
         return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
     names = names_in_time(call, fields)
-    support = call.read("POINT", "MAILLAGE")
-    if support is None:
-        raise call.missing(("POINT", "MAILLAGE"))
+    support = call.needed("POINT", "MAILLAGE")
     names = names or names_in_time(call, fields)
     if not names:
         names = [_only(call, _made(fields[0]))] if fields else []
@@ -399,9 +397,7 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
 
     With `unmade`, an `InstantField` may stand for a field that nobody asked for yet.
     """
-    operand = call.read("LISTCHPO", "TABLE")
-    if operand is None:
-        raise call.missing(("LISTCHPO", "TABLE"))
+    operand = call.needed("LISTCHPO", "TABLE")
     if isinstance(operand.value, ListChpo):
         times = call.given(_ITS_TIMES).values
         fields = list(operand.value.values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, TypeVar, overload
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from ssilang.language.run.call import Call
 from ssilang.language.say.errors import SsiError
 
 if TYPE_CHECKING:
-    from ssilang.kernel.fields.cell_field import CellField
     from ssilang.kernel.stepping.node_track import NodeTrack
 
 
@@ -41,31 +40,34 @@ class InstantField:
 AnyField = NodeField | InstantField
 
 
+MadeField = TypeVar("MadeField")
+
+
 @dataclass(frozen=True)
-class RecordedFields(Sequence[AnyField]):
+class _Recorded(Sequence[MadeField]):
     """Stands for the fields of all instants that a track holds.
 
     Attributes
     ----------
     track : NodeTrack
     name : str
-        `u`, `v` or `a`.
+        `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
     make : callable
         Makes the field of the entry at a place, from 0.
     """
 
     track: NodeTrack
     name: str
-    make: Callable[[int], NodeField]
+    make: Callable[[int], MadeField]
 
     def __len__(self) -> int:
         return len(self.track)
 
     @overload
-    def __getitem__(self, place: int) -> AnyField: ...
+    def __getitem__(self, place: int) -> MadeField: ...
     @overload
-    def __getitem__(self, place: slice) -> list[AnyField]: ...
-    def __getitem__(self, place: int | slice) -> AnyField | list[AnyField]:
+    def __getitem__(self, place: slice) -> list[MadeField]: ...
+    def __getitem__(self, place: int | slice) -> MadeField | list[MadeField]:
         if isinstance(place, slice):
             return [self[i] for i in range(*place.indices(len(self)))]
         if not 0 <= place < len(self):
@@ -73,36 +75,12 @@ class RecordedFields(Sequence[AnyField]):
         return self.make(place)
 
 
-@dataclass(frozen=True)
-class RecordedPoints(Sequence["CellField"]):
-    """Stands for the fields of joints of all instants that a track holds.
+class RecordedFields(_Recorded[AnyField]):
+    """Of nodes."""
 
-    Attributes
-    ----------
-    track : NodeTrack
-    name : str
-        `jump`, `traction` or `variables`.
-    make : callable
-        Makes the field of the entry at a place, from 0.
-    """
 
-    track: NodeTrack
-    name: str
-    make: Callable[[int], CellField]
-
-    def __len__(self) -> int:
-        return len(self.track)
-
-    @overload
-    def __getitem__(self, place: int) -> CellField: ...
-    @overload
-    def __getitem__(self, place: slice) -> list[CellField]: ...
-    def __getitem__(self, place: int | slice) -> CellField | list[CellField]:
-        if isinstance(place, slice):
-            return [self[i] for i in range(*place.indices(len(self)))]
-        if not 0 <= place < len(self):
-            raise IndexError(place)
-        return self.make(place)
+class RecordedPoints(_Recorded["CellField"]):
+    """Of joints."""
 
     def history(self, name: str, zone: int, cell: int, point: int) -> FloatArray | None:
         """A component at a point, the last one if it has fewer, of a cell, all counted from 1."""

@@ -163,10 +163,7 @@ def _results(
         ("ROTATION", loads.rotation.T),
         ("BRAS", levers),
     ):
-        inner = Table()
-        for axis, values in enumerate(rows, 1):
-            inner.set(axis, ListReel(values))
-        result.set(name, inner)
+        result.set(name, Table.numbered(ListReel(values) for values in rows))
     return result
 
 

@@ -39,10 +39,7 @@ def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     if len(sign) > 1:
         sign = sign.strip()[:1] or " "
     rows = read_csv(file_to_read(call, str(file), ".csv"), sign, first)
-    made = Table()
-    for i, values in enumerate(rows if by == "LIGN" else as_columns(rows), start=1):
-        made.set(i, ListReel(values))
-    return made
+    return Table.numbered(ListReel(v) for v in (rows if by == "LIGN" else as_columns(rows)))
 
 
 @LIRE.form(said("PROC"), _FILE, opt("name", "MOT", default="", en="the only one wanted"))

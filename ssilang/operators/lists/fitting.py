@@ -168,10 +168,7 @@ def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:
     products = np.array([[_inner(call, table, a, b) for b in columns] for a in columns[1:]])
     normal = products[:, 1:] + damping * np.eye(len(columns) - 1)
     step = np.linalg.lstsq(normal, -products[:, 0], rcond=None)[0]
-    made = Table("VECTEUR")
-    for i, h in enumerate(step, start=1):
-        made.set(i, float(h))
-    return made
+    return Table.numbered((float(h) for h in step), "VECTEUR")
 
 
 def _inner(call: Call, table: Table, a: object, b: object) -> float:

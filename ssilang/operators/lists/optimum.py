@@ -132,7 +132,4 @@ def _numbers(call: Call, held: object, index: str, count: int | None, first: int
 
 
 def _table_of(values: FloatArray) -> Table:
-    made = Table("VECTEUR")
-    for i, value in enumerate(values, start=1):
-        made.set(i, float(value))
-    return made
+    return Table.numbered((float(value) for value in values), "VECTEUR")

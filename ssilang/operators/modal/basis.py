@@ -43,7 +43,6 @@ from ssilang.language.values import ListChpo, Mot, Table
 from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
-from ssilang.operators.modal.modes import filled
 from ssilang.operators.workspace import workspace
 
 
@@ -209,7 +208,6 @@ def _psmo(
     if len(others) != 1 or len(masses) > 1:
         raise call.error("operators.modal.psmo-wants-stiffness-mass")
     system = _Shifted(call, others[0], masses[0] if masses else None, modes, frequency)
-    table = Table("PSEUDO_MODE")
     entries = system.seismic(directions) if directions else []
     if field is not None:
         fields: list[Any] = field.values if isinstance(field, ListChpo) else [field]
@@ -218,9 +216,7 @@ def _psmo(
         entries += [system.struck(p, n) for p, n in _shock_points(call, shocks)]
     if not entries:
         raise call.error("operators.modal.nothing-drives-structure-chpoint")
-    for number, entry in enumerate(entries, start=1):
-        table.set(number, filled("", entry))
-    return table
+    return Table.numbered((Table.of(entry) for entry in entries), "PSEUDO_MODE")
 
 
 def _shock_points(call: Call, table: Table) -> list[tuple[Point, Point]]:
@@ -346,7 +342,7 @@ def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
     table = Table("LIAISONS_STATIQUES")
     for number, (node, unknown) in enumerate(pairs, start=1):
         entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
-        table.set(number, filled("", entry))
+        table.set(number, Table.of(entry))
     return table
 
 

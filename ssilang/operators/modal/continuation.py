@@ -22,7 +22,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
-from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer, numbered
+from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
 from ssilang.operators.tables.entries import Entries
 
@@ -77,7 +77,7 @@ class Sampled:
 
     def _given(self, motion: FloatArray) -> ListChpo | Table:
         if not self.fields:
-            return numbered([ListReel(column.copy()) for column in motion.T])
+            return Table.numbered([ListReel(column.copy()) for column in motion.T])
         node = np.array([self.point.node])
         return ListChpo(
             [
@@ -345,7 +345,7 @@ def _curves(
         curves.append(drawn)
     inner = entries.needed("RESULTATS_HBM")
     inner.set(Mot("RESULTATS_EVOL"), joined(curves))
-    inner.set(Mot("TITRE"), numbered([Mot(a.title) for a in asked_all]))
+    inner.set(Mot("TITRE"), Table.numbered([Mot(a.title) for a in asked_all]))
 
 
 def _stability(

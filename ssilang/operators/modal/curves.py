@@ -60,9 +60,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
         fields, times = [fields[i] for i in places], times[places]
     known = [s.field for s in shapes]
     names = names_in_time(call, known)
-    support = call.read("POINT", "MAILLAGE")
-    if support is None:
-        raise call.missing(("POINT", "MAILLAGE"))
+    support = call.needed("POINT", "MAILLAGE")
     names = names or names_in_time(call, known)
     if not names:
         raise call.missing(("MOT",))

@@ -206,21 +206,11 @@ def _response(found: Response, system: System, free: bool) -> Table:
     }
     if free:
         entries["ENERGIE"] = ListReel(np.array(found.energies))
-    return _table(entries)
-
-
-def _table(entries: dict[str, Any]) -> Table:
-    table = Table()
-    for name, value in entries.items():
-        table.set(Mot(name), value)
-    return table
+    return Table.of(entries)
 
 
 def _numbered(columns: FloatArray) -> Table:
-    table = Table()
-    for i, column in enumerate(np.asarray(columns).T, start=1):
-        table.set(i, ListReel(column.copy()))
-    return table
+    return Table.numbered(ListReel(column.copy()) for column in np.asarray(columns).T)
 
 
 def _bifurcations(found: Response) -> Table:
@@ -238,11 +228,8 @@ def _bifurcations(found: Response) -> Table:
         "COEFFICIENTS": [b.coefficients.ravel() for b in all_found],
     }
     for name, rows in vectors.items():
-        table = Table()
-        for i, row in enumerate(rows, start=1):
-            table.set(i, ListReel(np.array(row, dtype=float)))
-        entries[name] = table
-    return _table(entries)
+        entries[name] = Table.numbered(ListReel(np.array(row, dtype=float)) for row in rows)
+    return Table.of(entries)
 
 
 operator(

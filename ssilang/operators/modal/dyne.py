@@ -34,7 +34,6 @@ from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of
 from ssilang.operators.modal.dyne_models import links_table, modal_table, wanted_of
-from ssilang.operators.modal.modes import filled
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import workspace
 
@@ -117,16 +116,16 @@ def results_of_models(
         index, wanted = wanted_of(zone, entries, material)
         asked.set(link, wanted)
         named.append((zone, index, link))
-    output = filled("SORTIE", {"LIAISON_B": asked})
+    output = Table.of({"LIAISON_B": asked}, "SORTIE")
     if kept is not None and kept.has(Mot("VARIABLE")):
         output.set(Mot("VARIABLE"), kept.get(Mot("VARIABLE")))
     start = {n: entries.at(f"{n}S", 0) for n in ("DEPLACEMENT", "VITESSE")}
     start = {n: f for n, f in start.items() if f is not None}
     if entries.has("INIT_DYNE"):
         start["REPRISE"] = entries.get("INIT_DYNE")
-    tables = {"links": links, "start": filled("INITIAL", start), "output": output}
+    tables = {"links": links, "start": Table.of(start, "INITIAL"), "output": output}
     if entries.has("CHARGEMENT"):
-        tables["loads"] = filled("CHARGEMENT", {"BASE_A": entries.get("CHARGEMENT")})
+        tables["loads"] = Table.of({"BASE_A": entries.get("CHARGEMENT")}, "CHARGEMENT")
     damping = np.diag([dampings[mark] for mark in system.basis.marks])
     return _integrated(call, tables, system, damping, steps), named
 
@@ -348,7 +347,7 @@ def _restart(run: ModalRun, system: System) -> Table:
         "ACCELERATION_1/2": system.field(last.before),
         "LIAISONS": ListReel(last.links.ravel()),
     }
-    return filled("REPRISE", entries)
+    return Table.of(entries, "REPRISE")
 
 
 _FORM = operator(

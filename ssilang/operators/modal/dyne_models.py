@@ -10,7 +10,6 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_points
 from ssilang.language.values import Mot, Table
-from ssilang.operators.modal.modes import filled
 from ssilang.operators.tables.entries import Entries
 
 _LONG = {
@@ -51,8 +50,8 @@ def modal_table(model: Model, material: CellField) -> tuple[Table, dict[int, flo
         given = zone_field(zone, material).own()
         if "CGRA" in given:
             entries |= {"CORPS_RIGIDE": True, "CENTRE_DE_GRAVITE": given.raw("CGRA")[0][0, 0]}
-        modes.set(number, filled("MODE", entries))
-    return filled("BASE_MODALE", {"MODES": modes}), {s.node: s.damping for s in shapes}
+        modes.set(number, Table.of(entries, "MODE"))
+    return Table.of({"MODES": modes}, "BASE_MODALE"), {s.node: s.damping for s in shapes}
 
 
 def links_table(model: Model, material: CellField) -> tuple[Table, list[tuple[Zone, Table]]]:
@@ -63,7 +62,7 @@ def links_table(model: Model, material: CellField) -> tuple[Table, list[tuple[Zo
         table = _link(zone, material)
         numbered.set(number, table)
         found.append((zone, table))
-    return filled("LIAISON", {"LIAISON_B": numbered}), found
+    return Table.of({"LIAISON_B": numbered}, "LIAISON"), found
 
 
 def _parameters(zone: Zone, material: CellField) -> dict[str, Any]:
@@ -87,7 +86,7 @@ def _link(zone: Zone, material: CellField) -> Table:
         if name in _LONG and value is not None:
             plural = "S" if lines and name in ("RAID", "AMOR") else ""
             entries[_LONG[name] + plural] = value if isinstance(value, bool) else _plain(value)
-    table = filled("LIAISON_ELEMENTAIRE", entries)
+    table = Table.of(entries, "LIAISON_ELEMENTAIRE")
     for number in range(1, 10):  # of POLYNOMIALE
         if f"PCO{number}" in given and f"TCO{number}" in given:
             table.set(given[f"PCO{number}"], given[f"TCO{number}"])

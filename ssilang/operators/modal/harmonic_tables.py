@@ -79,14 +79,6 @@ def joined(curves: Sequence[Curve]) -> Curve:
     return Curve(tuple(p for c in curves for p in c.parts))
 
 
-def numbered(values: Sequence[object]) -> Table:
-    """A table 1, 2 ..."""
-    table = Table()
-    for i, value in enumerate(values, start=1):
-        table.set(i, value)
-    return table
-
-
 def longer(table: Table, index: str, values: FloatArray) -> FloatArray:
     """The list at an index with more values behind, also set there."""
     known = table.get(index)

@@ -20,7 +20,6 @@ from ssilang.operators.modal.harmonic_tables import (
     colours_of,
     curve,
     joined,
-    numbered,
 )
 from ssilang.operators.tables.entries import Entries
 
@@ -105,7 +104,7 @@ def _results(entries: Entries, names: Names) -> None:
             found.set(number, _coefficient(asked, names, place, titles[-1], given, colours))
         asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
     if number:
-        found.set(Mot("TITRE"), numbered([Mot(t) for t in titles]))
+        found.set(Mot("TITRE"), Table.numbered([Mot(t) for t in titles]))
         entries.table.set(Mot("RESULTATS_HBM"), found)
 
 
@@ -176,7 +175,7 @@ def zhpo(call: Call, table: Table, results: ListMots) -> None:
     shown = entries.table.get("RESULTATS")
     if curves and isinstance(shown, Table):
         shown.set(Mot("RESULTATS_EVOL"), joined(curves))
-        shown.set(Mot("TITRE"), numbered(titles))
+        shown.set(Mot("TITRE"), Table.numbered(titles))
 
 
 def _motion(entries: Entries, asked: Asked) -> Motion:

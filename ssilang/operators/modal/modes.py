@@ -149,14 +149,6 @@ def _complex(
 # --- tables ----------------------------------------------------------------------------------
 
 
-def filled(subtype: str, items: dict[Any, Any]) -> Table:
-    """A table of a sub-type with its entries."""
-    table = Table(subtype)
-    for index, value in items.items():
-        table.set(Mot(index) if isinstance(index, str) else index, value)
-    return table
-
-
 @dataclass(frozen=True, eq=False)
 class Solution:
     """Modes, each a table as those of a table BASE_DE_MODES."""
@@ -166,11 +158,11 @@ class Solution:
     @property
     def table(self) -> Table:
         """They as a table BASE_DE_MODES."""
-        return filled("BASE_DE_MODES", dict(enumerate(self.modes, start=1)))
+        return Table.numbered(self.modes, "BASE_DE_MODES")
 
 
 def directions(values: Sequence[float]) -> Table:
-    return filled("DEPLACEMENTS_GENERALISES", {i + 1: float(v) for i, v in enumerate(values)})
+    return Table.of({i + 1: float(v) for i, v in enumerate(values)}, "DEPLACEMENTS_GENERALISES")
 
 
 def _real_entry(mode: Mode, signed: bool) -> dict[str, Any]:
@@ -200,11 +192,11 @@ def modal_table(
 ) -> Table:
     """The BASE_MODALE table of modes, each with a point of its own that marks it."""
     ws = workspace(call.session)
-    modes = filled("BASE_DE_MODES", {"MAILLAGE": support_mesh(mass)})
+    modes = Table.of({"MAILLAGE": support_mesh(mass)}, "BASE_DE_MODES")
     for number, entry in enumerate(entries, start=1):
         mark = Point(ws.nodes, int(ws.nodes.add([[0.0, 0.0, 0.0]])[0]))  # type: ignore[arg-type]
-        modes.set(number, filled(subtype, {"NUMERO_MODE": number, "POINT_REPERE": mark, **entry}))
-    return filled("BASE_MODALE", {"MODES": modes})
+        modes.set(number, Table.of({"NUMERO_MODE": number, "POINT_REPERE": mark, **entry}, subtype))
+    return Table.of({"MODES": modes}, "BASE_MODALE")
 
 
 operator(

@@ -18,7 +18,6 @@ from ssilang.language.registry import Like, arg, choice, flag, operator, opt, sa
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.modal.basis import Shape, shapes_in
-from ssilang.operators.modal.modes import filled
 from ssilang.operators.numbers.arithmetic import rule
 
 # --- unit size -------------------------------------------------------------------------------
@@ -76,7 +75,7 @@ def _unit_basis(table: Table, size: Any) -> Table:
     inner = table.get("MODES")
     if isinstance(inner, Table):
         rest = {i: v for i, v in table.items() if i not in ("MODES", "SOUSTYPE")}
-        return filled(table.subtype, {**rest, "MODES": _unit_basis(inner, size)})
+        return Table.of({**rest, "MODES": _unit_basis(inner, size)}, table.subtype)
     made = Table(table.subtype)
     for index, entry in table.items():
         shape = entry.get("DEFORMEE_MODALE") if isinstance(entry, Table) else None
@@ -96,7 +95,7 @@ def _unit_mode(entry: Table, shape: NodeField, by: float) -> Table:
             value = value / by**2
         elif index == "DEPLACEMENTS_GENERALISES" and isinstance(value, Table):
             scaled = {i: v / by for i, v in value.items() if isinstance(v, float)}
-            value = filled(value.subtype, scaled)
+            value = Table.of(scaled, value.subtype)
         made.set(index, value)
     return made
 

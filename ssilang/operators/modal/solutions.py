@@ -32,7 +32,7 @@ from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.matrices import modal_stiffness
-from ssilang.operators.modal.modes import Solution, directions, filled
+from ssilang.operators.modal.modes import Solution, directions
 from ssilang.operators.statics.loads_in_time import tire
 from ssilang.operators.tables.indices import copied
 from ssilang.operators.workspace import workspace
@@ -140,7 +140,7 @@ def mode_by_hand(
     }
     if stresses is not None:
         entries["CONTRAINTE_MODALE"] = stresses
-    return Solution((filled("MODE", entries),))
+    return Solution((Table.of(entries, "MODE"),))
 
 
 @union(("SOLUTION", "SOLUTION"))

@@ -12,7 +12,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Model
 from ssilang.language.registry import When, arg, by, flag, many, operator
 from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
+from ssilang.language.values import ListReel, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.workspace import workspace
 
@@ -95,15 +95,10 @@ def _results(found: BentSection, moments: list[ListReel], checked: bool) -> tupl
     results = (*moments, ListReel.of(found.strains))
     if not checked:
         return results
-    table = Table()
-    parts = (
-        ("CONTRAINTES", found.stresses),
-        ("VARIABLES_INTERNES", found.variables),
-        ("DEFORMATION", [float(e) for e in found.strains]),
-    )
-    for name, values in parts:
-        rows = Table()
-        for i, value in enumerate(values, start=1):
-            rows.set(i, value)
-        table.set(Mot(name), rows)
+    parts = {
+        "CONTRAINTES": found.stresses,
+        "VARIABLES_INTERNES": found.variables,
+        "DEFORMATION": [float(e) for e in found.strains],
+    }
+    table = Table.of({name: Table.numbered(values) for name, values in parts.items()})
     return (*results, table)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from datetime import datetime
 from typing import Any
 
@@ -61,15 +60,8 @@ def _tabulated(session: Session) -> Table:
     made = Table()
     for name, since, before in zip(("TEMPS_HORLOGE", "TEMPS_CPU"), begun, last, strict=True):
         times = {"INITIAL": round(1000 * since), "DERNIER_APPEL": round(1000 * before)}
-        made.set(Mot(name), _table_of(times))
-    made.set(Mot("APPELS"), _table_of({k: ListEnti(v) for k, v in session.calls.items()}))
-    return made
-
-
-def _table_of(values: Mapping[str, object]) -> Table:
-    made = Table()
-    for name, value in values.items():
-        made.set(Mot(name), value)
+        made.set(Mot(name), Table.of(times))
+    made.set(Mot("APPELS"), Table.of({k: ListEnti(v) for k, v in session.calls.items()}))
     return made
 
 

@@ -103,9 +103,7 @@ def _in_field(call: Call, field: Any) -> bool:
 def _in_words(call: Call, words: ListMots) -> Any:
     between = len(call.operands) > 1 and isinstance(call.operands[1].value, ListMots)
     word = call.keyword(("ET", "OU")) if between else None
-    operand = call.read("MOT", "LISTMOTS")
-    if operand is None:
-        raise call.missing(("MOT", "LISTMOTS"))
+    operand = call.needed("MOT", "LISTMOTS")
     if isinstance(operand.value, str):
         return bool(np.any(equal_items(words.values, operand.value, None, False)))
     found = [bool(np.any(equal_items(words.values, w, None, False))) for w in operand.value.values]

@@ -57,7 +57,6 @@ from ssilang.operators.statics.pasapas_steering import (
     ChangedCalculation,
     SavedTable,
     Steering,
-    state_table,
     tell_parts,
     working_table,
 )
@@ -197,7 +196,7 @@ def _stretch(
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
-    return state_table(reached.values)
+    return Table.of(reached.values)
 
 
 def _not_kept(work: Entries) -> list[str]:

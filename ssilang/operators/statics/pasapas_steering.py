@@ -111,7 +111,7 @@ class Steering:
         ChangedCalculation
             When an entry of WTABLE, or the list of times, is another one after the calls.
         """
-        state = state_table(self.results.values(snapshot))
+        state = Table.of(self.results.values(snapshot))
         self.table.set(Mot("ESTIMATION"), state)
         before = [self.inner.get(word) for word in CHANGEABLE]
         if self.prepared:
@@ -150,14 +150,6 @@ class SavedTable:
 
     def close(self) -> None:
         """Nothing to do."""
-
-
-def state_table(values: dict[str, Any]) -> Table:
-    """Table of a state by the words of the results."""
-    state = Table()
-    for word, value in values.items():
-        state.set(Mot(word), value)
-    return state
 
 
 def _is_same(first: Any, second: Any) -> bool:

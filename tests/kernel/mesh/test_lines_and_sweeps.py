@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.generators.sweep import (
@@ -16,7 +17,7 @@ from ssilang.kernel.mesh.generators.sweep import (
     translation,
 )
 from ssilang.kernel.mesh.lines.curves import arc_about_axis, arc_through, cubic_through, parabola
-from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, straight_line
+from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

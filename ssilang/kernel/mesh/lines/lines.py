@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
+from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable, told_coordinates
 
@@ -58,37 +58,6 @@ def chain_mesh(nodes: NodeTable, chain: IntArray, quadratic: bool, colour: int =
     step = 2 if quadratic else 1
     columns = [chain[k : len(chain) - step + k : step] for k in range(step + 1)]
     return Mesh.of(nodes, "SEG3" if quadratic else "SEG2", np.column_stack(columns), colour)
-
-
-def straight_line(
-    nodes: NodeTable,
-    start: int,
-    end: int,
-    count: int = 0,
-    sizes: tuple[float, float] | None = None,
-    quadratic: bool = False,
-    colour: int = 0,
-) -> Mesh:
-    """A straight line between two nodes.
-
-    Parameters
-    ----------
-    count, sizes
-        See `subdivide`; `sizes` default to the densities of the two nodes.
-
-    Raises
-    ------
-    MeshError
-        If the nodes are the same, or coincide without `count`.
-    """
-    different_nodes(nodes, start, end)
-    a, b = nodes.coordinates[start].copy(), nodes.coordinates[end].copy()
-    length = float(np.linalg.norm(b - a))
-    first, last = sizes or end_sizes(nodes, start, end)
-    cuts = subdivide(length, first, last, count)
-    return mesh_curve(
-        nodes, lambda s: a + s[:, None] * (b - a), start, end, cuts, quadratic, colour
-    )
 
 
 def end_sizes(nodes: NodeTable, start: int, end: int) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
+from ssilang.kernel.mesh.lines.curves import unit_vector
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -153,17 +154,15 @@ def inside_contour(
     starts, ends = _segments(contour)
     origin = starts.mean(axis=0)
     normal = np.cross(starts - origin, ends - origin).sum(axis=0)
-    size = float(np.linalg.norm(normal))
-    if size == 0.0:
-        raise MeshError("kernel.mesh.selecting-contour-encloses-no-area")
-    first, second = plane_axes(normal / size)
+    unit = unit_vector(normal, "kernel.mesh.selecting-contour-encloses-no-area")
+    first, second = plane_axes(unit)
     p = np.column_stack([(positions - origin) @ first, (positions - origin) @ second])
     a = np.column_stack([(starts - origin) @ first, (starts - origin) @ second])
     b = np.column_stack([(ends - origin) @ first, (ends - origin) @ second])
     scale = float(np.ptp(a, axis=0).max())
     inside = crossing_inside(p, a, b)
     border = segment_distance(p, a, b) <= max(near, 1e-9 * scale)
-    flat = np.abs((positions - origin) @ (normal / size)) <= 1e-6 * scale
+    flat = np.abs((positions - origin) @ unit) <= 1e-6 * scale
     return np.asarray(flat & (inside & ~border if strict else inside | border))
 
 

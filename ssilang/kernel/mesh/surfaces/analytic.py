@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.lines.curves import unit_vector
 
 # positions (m, 3) -> signed or unsigned distances (m,)
 Level = Callable[[FloatArray], FloatArray]
@@ -33,7 +34,7 @@ class Shape:
 
 def line_shape(a: FloatArray, b: FloatArray) -> Shape:
     """The line through two points (3,); projections are for plane (2D) problems."""
-    unit = _unit(b - a, "kernel.mesh.two-points-line-coincide")
+    unit = unit_vector(b - a, "kernel.mesh.two-points-line-coincide")
     normal = np.array([-unit[1], unit[0], 0.0])
 
     def distance(x: FloatArray) -> FloatArray:
@@ -46,7 +47,7 @@ def line_shape(a: FloatArray, b: FloatArray) -> Shape:
 
 def plane_shape(a: FloatArray, b: FloatArray, c: FloatArray) -> Shape:
     """The plane through three points (3,)."""
-    normal = _unit(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    normal = unit_vector(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
     return Shape(lambda x: (x - a) @ normal, lambda x, d: _plane_hit(x, d, a, normal))
 
 
@@ -64,7 +65,7 @@ def sphere_shape(centre: FloatArray, on: FloatArray) -> Shape:
 
 def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
     """The cylinder of axis a-b through a point (3,)."""
-    unit = _unit(b - a, "kernel.mesh.two-points-axis-coincide")
+    unit = unit_vector(b - a, "kernel.mesh.two-points-axis-coincide")
     radius = float(np.linalg.norm(_across((on - a)[None], unit)))
 
     def hit(x: FloatArray, d: FloatArray) -> FloatArray:
@@ -82,7 +83,7 @@ def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
 
 def cone_shape(apex: FloatArray, axis_point: FloatArray, on: FloatArray) -> Shape:
     """The (double) cone of an apex and an axis through a point (3,)."""
-    unit = _unit(axis_point - apex, "kernel.mesh.apex-axis-point-coincide")
+    unit = unit_vector(axis_point - apex, "kernel.mesh.apex-axis-point-coincide")
     along = float((on - apex) @ unit)
     away = float(np.linalg.norm(_across((on - apex)[None], unit)))
     size = float(np.hypot(along, away))
@@ -113,7 +114,7 @@ def torus_shape(
     centre: FloatArray, axis_point: FloatArray, small_centre: FloatArray, on: FloatArray
 ) -> Shape:
     """The torus of a centre and an axis, with a small circle's centre, through a point (3,)."""
-    unit = _unit(axis_point - centre, "kernel.mesh.two-points-torus-axis")
+    unit = unit_vector(axis_point - centre, "kernel.mesh.two-points-torus-axis")
     large = float(np.linalg.norm(_across((small_centre - centre)[None], unit)))
 
     def to_ring(x: FloatArray) -> FloatArray:
@@ -133,14 +134,6 @@ def _across(vectors: FloatArray, unit: FloatArray) -> FloatArray:
     """Parts of vectors (m, 3) orthogonal to a unit vector."""
     part: FloatArray = vectors - (vectors @ unit)[:, None] * unit
     return part
-
-
-def _unit(vector: FloatArray, code: str) -> FloatArray:
-    size = float(np.linalg.norm(vector))
-    if size == 0.0:
-        raise MeshError(code)
-    unit: FloatArray = vector / size
-    return unit
 
 
 def _plane_hit(x: FloatArray, d: FloatArray, a: FloatArray, normal: FloatArray) -> FloatArray:
@@ -190,7 +183,9 @@ def project(
         If the direction has no length, a point is the apex, or a ray misses the shape.
     """
     if direction is not None:
-        rays = np.broadcast_to(_unit(direction, "kernel.mesh.direction-projection-zero"), x.shape)
+        rays = np.broadcast_to(
+            unit_vector(direction, "kernel.mesh.direction-projection-zero"), x.shape
+        )
     else:
         assert apex is not None
         arm = x - apex

@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.lines.curves import unit_vector
 from ssilang.kernel.mesh.queries.select import plane_axes
 
 Map = Callable[[FloatArray], FloatArray]
@@ -64,10 +65,7 @@ def _frame(
     boundary: FloatArray, origin: FloatArray, axis: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Unit axis and two radial unit vectors, the first towards the middle of the boundary."""
-    size = float(np.linalg.norm(axis))
-    if size == 0.0:
-        raise MeshError("kernel.mesh.points-surface-axis-coincide")
-    up = axis / size
+    up = unit_vector(axis, "kernel.mesh.points-surface-axis-coincide")
     arm = boundary - origin
     across = arm - (arm @ up)[:, None] * up
     radii = np.linalg.norm(across, axis=1)

