@@ -71,7 +71,8 @@ def test_curves_of_one_component_are_told_apart(made, legends, tmp_path: Path) -
     motion = (
         "OPTI 'DIME' 2 ; P = 0. 0. ; L = MANU 'POI1' (P ET (1. 0.)) ; "
         "U = MANU 'CHPO' L 1 'UX' 1. ; V = SUIT U U ; W = SUIT U (2. * U) ; X = PROG 0. 1. ; "
-        "A = EVOL 'TEMP' V X 'UX' P ; B = EVOL 'TEMP' W X 'UX' P ; C = EVOL 'TEMP' W X 'UX' (POIN 2 L) ; "
+        "A = EVOL 'TEMP' V X 'UX' P ; B = EVOL 'TEMP' W X 'UX' P ; "
+        "C = EVOL 'TEMP' W X 'UX' (POIN 2 L) ; "
     )
     run(motion + made, tmp_path)
     assert {w for w in words(tmp_path) if w.startswith("UX ")} == legends
