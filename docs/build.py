@@ -147,10 +147,18 @@ def index_markdown(pages: Iterable[Page]) -> str:
 
 # ---- coverage --------------------------------------------------------------------------------
 
+CONTROL = {"SI", "SINO", "FINS", "REPE", "DEBP", "FINP", "DEBM", "FINM", "TEXT", "COMM"}
+"""Words that the evaluator itself knows."""
+
 
 def partly_built() -> dict[str, str]:
     """Operators of which something is not built or not tried, with what it is (`partly.txt`)."""
-    return _remarks("partly.txt")
+    found: dict[str, str] = {}
+    for line in (_HERE / "partly.txt").read_text(encoding="utf-8").split("\n"):
+        if line.strip() and not line.startswith("#"):
+            name, _, text = line.partition(":")
+            found[name.strip()] = text.strip()
+    return found
 
 
 def untried(remark: str) -> list[str]:
@@ -159,37 +167,20 @@ def untried(remark: str) -> list[str]:
     return [part.strip() for part in listed.split(",") if part.strip()]
 
 
-def not_built() -> dict[str, str]:
-    """Names that belong here and do not exist, with the reason (`not_built.txt`)."""
-    return _remarks("not_built.txt")
-
-
-def _remarks(file: str) -> dict[str, str]:
-    found: dict[str, str] = {}
-    for line in (_HERE / file).read_text(encoding="utf-8").split("\n"):
-        if line.strip() and not line.startswith("#"):
-            name, _, text = line.partition(":")
-            found[name.strip()] = text.strip()
-    return found
-
-
-def status(
-    word: Cast3mWord, built: set[str], partly: dict[str, str], reasons: dict[str, str]
-) -> tuple[str, str]:
+def status(word: Cast3mWord, built: set[str], partly: dict[str, str]) -> tuple[str, str]:
     """Whether a word of Cast3M is built, and a remark: what is missing, or why it is not built."""
     if word.name in built:
         return ("partly", partly[word.name]) if word.name in partly else ("built", "")
     if word.subject == IN_SCOPE:
-        return "not built", reasons.get(word.name, "")
+        return "not built", teller("en")(f"help.reason-{word.reason}")
     return "out of scope", teller("en")(f"help.subject-{word.subject}")
 
 
 def coverage_markdown() -> str:
     """The table of every word of Cast3M."""
     load_operators()
-    control = {"SI", "SINO", "FINS", "REPE", "DEBP", "FINP", "DEBM", "FINM", "TEXT", "COMM"}
-    built = {*OPERATORS, *standard_procedures(), *control}
-    partly, reasons = partly_built(), not_built()
+    built = {*OPERATORS, *standard_procedures(), *CONTROL}
+    partly = partly_built()
     words = cast3m_words()
     lines = ["# What is built of Cast3M", "",
              "Names are those of Cast3M's public documentation. *built*: every form of the notice "
@@ -200,7 +191,7 @@ def coverage_markdown() -> str:
              "subject. `python docs/build.py` writes this table.", ""]  # fmt: skip
     for kind in ("operator", "procedure"):
         chosen = [w for w in words.values() if w.kind == kind]
-        rows = {w.name: status(w, built, partly, reasons) for w in chosen}
+        rows = {w.name: status(w, built, partly) for w in chosen}
         lines += [f"## {kind.capitalize()}s", "", *_counts(rows), ""]
         lines += ["| name | state | remark |", "| --- | --- | --- |"]
         for name, (state, remark) in sorted(rows.items()):

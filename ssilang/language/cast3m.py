@@ -14,23 +14,27 @@ IN_SCOPE = "mechanics"
 
 @dataclass(frozen=True, slots=True)
 class Cast3mWord:
-    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` as in the file."""
+    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` as in the file.
+
+    `reason` names the sentence why a word that belongs here is not built, '' if it is.
+    """
 
     name: str
     kind: str
     subject: str
+    reason: str = ""
 
 
 @cache
 def cast3m_words() -> dict[str, Cast3mWord]:
     """All words by name."""
     words: dict[str, Cast3mWord] = {}
-    kind = subject = ""
+    header: list[str] = []
     for line in _FILE.read_text(encoding="utf-8").split("\n"):
         if line.startswith("["):
-            kind, subject = line.strip("[]").split()
+            header = line.strip("[]").split()
         elif line and not line.startswith("#"):
-            words.update({n: Cast3mWord(n, kind, subject) for n in line.split()})
+            words.update({n: Cast3mWord(n, *header) for n in line.split()})
     return words
 
 

@@ -16,6 +16,7 @@ from inspect import signature
 from types import FunctionType
 from typing import Any, Literal
 
+from ssilang.language.cast3m import cast3m_words
 from ssilang.language.filled import Filled
 from ssilang.language.vocabulary.terms import CARRIED, UNSAID, Range
 from ssilang.messages.message import Translated, examples, help_texts, spoken
@@ -728,14 +729,17 @@ def _injected(function: Function) -> tuple[str, ...]:
 def find_operator(word: str) -> Operator | None:
     """The operator that a word names: signs in full, names on their first four letters.
 
-    A text of several words names none: 'MODE 1 frequency' is a label.
+    A text of several words names none: 'MODE 1 frequency' is a label. Nor does the whole name of a
+    procedure of Cast3M: NORMALIM is no NORM.
     """
     found = OPERATORS.get(word)
     if found is not None:
         return found
-    if " " in word.rstrip():
+    if " " in word.rstrip() or not (len(word) > 4 or word.endswith(" ")):
         return None
-    return OPERATORS.get(word[:4].rstrip()) if len(word) > 4 or word.endswith(" ") else None
+    found = OPERATORS.get(word[:4].rstrip())
+    known = cast3m_words().get(word.rstrip()) if found is not None else None
+    return None if known is not None and known.kind == "procedure" else found
 
 
 def operators_by_family() -> Mapping[str, list[Operator]]:

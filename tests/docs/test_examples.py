@@ -26,7 +26,7 @@ from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.reference import operator_page, procedure_page
 from ssilang.language.text.source import Source
-from ssilang.language.values import MAY_BE_EMPTY, Mot, is_empty, type_of
+from ssilang.language.values import ANNULE, MAY_BE_EMPTY, Mot, is_empty, type_of
 from ssilang.operators.loader import load_operators
 from ssilang.operators.session.empty_objects import _MAKERS
 from ssilang.operators.workspace import workspace
@@ -113,7 +113,7 @@ def _checked(text, result):
     for place, word in sorted(types.items()):  # what is said last holds; '' of many types
         seen[re.match(r"[\w@!]+", text[place:])[0].upper()[:24]] = word
     values = {name: result.session.root.find(name) for name in seen}
-    there = {name: type_of(v) for name, v in values.items() if v is not None}
+    there = {n: type_of(v) for n, v in values.items() if v is not None and v is not ANNULE}
     assert {name: seen[name] or there[name] for name in there} == there
 
 

@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from ssilang.cli.check import check_source
-from ssilang.cli.run import run_text
+from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.cast3m import IN_SCOPE, cast3m_words, find_cast3m_word
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.text.source import Source
+from ssilang.messages.message import teller
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -59,15 +60,20 @@ def test_partly_built_operators_exist(build):
         assert text
 
 
-def test_names_that_are_not_built_say_why_and_do_not_exist(build):
-    reasons = build.not_built()
-    existing = {*OPERATORS, *standard_procedures()}
-    words, table = cast3m_words(), build.coverage_markdown()
-    assert reasons
-    for name, text in reasons.items():
-        assert words[name].subject == IN_SCOPE
-        assert name not in existing
-        assert f"| `{name}` | not built | {text} |" in table
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_words_that_belong_here_exist_or_say_why_not(build, language):
+    built = {*OPERATORS, *standard_procedures(), *build.CONTROL}
+    there = {w.name: w.reason for w in cast3m_words().values() if w.subject == IN_SCOPE}
+    missing = {n: r for n, r in there.items() if n not in built}
+    assert missing == {n: r for n, r in there.items() if r}
+    table = build.coverage_markdown()
+    for name, key in missing.items():
+        reason = teller(language)(f"help.reason-{key}")
+        message = run_text(
+            f"X = {name} 1 ; MESS X ;", options=RunOptions(language=language)
+        ).message
+        assert reason in message
+        assert language == "fr" or f"| `{name}` | not built | {reason} |" in table
 
 
 def test_words_of_cast3m_are_found_by_four_letters_or_in_full():

@@ -294,7 +294,12 @@ def test_two_names_before_a_list_are_refused(refused, names):
 
 @pytest.mark.parametrize(
     ("place", "legends"),
-    [("P1", ["UX P1"]), ("(POIN 1 L)", ["UX"]), ("L", ["UX P1", "UX 3", "UX TOP"])],
+    [
+        ("P1", ["UX P1"]),
+        ("(POIN 1 L)", ["UX P1"]),
+        ("(POIN 2 L)", ["UX 3"]),
+        ("L", ["UX P1", "UX 3", "UX TOP"]),
+    ],
 )
 def test_legends_name_the_points_of_the_script(found, place, legends):
     e = found(

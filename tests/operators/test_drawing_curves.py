@@ -57,6 +57,27 @@ def test_legends_of_the_table(tmp_path: Path) -> None:
     assert "first" not in words(tmp_path, 2)
 
 
+@pytest.mark.parametrize(
+    ("made", "legends"),
+    [
+        ("DESS A B 'LEGE' ;", {"UX P A", "UX P B"}),
+        ("DESS (A ET B) 'LEGE' ;", {"UX P 1", "UX P 2"}),
+        ("DESS (A ET C) 'LEGE' ;", {"UX P", "UX 2"}),
+        ("DESS A (A COUL 'ROUG') 'LEGE' ;", {"UX P 1", "UX P 2"}),
+        ("DESS (A COUL 'ROUG') (B COUL 'ROUG') 'LEGE' ;", {"UX P"}),
+    ],
+)
+def test_curves_of_one_component_are_told_apart(made, legends, tmp_path: Path) -> None:
+    motion = (
+        "OPTI 'DIME' 2 ; P = 0. 0. ; L = MANU 'POI1' (P ET (1. 0.)) ; "
+        "U = MANU 'CHPO' L 1 'UX' 1. ; V = SUIT U U ; W = SUIT U (2. * U) ; X = PROG 0. 1. ; "
+        "A = EVOL 'TEMP' V X 'UX' P ; B = EVOL 'TEMP' W X 'UX' P ; "
+        "C = EVOL 'TEMP' W X 'UX' (POIN 2 L) ; "
+    )
+    run(motion + made, tmp_path)
+    assert {w for w in words(tmp_path) if w.startswith("UX ")} == legends
+
+
 def test_only_one_format_on_demand_named_after_the_file(tmp_path: Path) -> None:
     run("OPTI 'TRAC' 'SVG' 'FTRA' 'out/fig.ps' ; DESS E ; DESS E ;", tmp_path)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["0001_fig.svg", "0002_fig.svg"]

@@ -287,6 +287,8 @@ def test_values_of_fields_on_one_point_need_no_point(found, refused):
     assert one.values.tolist() == [1.0, 2.0]
     two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR «(SUIT C D)» 'VALE' ;"
     assert "stand on 2 points" in refused(two)
+    assert found(script + "A = EXTR L 'VALE' 'T' Q ;", "A").values.tolist() == [0.0, 0.0]
+    assert "no component" in refused(script + "A = EXTR L 'VALE' 'X' Q ;")
 
 
 def test_type_of_the_objects_of_a_list(found):

@@ -18,6 +18,7 @@ PREDEFINED: dict[str, Any] = {
 """Names that a run begins with."""
 
 _MISSING = object()
+_UNREADABLE = (NotBuilt, type(ANNULE))
 
 
 class Unread(Protocol):
@@ -66,18 +67,18 @@ class Frame:
         """Bind a name here."""
         self.variables[name] = value
 
-    def forget(self, name: str) -> None:
-        """Make a name ANNULE here (OUBL); at the top it is as if never assigned."""
-        if self.caller is None:
+    def forget(self, name: str, hiding: bool) -> None:
+        """Make a name ANNULE here (OUBL), or, at the top, the word again that it was hiding."""
+        if hiding and self.caller is None:
             self.variables.pop(name, None)
         else:
             self.variables[name] = ANNULE
 
     def names(self) -> set[str]:
-        """All visible names of what can be read."""
+        """All visible names of what exists."""
         found: dict[str, Any] = {}
         frame: Frame | None = self
         while frame is not None:
             found = {**frame.variables, **found}
             frame = frame.caller
-        return {name for name, value in found.items() if type(value) is not NotBuilt}
+        return {name for name, value in found.items() if type(value) not in _UNREADABLE}

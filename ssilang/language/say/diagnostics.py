@@ -295,6 +295,7 @@ def elsewhere(word: str, language: str) -> str:
         return ""
     data = {"name": found.name, "operator": found.kind == "operator"}
     if found.subject == IN_SCOPE:
+        data["reason"] = Sentence(f"help.reason-{found.reason}") if found.reason else ""
         return message.sentence("not-built", data, language)
     data["subject"] = Sentence(f"help.subject-{found.subject}")
     return message.sentence("out-of-scope", data, language)

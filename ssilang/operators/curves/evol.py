@@ -324,7 +324,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     for name in names:
         for node in nodes:
             values = value_in_time(call, fields, name, node)
-            legend = f"{name} {called[node]}" if node in called else name
+            legend = f"{name} {called[node]}"
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
             parts.append(made.measured("s", _unit_in_time(results, title, name)))
@@ -332,15 +332,14 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
 
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:
-    """What a legend calls nodes: the script's name of the point, else, of several, the number."""
-    if isinstance(support.value, Point):
-        return {support.value.node: support.name} if support.name else {}
-    nodes = nodes_named(support.value)
-    found = {node: str(node + 1) for node in nodes} if len(nodes) > 1 else {}
+    """What a legend calls nodes: the script's names of the points, else their numbers."""
     frame = call.session.frame
     named = ((name, frame.find(name)) for name in sorted(frame.names(), reverse=True))
     points = {p.node: name for name, p in named if isinstance(p, Point)}
-    return found | {node: points[node] for node in nodes if node in points}
+    found = {node: points.get(node, str(node + 1)) for node in nodes_named(support.value)}
+    if isinstance(support.value, Point) and support.name:
+        found[support.value.node] = support.name
+    return found
 
 
 def _made(field: NodeField | InstantField) -> NodeField:
@@ -357,10 +356,11 @@ def _in_a_cell(
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.given(_CELL) for _ in range(3))
+    legend = f"{name} {zone} {cell} {point}"
     if isinstance(fields, RecordedPoints):
         recorded = fields.history(name, zone, cell, point)
         if recorded is not None:
-            part = CurvePart(times, recorded, "TEMP", name[:12], name, colour)
+            part = CurvePart(times, recorded, "TEMP", name[:12], legend, colour)
             return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
         fields = [fields[0]]  # the others lack it too
     values = []
@@ -374,7 +374,7 @@ def _in_a_cell(
             )
         row = held[cell - 1]
         values.append(float(row[min(point, len(row)) - 1]))
-    part = CurvePart(times, np.asarray(values), "TEMP", name[:12], name, colour)
+    part = CurvePart(times, np.asarray(values), "TEMP", name[:12], legend, colour)
     return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
 
 

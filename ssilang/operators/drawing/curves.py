@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
@@ -146,6 +147,7 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
             )
     if table is not None:
         found |= _styles(call, table, [len(part.abscissas) for part in parts])
+    found["names"] = _told_apart(curves) | found.get("names", {})
     # the title of the evolution, else the one in force
     if "title" not in found and not curve.title.strip():
         found["title"] = workspace(call.session).title
@@ -158,6 +160,27 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     recording = run_output(call.session).recording
     if recording is not None:
         _take_down(recording, curve, options, title, [f.name for f in files])
+
+
+def _told_apart(curves: tuple[Operand, ...]) -> dict[int, str]:
+    """Names of curves that share a legend, by number: it and the evolution's name, else the number.
+
+    Those that the script has made of one colour look alike, and their legend stands once.
+    """
+    alike: dict[str, list[tuple[int, int, str]]] = {}
+    numbers = count(1)
+    for operand in curves:
+        name = operand.name if len(operand.value.parts) == 1 else ""
+        for part in operand.value.parts:
+            row = next(numbers), part.colour, name
+            alike.setdefault(part.legend.strip(), []).append(row)
+    found = {}
+    for legend, rows in alike.items():
+        _, colours, names = (set(column) for column in zip(*rows, strict=True))
+        if legend and len(rows) > 1 and (len(colours) > 1 or colours == {0}):
+            own = len(names - {""}) == len(rows)
+            found |= {n: f"{legend} {name if own else n}" for n, _, name in rows}
+    return found
 
 
 def _take_down(

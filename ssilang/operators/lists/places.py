@@ -95,7 +95,10 @@ def _values_at(
         if any(set(f.components) != set(wanted) for f in fields):
             raise call.error("operators.lists.components-differ")
     if fields and not any(f.nature == "DISCRET" or node[0] in f.node_ids for f in fields):
-        raise refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0]))
+        told = refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0]))
+        if "distance" not in told.data:  # the component is unknown
+            raise told
+        call.warn("operators.curves.zero-at-node", point, **told.data)
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -37,7 +38,7 @@ def _basis(call: Call, shapes_wanted: int | None = None) -> list[Shape]:
     return shapes_of(call, operand.value)[:shapes_wanted]
 
 
-def contributions(fields: list[Any], shapes: list[Shape]) -> FloatArray:
+def contributions(fields: Sequence[Any], shapes: list[Shape]) -> FloatArray:
     """Values ALFA or BETA at the marks of the shapes, shape (n_fields, n_shapes)."""
     return np.asarray(
         [

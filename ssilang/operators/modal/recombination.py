@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -135,26 +135,44 @@ def contribution(
     return [float(weights.values_at(name(s.unknown), np.array([s.mark.node]))[0]) for s in shapes]
 
 
-def modal_history(call: Call, table: Table, quantity: str) -> tuple[list[Any], FloatArray]:
+@dataclass(frozen=True)
+class _SavedSteps(Sequence[Any]):
+    """Fields of the saved instants of DYNE's results, each looked up when it is asked for."""
+
+    call: Call
+    table: Table
+    name: str
+    count: int
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, place: Any) -> Any:
+        if isinstance(place, slice):
+            return [self[i] for i in range(*place.indices(self.count))]
+        if place >= self.count:
+            raise IndexError(place)
+        entry = self.table.get(int(place) + 1)
+        field = entry.get(Mot(self.name)) if isinstance(entry, Table) else None
+        if field is None:
+            raise self.call.error(
+                "operators.modal.results-hold-no-steps", self.table, name=self.name
+            )
+        return field
+
+
+def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any], FloatArray]:
     """Contributions in time of the results of DYNE or of PASAPAS, and the times."""
     name = _INDEX.get(quantity, quantity)
     if table.subtype != "RESULTAT_DYNE":
         plural = {"ACCELERATION": "ACCELERATIONS"}.get(name, name + "S")
-        kept, instants = results_in_time(table, plural)
-        return list(kept), instants
+        return results_in_time(table, plural)
     times = table.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)
-    fields = []
-    for i in range(1, len(times) + 1):
-        entry = table.get(i)
-        field = entry.get(Mot(name)) if isinstance(entry, Table) else None
-        if field is None:
-            raise call.error("operators.modal.results-hold-no-steps", table, name=name)
-        fields.append(field)
-    return fields, times.values
+    return _SavedSteps(call, table, name, len(times)), times.values
 
 
-def at_time(call: Call, fields: list[Any], times: FloatArray, time: float) -> NodeField:
+def at_time(call: Call, fields: Sequence[Any], times: FloatArray, time: float) -> NodeField:
     """A field in time at one instant, linear between the saved ones."""
     span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
     if not times[0] - span <= time <= times[-1] + span:

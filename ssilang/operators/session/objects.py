@@ -11,7 +11,18 @@ from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import ANY, arg, flag, lead, many, named, operator, opt, shared
+from ssilang.language.registry import (
+    ANY,
+    arg,
+    find_operator,
+    flag,
+    lead,
+    many,
+    named,
+    operator,
+    opt,
+    shared,
+)
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.run.session import Session
@@ -188,7 +199,7 @@ def _forget_index(table: Table, index: Any) -> None:
 
 @OUBL.form(named("name", en="name to forget"))
 def _forget_name(session: Session, name: str) -> None:
-    session.frame.forget(name)
+    session.frame.forget(name, hiding=find_operator(name) is not None)
 
 
 @operator(

@@ -66,10 +66,17 @@ def test_nomm_gives_a_computed_name(run):
 
 
 def test_type_exis_and_oubl(run):
-    script = run("a = 3 ; k = TYPE a ; e = EXIS a ; OUBL a ; f = TYPE a ;")
+    script = run(
+        "a = 3 ; k = TYPE a ; e = EXIS a ; OUBL a ; f = TYPE a ; g = EXIS a ; h = EXIS b ;"
+    )
     assert script["k"].rstrip() == "ENTIER"
-    assert script["e"] is True
-    assert script["f"].rstrip() == "MOT"
+    assert script["f"].rstrip() == "ANNULE"
+    assert (script["e"], script["g"], script["h"]) == (True, False, True)
+
+
+def test_a_forgotten_name_can_be_given_again_and_hides_no_operator(run, fails):
+    assert run("MAXI = 3 ; OUBL MAXI ; x = MAXI (PROG 1. 2.) ; OUBL x ; x = 5 ;")["x"] == 5
+    assert fails("a = 3 ; OUBL a ; b = «a + 1» ;") == "no-rule"
 
 
 def test_a_text_spells_the_values_of_words_and_numbers(run):
