@@ -145,6 +145,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "REPE B 4 ; REPE C 2 ; SI (&C EGA 2) ; quit B ; FINSI ; FIN C ; FIN B ;",
         "L = MOTS 'CARA' 'YUON' ; MESS L (MOTS MATE YUON) ;",
         "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
+        "DEBP P A*MMODEL ; B = MANU CHML A EIXX 1. GIXY 2. EISS 3. ; FINP B ;",
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
         f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
     ],
