@@ -41,7 +41,8 @@ class Argument(Translated):
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
     with its name and its place. Numbers outside of `range` are refused, of `usual` told, and those
-    not `above` the operand of that name. Words and objects that are `distinct` stand once.
+    not `above` the operand of that name. Words and objects that are `distinct` stand once; curves
+    run `over` times ("s") or frequencies ("Hz").
     """
 
     name: str
@@ -62,6 +63,7 @@ class Argument(Translated):
     usual: Range = UNSAID
     above: str = ""
     distinct: bool = False
+    over: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -158,11 +160,12 @@ def arg(
     usual: Range = UNSAID,
     above: str = "",
     distinct: bool = False,
+    over: str = "",
 ) -> Argument:
     """A mandatory operand of one of the types (none: any type)."""
     return Argument(
         name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual, above=above,
-        distinct=distinct,
+        distinct=distinct, over=over,
     )  # fmt: skip
 
 

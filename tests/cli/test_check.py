@@ -165,6 +165,7 @@ _CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "
         "EIX1 = 3. ; MESS EIX1 ; F = 1. ; E = EVOL MANU EIXX " + _CURVE.format("ALPHA"),
         "DUREE = 1. ; MESS DUREE ; E = EVOL ROUG MANU DUREX " + _CURVE.format("EPSIL"),
         "E = EVOL MANU UXX " + _CURVE.format("FXX"),
+        "U = MANU CHML S EIXX 1. GIXY 2. ; LIST U ;",
         "ROSE1 = 1. ; MESS ROSE1 ; T = S COUL ROSE ; LIST T ; OPTI COUL VERT ;",
         "OPTI MODE PLAN GENE ; B = BLOQ RX UZ RY (S POIN 1) ; LIST B ;",
     ],

@@ -312,6 +312,26 @@ def test_rows_that_were_changed_are_made_again(deck, tmp_path, before, after):
     assert figures(tmp_path / "out" / "sweep.csv") == table
 
 
+@pytest.mark.parametrize(
+    ("peaks", "reads", "told"),
+    [
+        ((0.2, 0.4, 3.5), "", ["c.csv"]),  # m/s2 beside g
+        ((0.2, 2.9, 3.5), "", ["a.csv"]),
+        ((0.2, 0.4, 1.5), "", []),
+        ((0.2, 3.5), "", []),
+        ((0.2, 0.4, 0.35), " 'SI'", []),
+    ],
+)
+def test_motions_of_other_units_are_told_by_their_peaks(deck, tmp_path, peaks, reads, told):
+    (tmp_path / "m").mkdir()
+    for name, peak in zip("abc", peaks, strict=False):
+        (tmp_path / "m" / f"{name}.csv").write_text(f"t;a\n0;0\n1;{-peak}\n")
+    deck.write_text(f"MOTION = 'a.csv' ; E = LIRE 'SIGNAL' MOTION{reads} ;")
+    options = SweepOptions(deck, [], motions=tmp_path / "m", out=tmp_path / "out", jobs=1)
+    lines = [line for line in run(options)[2].splitlines() if "far apart" in line]
+    assert [line.split()[0] for line in lines] == told
+
+
 def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     motions = tmp_path / "motions"
     motions.mkdir()
@@ -323,6 +343,7 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     assert code == 0
     assert "a value is given to AG, and the script does not read it again" in wrong
     assert "a.csv and b.csv hold the same motion" in wrong
+    assert "different units (a.csv G, b.csv G and c.csv CM/S2)" in wrong
     assert "no run has a figure" in wrong
     code, _, wrong = run(replace(options, out=deck))
     assert (code, "is a file" in wrong) == (2, True)

@@ -11,6 +11,7 @@ PEER = "DATABASE\nSomewhere\n{0} TIME SERIES IN UNITS OF M/S\nNPTS= {1}, DT= .01
 AVS = "4 1 0 0 0\n1 0. 0. 0.\n2 1. 0. 0.\n3 1. 1. 0.\n4 0. 1. 0.\n1 1 quad 1 2 3 4\n"
 ABAQUS = "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 0., 1.\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 3\n"
 NASTRAN = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCROD,1,1,1,2\nENDDATA\n"
+STL = "solid s\n" + 2 * "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 {0}\n" + "endsolid\n"
 RECORD = "E = LIRE 'PEER' 'a.txt' 1. ; "
 READ = {"a.txt": PEER.format("ACCELERATION", 6)}
 
@@ -100,6 +101,22 @@ FILES = {
     "an AVS file cut inside its cells": (
         "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;", {"m.avs": AVS[:-18]}, "io.avs-file-cut",
     ),
+    "a cell twice in a deck": (
+        "T = LIRE 'm.inp' ;", {"m.inp": ABAQUS + "2, 1, 2, 3\n"}, "operators.files.cells-repeated",
+    ),
+    "a cell twice in an AVS file": (
+        "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;",
+        {"m.avs": AVS.replace("4 1", "4 2", 1) + "2 1 quad 2 3 4 1\n"},
+        "operators.files.cells-repeated",
+    ),
+    "a flat surface for the skin of a body": (
+        "OPTI DIME 3 ; S = LIRE 'STL' 'm.stl' ;", {"m.stl": STL.format(0)},
+        "operators.files.surface-flat",
+    ),
+    "a flat surface as a table": (
+        "OPTI DIME 3 ; S = LIRE 'm.stl' ;", {"m.stl": STL.format(0)},
+        "operators.files.surface-flat",
+    ),
     "an AVS file that says no cell": (
         "OPTI LECT 'm.avs' ; T = LIRE 'AVS' ;", {"m.avs": AVS.replace("4 1", "4 0", 1)[:-17]},
         "operators.files.mesh-without-cells",
@@ -108,6 +125,10 @@ FILES = {
 """Files that do not hold what they are read as."""
 
 SENSIBLE_FILES = {
+    "surfaces": (
+        "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",
+        {"m.stl": STL.format(0), "n.stl": STL.replace("0 1", "0 2", 1).format(1)},
+    ),
     "a record": (RECORD + "T = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ; D V = INSI E ;", READ),
     "what is called velocities and is not": (
         RECORD + "A = EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' (EXTR E 'ORDO') ; "
@@ -133,6 +154,11 @@ SQUARE = (
     "K = RIGI MO A ; M = MASS MO A ; F = CHAR (FORC (1. 0.) H) EV ; "
 )
 BODY = SQUARE + "{0} " + TABLE + "{1} DYNAMIC T ;"
+TWO = (
+    SQUARE + "Q = TRAN 2 (DROI 2 (1 0) (2 0)) (0 1) ; B = B ET (COTE 1 Q) ; "
+    "N = MODE Q 'MECANIQUE' 'ELASTIQUE' ; A = MATE N 'YOUN' 1.E7 'NU' 0. 'RHO' 2000. ; "
+    "K = K ET (RIGI N A) ; M = M ET (MASS N A) ; "
+)
 HELD = "K = K ET (BLOQ 'DEPL' B) ;"
 FOOTING = (
     SQUARE + "G = B PLUS (0. 0.) ; MJ = MODE (RACC 0.001 B G) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' "
@@ -234,6 +260,14 @@ MODELS = {
     ),
     "loads of nought": (OSCILLATOR.format("F = CHAR (FORC (0. 0.) P) EV ;", ""), "D.nothing-moves"),
     "a curve of nought": (OSCILLATOR.format(loaded("0. 1.", "0. 0."), ""), "D.nothing-moves"),
+    "bodies that touch": (
+        TWO + "U = RESO (K ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
+        "operators.matrices.bodies-apart",
+    ),
+    "bodies that touch, in time": (
+        TWO + "K = K ET (BLOQ 'DEPL' B) ; " + TABLE + "DYNAMIC T ;",
+        "operators.matrices.bodies-apart",
+    ),
     # damping, steps, loads in time
     "beyond critical": (OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 400. P ;"), "D.overdamped"),
     "Rayleigh's beta for a ratio": (OSCILLATOR.format("", "T . 'AMOR' = 5. * K ;"), "D.overdamped"),
@@ -343,6 +377,11 @@ SENSIBLE_MODELS = {
     "a weight that leans, held by a condition": OSCILLATOR.format(
         "Q = 0. 0. ; K = K ET (RIGI 'UX' -4. Q) ET (RELA 'UX' P - 'UX' Q) ;", ""
     ),
+    "bodies that touch, tied": TWO
+    + "K = K ET (BLOQ 'DEPL' B) ET (RELA 'UX' (COTE 2 S) - 'UX' (COTE 4 Q)) ; "
+    + "U = RESO K (FORC (1. 0.) H) ;",
+    "bodies that touch, made one": TWO.replace("; B = B", "; ELIM 1.E-4 S Q ; B = B")
+    + "U = RESO (K ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
     "an oscillator": OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 2. P ;"),
     "a held body": BODY.format(HELD, "T . 'VITE' = MANU 'CHPO' H 'UX' 1. ;"),
     "a footing with its weight": FOOTING.format(WEIGHT, ""),

@@ -114,6 +114,18 @@ def test_numbers_in_another_unit_are_told_with_the_unit_they_look_like(
     assert (told["likely"], told["written"]) == (likely, written)
 
 
+@pytest.mark.parametrize(
+    ("system", "width", "told"),
+    [("SI", 6000.0, True), ("N-MM", 6000.0, False), ("KN-M", 400.0, False), ("", 6000.0, False)],
+)
+def test_millimetres_of_a_drawing_are_told(system: str, width: float, told: bool) -> None:
+    option = f"OPTI 'UNIT' '{system}' ; " if system else ""
+    young = STEEL[system or "SI"][0]
+    script = BODY.replace("(2. 0.)", f"({width} 0.)") + option
+    made = run_text(script + f"A = MATE MO 'YOUN' {young} ; B = MATE MO 'YOUN' {young} ;")
+    assert [w.code for w in made.session.warnings] == ["operators.models.unusual-size"] * told
+
+
 def test_bounds_are_told_in_the_units_of_the_deck() -> None:
     (told,) = warned("N-MM", "'YOUN' 2.E5 'NU' 0.3 'RHO' 7850.")
     assert (told["unit"], told["small"]) == ("t/mm3", False)

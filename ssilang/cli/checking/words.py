@@ -202,7 +202,10 @@ def _meant(operator: str, word: str, once: bool) -> str:
         if found:
             return found[0]
     if kinds & _OWN and once and not vocabulary.full_name("parameter", word):
-        near = [n for n in vocabulary.names("component") if _one_slip(word, n)]
+        known = vocabulary.names("component")
+        if word[1:2] == "I" and {word[0] + "P" + word[2:], word[0] + "A" + word[2:]} & {*known}:
+            return ""  # an inelastic strain, EIXX beside EPXX and GIXY beside GAXY
+        near = [n for n in known if _one_slip(word, n)]
         if near:
             return min(near, key=lambda n: (sorted(n) != sorted(word), n))
     swapped = [w for w in _keywords(operator) if sorted(w) == sorted(word)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TextIO
 
@@ -12,7 +12,6 @@ from ssilang.io.atomic import replacing
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.parser import end_of_run, quick_reader
-from ssilang.language.text.printer import same_tree
 from ssilang.language.text.source import Source, encoding_of
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
@@ -43,36 +42,43 @@ def formatted(source: Source) -> str:
     SeveralErrors, SsiError
         If the script is not sound: nothing can be laid out then.
     """
-    tree = parse(source)
+    parse(source)
     end = end_of_run(source) or len(source.text)
     with without_collections():
-        text = _laid_out(source, end) + source.text[end:]
-    text = text.rstrip("\n") + "\n" if text.strip() else ""
-    # what no rule above foresees stays as it is written: a star that would begin a comment
-    try:
-        made = parse(Source(source.name, text, source.path))
-    except (SeveralErrors, SsiError):
-        return source.text
-    return text if same_tree(tree.body, made.body) else source.text
+        tokens = list(quick_reader().tokens(source.code[:end]))
+        text = _laid_out(source, end, tokens) + source.text[end:]
+        text = text.rstrip("\n") + "\n" if text.strip() else ""
+        # what no rule above foresees stays as it is written: a star that would begin a comment
+        made = Source(source.name, text, source.path)
+        again = quick_reader().tokens(made.code[: end_of_run(made) or len(text)])
+        same = _said(source.code, tokens) == _said(made.code, again)
+    return text if same else source.text
 
 
-def _laid_out(source: Source, end: int) -> str:
+def _said(code: str, tokens: Iterable[_Token]) -> list[tuple[str, str]]:
+    """Kinds and texts of tokens: they are all that a script means."""
+    return [(kind, code[start:stop]) for kind, start, stop in tokens]
+
+
+def _laid_out(source: Source, end: int, tokens: list[_Token]) -> str:
     """The statements up to `end`, one after the other, with what stands between them."""
     code, parts = source.code[:end], list[str]()
     depth = at = 0
     before = ""
-    for statement in _statements(code):
+    for statement in _statements(tokens):
         word = _first_word(code, statement)
         outer = word in _CLOSES or word == "SINO" or (word == "FIN" and len(statement) > 2)
         depth = max(0, depth - outer)
         for number, (kind, start, stop) in enumerate(statement):
-            shift = _STEP * depth + (_GOES_ON if number else "")
             gap = source.text[at:start]
+            if at and "\n" not in gap:
+                parts += (_between(gap, before, kind), code[start:stop])
+                before, at = kind, stop
+                continue
+            shift = _STEP * depth + (_GOES_ON if number else "")
             lines = gap.split("\n")
             if at == 0:  # the file begins with comments, or with the statement
                 parts += [*(line[1:] + "\n" for line in _below(lines[:-1])), shift]
-            elif len(lines) == 1:
-                parts.append(_between(gap, before, kind))
             else:
                 rest = lines[-1].strip()  # commas
                 parts += [lines[0].rstrip(), *_below(lines[1:-1]), "\n", shift]
@@ -84,9 +90,9 @@ def _laid_out(source: Source, end: int) -> str:
     return "".join(parts) + "\n".join(tail)
 
 
-def _statements(code: str) -> Iterator[list[_Token]]:
+def _statements(tokens: list[_Token]) -> Iterator[list[_Token]]:
     held: list[_Token] = []
-    for token in quick_reader().tokens(code):
+    for token in tokens:
         held.append(token)
         if token[0] == "_SEMICOLON":
             yield held

@@ -32,6 +32,7 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
+from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -68,6 +69,10 @@ class SweepOptions:
     def folder(self) -> Path:
         """Where runs, tables and pictures go."""
         return (self.out or Path("results") / f"{self.deck.stem}_sweep").resolve()
+
+
+_IN_SI = re.compile(r"\bLIRE\b[^;]*\bSI\b", re.IGNORECASE)
+"""Records that a script reads in SI."""
 
 
 def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
@@ -145,7 +150,7 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     """
     source = read_source(options.deck)
     _check_names(source, cases[0].values, options, err)
-    _tell_motions(cases, options.language, err)
+    _tell_motions(cases, source, options.language, err)
     tasks = [
         _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
@@ -201,14 +206,23 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
     return cases
 
 
-def _tell_motions(cases: Sequence[Case], language: str, err: TextIO) -> None:
-    """Name motions whose files hold the same: a record that counts twice."""
+def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: TextIO) -> None:
+    """Name motions whose files hold the same, and those whose numbers are in other units."""
+    paths = dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values)
     known: dict[str, list[str]] = {}
-    for path in dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values):
+    for path in paths:
         known.setdefault(digest_of_file(path), []).append(path.name)
-    for names in known.values():
-        if len(names) > 1:
-            err.write(sentence("cli.same-motions", {"names": names}, language) + "\n")
+    told: list[tuple[str, dict[str, object]]] = [
+        ("cli.same-motions", {"names": names}) for names in known.values() if len(names) > 1
+    ]
+    motions = {p.name: m for p in paths if (m := motion_in(p)) is not None}
+    in_si = _IN_SI.search(source.code) is not None
+    if not in_si and (units := units_named(motions)):
+        told.append(("cli.motions-of-other-units", {"units": [*map(" ".join, units.items())]}))
+    elif peaks := peaks_apart(motions, in_si):
+        told.append(("cli.motions-far-apart", {"names": [*peaks], "peak": max(peaks.values())}))
+    for code, data in told:
+        err.write(sentence(code, data, language) + "\n")
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:

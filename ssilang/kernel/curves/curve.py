@@ -38,6 +38,9 @@ class CurvePart:
         return replace(self, colour=colour).measured(*self.units)
 
 
+_OVER = {"TEMP": "s", "TEMPS": "s", "TIME": "s", "FREQ": "Hz", "FREQUENCE": "Hz", "F(HZ)": "Hz"}
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """One or several curves (EVOLUTION)."""
@@ -45,6 +48,12 @@ class Curve:
     parts: tuple[CurvePart, ...]
     title: str = ""
     kind: str = "REEL"
+
+    @property
+    def over(self) -> str:
+        """Unit of its abscissas, by the name that all curves give them; '' where that says none."""
+        names = {p.abscissa_name.strip().upper() for p in self.parts}
+        return _OVER.get(names.pop(), "") if len(names) == 1 else ""
 
     def at(self, x: float) -> float:
         """Value of the first curve at `x`, linear between its points, constant outside."""

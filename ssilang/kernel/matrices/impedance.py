@@ -28,10 +28,14 @@ def factors(kind: str, pulsation: float) -> Factors:
     return table[kind]
 
 
-def impedance(matrix: Matrix, by: Factors, kind: str, other: Matrix | None = None) -> Matrix:
+def impedance(
+    matrix: Matrix, by: Factors, kind: str, other: Matrix | None = None, turned: bool = False
+) -> Matrix:
     """`[a A, b A; c B, d B]` on real and imaginary unknowns, B = A if `other` is not given.
 
-    Conditions are said of both parts, each with multipliers of its own.
+    Conditions are said of both parts, each with multipliers of its own. The columns of UT change
+    their sign where `turned`, as those of two dampings do, of the symmetric and the antisymmetric
+    unknowns of a Fourier harmonic.
 
     Raises
     ------
@@ -42,17 +46,25 @@ def impedance(matrix: Matrix, by: Factors, kind: str, other: Matrix | None = Non
     a, b, c, d = by
     if (matrix.relations or second.relations) and by != (1.0, 0.0, 0.0, 1.0):
         raise KernelError("kernel.matrices.conditions-only-doubled-raideur")
-    blocks = [_doubled(e, ((a, b), (0.0, 0.0))) for e in matrix.blocks if a or b]
-    blocks += [_doubled(e, ((0.0, 0.0), (c, d))) for e in second.blocks if c or d]
+    blocks = [_doubled(e, ((a, b), (0.0, 0.0)), turned) for e in matrix.blocks if a or b]
+    blocks += [_doubled(e, ((0.0, 0.0), (c, d)), turned) for e in second.blocks if c or d]
     relations = [*matrix.relations, *(_imaginary_rows(r) for r in second.relations)]
     return Matrix(matrix.table, tuple(blocks), tuple(relations), kind)
 
 
-def _doubled(block: ElementMatrices, by: Sequence[Sequence[float]]) -> ElementMatrices:
-    """Kronecker product of a 2 x 2 pattern and the element matrices, on doubled unknowns."""
+def _doubled(
+    block: ElementMatrices, by: Sequence[Sequence[float]], turned: bool
+) -> ElementMatrices:
+    """Kronecker product of a 2 x 2 pattern and the element matrices, on doubled unknowns.
+
+    The columns of UT change their sign first where `turned`.
+    """
     pattern = np.array(by)
+    single = block.values
+    if turned:
+        single = single * np.where(np.array(block.unknowns) == "UT", -1.0, 1.0)
     values = np.concatenate(
-        [np.concatenate([f * block.values for f in row], axis=2) for row in pattern], axis=1
+        [np.concatenate([f * single for f in row], axis=2) for row in pattern], axis=1
     )
     return replace(
         block,

@@ -6,11 +6,14 @@ places; conditions on these leave the body free, and the solution is wrong witho
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -134,3 +137,34 @@ def _keys(nodes: IntArray) -> IntArray:
     """A number for each cell, the same for the same nodes in any order."""
     odd = np.random.default_rng(0).integers(1, 2**62, nodes.shape[1]) * 2 + 1
     return np.asarray(np.sort(nodes, axis=1) @ odd, dtype=np.int64)
+
+
+def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
+    """Nodes (n,) of bodies at the places of another body's, with nothing between the two.
+
+    Bodies are cells that hang together by nodes, joints, conditions of several terms or matrices
+    without cells. Points that stand for springs or modes are none.
+
+    Parameters
+    ----------
+    joints : zones
+        Joints whose law stands beside the matrix.
+    """
+    from scipy.spatial import KDTree
+
+    tables = [b.nodes for b in matrix.blocks]
+    tables += [matrix.table.resolve(z.cells.raw) for z in joints]
+    links = [np.stack([np.repeat(t[:, 0], t.shape[1] - 1), t[:, 1:].ravel()]) for t in tables]
+    for relations in matrix.relations:
+        firsts = relations.nodes[relations.row_start[:-1]]
+        links.append(np.stack([np.repeat(firsts, np.diff(relations.row_start)), relations.nodes]))
+    body = parts_of(len(matrix.table), *links)
+    solid = [b.nodes.ravel() for b in matrix.blocks if b.zone is not None and b.nodes.shape[1] > 1]
+    nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
+    if len(np.unique(body[nodes])) < 2:
+        return nodes[:0]
+    points = matrix.table.coordinates[nodes]
+    near = NEAR * float(np.ptp(points, axis=0).max())
+    pairs = nodes[KDTree(points).query_pairs(near, output_type="ndarray")]
+    found: IntArray = pairs[body[pairs[:, 0]] != body[pairs[:, 1]], 0]
+    return found

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
@@ -85,39 +83,6 @@ def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntAr
     first = int(np.argmax(share))
     own = np.unique(numbering.nodes[bodies == first])
     return len(lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))[0])
-
-
-@dataclass(frozen=True)
-class Unjoined:
-    """A body that moves freely beside another one.
-
-    Attributes
-    ----------
-    place : array (3,)
-        Its middle.
-    n_nodes, n_doubled : int
-        Its nodes, and those of them that lie on nodes of other bodies.
-    """
-
-    place: FloatArray
-    n_nodes: int
-    n_doubled: int
-
-
-def unjoined_bodies(numbering: Numbering, motions: FloatArray, bodies: IntArray) -> list[Unjoined]:
-    """Bodies that free motions (n, p) move, and that lie on other bodies with two nodes or more."""
-    span = np.linalg.qr(motions[:, :_LOOKED_AT])[0]
-    share = np.zeros(bodies.max(initial=0) + 1)
-    np.add.at(share, bodies, (span**2).sum(axis=1))
-    found = []
-    for body in np.flatnonzero(share > 1e-9):
-        own = np.unique(numbering.nodes[bodies == body])
-        doubled, _ = lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))
-        if len(doubled) > 1:
-            points = numbering.table.coordinates[own]
-            place = _place(points.mean(axis=0), float(np.abs(points).max()))
-            found.append(Unjoined(place, len(own), len(doubled)))
-    return found
 
 
 def named_motions(

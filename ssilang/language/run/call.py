@@ -212,9 +212,12 @@ class Call:
             raise self.flaw(wrong[0], a, operand, wrong[1])
 
     def tell_odd(self, a: Argument, operand: Operand) -> None:
-        """Tell of a number outside of what is usual."""
+        """Tell of a number outside of what is usual, of a curve over something else."""
         if odd := a.usual.flaw(operand.value, a.name):
             self.session.report(self.flaw("unusual", a, operand, odd[1]))
+        over = getattr(operand.value, "over", "") if a.over else ""
+        if over and over != a.over:
+            self.session.report(self.flaw("over-other", a, operand, {"axis": over, "over": a.over}))
 
     def flaw(
         self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]

@@ -19,8 +19,8 @@ from ssilang.language.values import ListReel
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
 from ssilang.operators.curves.words import (
     COLOUR,
-    CURVE,
     LIMITS,
+    RECORD,
     one_part,
     shade,
     warn_of_motions,
@@ -39,7 +39,7 @@ _RULE = choice(
 )
 
 
-@operator("INSI", CURVE, _RULE, family="signals")
+@operator("INSI", RECORD, _RULE, family="signals")
 def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     """Integrate records."""
     warn_of_motions(call, curve)
@@ -54,7 +54,7 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
 
 @operator(
     "COSI",
-    CURVE,
+    RECORD,
     _RULE,
     key(
         "degree",
@@ -83,7 +83,7 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
 
 @operator(
     "CHSP",
-    arg("spectrum", "EVOLUTIO", en="spectra over frequencies"),
+    arg("spectrum", "EVOLUTIO", en="spectra over frequencies", over="Hz"),
     key(
         "given",
         "ENTR",
@@ -121,7 +121,7 @@ def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | Non
 @operator(
     "DSPR",
     arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
-    CURVE,
+    RECORD,
     *LIMITS,
     COLOUR,
     family="signals",
@@ -163,7 +163,7 @@ PERIODS = opt(
 
 @operator(
     "PSRS",
-    arg("curve", "EVOLUTIO", en="power density per hertz"),
+    arg("curve", "EVOLUTIO", en="power density per hertz", over="Hz"),
     arg("duration", "FLOTTANT", range=POSITIVE, en="duration", unit="s"),
     arg(
         "dampings",

@@ -42,7 +42,7 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
 
 @operator(
     "SIAR",
-    arg("spectrum", "EVOLUTIO", en="power density per hertz"),
+    arg("spectrum", "EVOLUTIO", en="power density per hertz", over="Hz"),
     opt("modulation", "EVOLUTIO", en="modulations in time by bands of frequencies"),
     opt(
         "limits",
@@ -198,7 +198,7 @@ def pert(
 
 @operator(
     "PRNS",
-    arg("curve", "EVOLUTIO", en="power density per hertz"),
+    arg("curve", "EVOLUTIO", en="power density per hertz", over="Hz"),
     arg("modulation", "EVOLUTIO", en="a curve for each band"),
     arg(
         "bands",

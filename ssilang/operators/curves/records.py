@@ -65,8 +65,8 @@ def filtered_records(
 
 
 @tour.form(
-    arg("first", "EVOLUTIO", en="component along x"),
-    arg("second", "EVOLUTIO", en="component along y"),
+    arg("first", "EVOLUTIO", en="component along x", over="s"),
+    arg("second", "EVOLUTIO", en="component along y", over="s"),
     arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
     gives=("EVOLUTIO", "EVOLUTIO"),
 )
@@ -83,8 +83,8 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
 
 @operator(
     "ZOND",
-    arg("record", "EVOLUTIO", en="acceleration"),
-    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz"),
+    arg("record", "EVOLUTIO", en="acceleration", over="s"),
+    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz", over="Hz"),
     key(
         "damping",
         "AMOR",

@@ -160,7 +160,7 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
 
 @operator(
     "CMOY",
-    arg("records", "EVOLUTIO", en="records"),
+    arg("records", "EVOLUTIO", en="records", over="s"),
     key(
         "duration",
         "ACQU",

@@ -37,6 +37,7 @@ from ssilang.operators.curves.words import (
     COLOUR,
     CURVE,
     LIMITS,
+    RECORD,
     one_part,
     shade,
     warn_of_order,
@@ -68,7 +69,7 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
 @operator(
     "TFR",
     _POWER,
-    arg("signal", "EVOLUTIO", en="signal at constant step"),
+    arg("signal", "EVOLUTIO", en="signal at constant step", over="s"),
     _FORM,
     *LIMITS,
     COLOUR,
@@ -249,7 +250,7 @@ _PERCENT = opt(
 
 @operator(
     "COMT",
-    CURVE,
+    RECORD,
     _PERCENT,
     flag("peaks", "MAXI", en="peaks too"),
     flag("begins", "DEBU", en="places where they begin too"),
@@ -271,7 +272,7 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     return (len(first), *more)
 
 
-@operator("TOTE", CURVE, _PERCENT, family="signals", full_name="TOTEMP")
+@operator("TOTE", RECORD, _PERCENT, family="signals", full_name="TOTEMP")
 def tote(curve: Curve, percent: float) -> ListReel:
     """Measure durations."""
     levels = [percent / 100.0 * float(np.abs(p.ordinates).max()) for p in curve.parts]

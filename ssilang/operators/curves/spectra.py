@@ -57,7 +57,7 @@ _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", 
         "speed", "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
     ),
     _COLOUR,
-    arg("signal", "EVOLUTIO", en="signal g(t)"),
+    arg("signal", "EVOLUTIO", en="signal g(t)", over="s"),
     family="modal",
 )
 def osci(
@@ -110,7 +110,7 @@ def osci(
         arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", range=between(0.0, 100.0)),
         en="percentiles over all directions of two components",
     ),
-    arg("signal", "EVOLUTIO", en="acceleration"),
+    arg("signal", "EVOLUTIO", en="acceleration", over="s"),
     opt("second", "EVOLUTIO", en="its other component"),
     family="modal",
 )
@@ -232,8 +232,8 @@ operator(
         usual=BELOW_CRITICAL,
         en="its damping",
     ),
-    arg("power", "EVOLUTIO", en="power density"),
-    arg("envelope", "EVOLUTIO", en="envelope"),
+    arg("power", "EVOLUTIO", en="power density", over="Hz"),
+    arg("envelope", "EVOLUTIO", en="envelope", over="s"),
     family="signals",
 )
 def zspp(

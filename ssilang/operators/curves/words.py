@@ -16,6 +16,7 @@ from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
 
 CURVE = arg("curve", "EVOLUTIO", en="curves")
+RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
 COLOUR = choice("colour", NAMES, en="colour")
 LIMITS = (
     key(

@@ -111,6 +111,9 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     from ssilang.kernel.stepping.node_track import NodeTrack
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
+        idle = [n for n in ("MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV") if entries.has(n)]
+        if idle:
+            entries.warn("operators.dynamics.csv-without-steps", names=idle)
         return None
     wanted = entries.saved_steps("_CSV", problem.times)
     nodes = nodes_asked(entries.needed("MAILLAGE_CSV"))
@@ -123,5 +126,8 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     path = output_path(entries.call, text if named else text + ".csv")
     run_output(entries.call.session).wrote(path)
     chosen = None if components is None else [str(c).rstrip() for c in components.values]
+    if lacking := [c for c in chosen or () if c not in problem.numbering.unknowns]:
+        known = [*problem.numbering.unknowns]
+        entries.warn("operators.dynamics.csv-of-no-unknown", names=lacking, known=known)
     track = NodeTrack(wanted, problem=problem, nodes=nodes)
     return CsvObserver(track, chosen, path, workspace(entries.call.session).units)

@@ -22,7 +22,7 @@ from ssilang.language.registry import arg, flag, lead, main, said
 from ssilang.language.run.call import Call
 from ssilang.language.values import Mot, Table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
-from ssilang.operators.files.reading import LIRE, warn_without_cells
+from ssilang.operators.files.reading import LIRE, warn_flat, warn_repeated_cells, warn_without_cells
 from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.workspace import workspace
 
@@ -76,6 +76,8 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
     if read.left_out:
         told = [f"{count} {cell}" for cell, count in sorted(read.left_out.items())]
         call.warn("operators.files.cells-left-out", name=path.name, told=told)
+    if kind == "STL":
+        warn_flat(call, path.name, read.points)
     return _table(call, read, path.name)
 
 
@@ -98,6 +100,7 @@ def _table(call: Call, read: FileMesh, name: str) -> Table:
         ws.nodes, tuple(CellBlock.make(ws.nodes, k, ids[t]) for k, t in read.cells.items())
     )
     blocks = {b.cell_type: b for b in orient(whole, max(dimension, 1)).blocks}
+    warn_repeated_cells(call, name, whole)
     collapsed = repeated_nodes(whole)
     simpler = _sound(whole)
     if collapsed:

@@ -7,10 +7,12 @@ import numpy as np
 from ssilang.io.csv_tables import as_columns, read_csv
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.queries.soundness import repeated_cells
 from ssilang.language.registry import arg, choice, key, lead, opt, said, shared
 from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
@@ -84,6 +86,20 @@ def warn_without_cells(call: Call, name: str, count: int, cells: bool) -> None:
         call.warn("operators.files.mesh-without-cells", name=name, count=count)
 
 
+def warn_repeated_cells(call: Call, name: str, mesh: Mesh) -> None:
+    """Warn of cells that a file has twice: they count double."""
+    cells = Mesh(mesh.nodes, tuple(b for b in mesh.blocks if b.cell_type != "POI1"))
+    if count := repeated_cells(cells).n_cells:
+        call.warn("operators.files.cells-repeated", name=name, count=count)
+
+
+def warn_flat(call: Call, name: str, points: FloatArray) -> None:
+    """Warn of a surface in space, meant as the skin of a body, that lies in a plane."""
+    sizes = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    if workspace(call.session).dimension == 3 and sizes[-1] <= 1e-6 * sizes[0]:
+        call.warn("operators.files.surface-flat", name=name)
+
+
 def _avs_table(call: Call, structure: Structure) -> Table:
     nodes = workspace(call.session).nodes
     ids = nodes.add(structure.points)
@@ -92,7 +108,9 @@ def _avs_table(call: Call, structure: Structure) -> Table:
     for i, block in enumerate(blocks, start=1):
         parts.set(i, Mesh(nodes, (block,)))
     made.set(Mot("MAILSUPP"), poi1(nodes, ids))
-    made.set(Mot("LEMAILLA"), Mesh(nodes, tuple(blocks)))
+    whole = Mesh(nodes, tuple(blocks))
+    warn_repeated_cells(call, option_name(call.session, "LECT", 4), whole)
+    made.set(Mot("LEMAILLA"), whole)
     made.set(Mot("SOUMAILA"), parts)
     if structure.node_values:
         made.set(Mot("LECHPOIN"), NodeField.of(nodes, ids, structure.node_values))
@@ -116,6 +134,7 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
 @LIRE.form(said("STL"), _FILE)
 def _stl(call: Call, file: str) -> Mesh:
     corners = read_stl(file_to_read(call, str(file), ".stl"))
+    warn_flat(call, str(file), corners.reshape(-1, 3))
     nodes = workspace(call.session).nodes
-    ids = nodes.add(corners.reshape(-1, 3))
-    return Mesh.of(nodes, "TRI3", ids.reshape(-1, 3))
+    mesh = Mesh.of(nodes, "TRI3", nodes.add(corners.reshape(-1, 3)).reshape(-1, 3))
+    return mesh

@@ -26,7 +26,8 @@ def warn_connections(
     """Warn, once a matrix, of what is not joined as it looks.
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
-    swapped, beams that end on one node of a solid, cells that count twice. Joints are those of
+    swapped, beams that end on one node of a solid, bodies that touch and are not joined, cells
+    that count twice. Joints are those of
     `model`, whose law stands beside the matrix, without it those that the matrix was made from.
     """
     if _KEY in matrix.cache:
@@ -38,6 +39,8 @@ def warn_connections(
         model = Model(made)
     _warn_swapped_joints(session, span, operator, matrix, model, characteristics)
     _warn_hinges(session, span, operator, matrix, model)
+    if operator != "VIBR":  # whose modes DYNE may bring into contact
+        _warn_apart(session, span, operator, matrix, model)
     warn_repeated(session, span, operator, matrix, "RIGI")
     if model is None or not any(is_joint(z) for z in model.zones):
         _warn_negative(session, span, operator, matrix)
@@ -69,6 +72,25 @@ def _warn_doubled_supports(
         y=y,
         z=z,
     )
+
+
+def _warn_apart(
+    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
+) -> None:
+    from ssilang.kernel.statics.doubled import bodies_apart
+
+    zones = () if model is None else model.zones
+    if any(z.formulation == "CONTACT" for z in zones):
+        return
+    found = bodies_apart(matrix, [z for z in zones if is_joint(z)])
+    if len(found) > 1:  # bodies that meet in a single node are seldom one
+        session.warn(
+            "operators.matrices.bodies-apart",
+            span,
+            operator=operator,
+            count=len(found),
+            place=matrix.table.told(int(found[0])),
+        )
 
 
 def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:

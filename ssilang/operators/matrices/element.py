@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import wraps
+from typing import Any
 
 import numpy as np
 
@@ -21,10 +24,21 @@ from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Argument, arg, choice, flag, key, many, operator, opt
+from ssilang.language.registry import (
+    Argument,
+    arg,
+    by,
+    choice,
+    flag,
+    key,
+    many,
+    operator,
+    opt,
+)
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.messages.message import Refusal, find
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.workspace import workspace
 
@@ -67,10 +81,29 @@ def nodes_of(place: Mesh | Point) -> IntArray:
 
 MODEL = arg("model", "MMODEL", en="model")
 PARAMETERS = many("fields", "MCHAML", at_least=1, en="parameters, or Hooke matrices")
-_IGNORED = (
-    flag("alone", "NOER", en="accepted, changes nothing"),
-    flag("reference", "REFE", en="accepted, changes nothing"),
-)
+_REFERENCE = flag("reference", "REFE", en="accepted, changes nothing")
+_IGNORED = (flag("alone", "NOER", en="accepted, changes nothing"), _REFERENCE)
+NO_ERROR = flag("silent", "NOER", en="an error gives its number as the result")
+
+
+def numbered(*codes: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Errors of these codes, all if none is said, give their number (or 1) where `silent` is."""
+
+    def around(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def made(*arguments: object, silent: bool, **named: object) -> object:
+            try:
+                return function(*arguments, silent=silent, **named)
+            except Refusal as error:
+                if not silent or (codes and error.code not in codes):
+                    raise
+                return find(error.code).number or 1
+
+        return made
+
+    return around
+
+
 _BUCKLING = flag("buckling", "FLAM", en="of type MASSE, for an analysis of buckling with VIBR")
 _AT_NODES = (
     key(
@@ -109,12 +142,15 @@ def _additional(
     "RIGI",
     MODEL,
     replace(PARAMETERS, optional=True),
-    *_IGNORED,
+    NO_ERROR,
+    _REFERENCE,
     family="matrix",
     full_name="RIGIDITE",
+    gives=by("silent", {True: "RIGIDITE|ENTIER"}, default="RIGIDITE"),
 )
+@numbered()
 def rigi(
-    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
+    call: Call, model: Model, fields: tuple[CellField, ...], silent: bool, reference: bool
 ) -> Matrix:
     """Elastic stiffness of a model."""
     if any(z.formulation == "CONTACT" for z in model.zones):

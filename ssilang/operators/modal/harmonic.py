@@ -35,7 +35,8 @@ def _impe(
             raise call.error("operators.modal.four-numbers-wanted", chosen)
         return impedance(matrix, (values[0], values[1], values[2], values[3]), kind, other)
     said = kind_of or _KINDS.get(matrix.kind[:4], "RAIDEUR")
-    return impedance(matrix, factors(said, pulsation), kind, other)
+    turned = other is not None and said == "AMORTISSEMENT"
+    return impedance(matrix, factors(said, pulsation), kind, other, turned)
 
 
 operator(

@@ -44,7 +44,7 @@ _AXES = ("UX", "UY", "UZ")
 
 @operator(
     "SEIS",
-    arg("curve", "EVOLUTIO", en="acceleration of the ground"),
+    arg("curve", "EVOLUTIO", en="acceleration of the ground", over="s"),
     arg("table", "TABLE", en="basis"),
     arg("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
     choice("direction", _AXES, optional=False, en="direction of the ground"),

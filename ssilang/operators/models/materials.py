@@ -182,15 +182,16 @@ def check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) 
 
 
 def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
-    """Warn of a modulus of nought, which leaves a system singular where nothing else holds it,
-    and of what changes nothing in the zone's mode."""
+    """Warn of a modulus or section of nought, which leaves a system singular where nothing else
+    holds it, and of what changes nothing in the zone's mode."""
     session = call.session
     if session.frame.procedure in session.library.standard_names:
         return
     told = [(n, "operators.models.idle-parameter") for n in idle_names(zone) if n in values]
-    youn = values["YOUN"][0] if "YOUN" in values and "VISQ" not in values else np.empty(0)
-    if youn.dtype == float and (youn == 0.0).any():
-        told.append(("YOUN", "operators.models.no-stiffness"))
+    for name in ("SECT",) if "VISQ" in values else ("YOUN", "SECT"):
+        value = values[name][0] if name in values else np.empty(0)
+        if value.dtype == float and (value == 0.0).any():
+            told.append((name, "operators.models.no-stiffness"))
     for name, code in told:
         if name in said:
             call.warn(code, said[name], name=name, mode=zone.mode.value)

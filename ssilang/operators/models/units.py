@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from ssilang.kernel.materials.model import Zone
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary import Quantity
+from ssilang.language.vocabulary.terms import Range
 from ssilang.language.vocabulary.unit_systems import UnitSystem, likely_units
 from ssilang.operators.vocabulary import words
 from ssilang.operators.workspace import workspace
 
 Given = tuple[NDArray[Any], Any]
 _CODE = "operators.models.unusual-value"
+_SIZES = Range(high=5000.0)  # m; what soil and structures measure across at most
 
 
 def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
@@ -35,6 +37,7 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         _warn_of_friction(call, zone, given)
     if system is None or session.frame.procedure in session.library.standard_names:
         return
+    _warn_of_size(call, zone, system)
     for name, (array, said) in given.items():
         meant = words.parameter(name, zone)
         if meant is None or meant.unit is None or array.dtype != float:
@@ -45,6 +48,17 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         unusual = next((v for v in ends if v * here not in meant.usual), None)
         if unusual is not None:
             _warn(call, meant, unusual, said, system)
+
+
+def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:
+    """Warn, once, of a body of some kilometres: millimetres of a drawing, most often."""
+    here, code = system.factor("m"), "operators.models.unusual-size"
+    corners = zone.cells.coordinates
+    size = float(np.ptp(corners.reshape(-1, corners.shape[2]), axis=0).max())
+    if size * here in _SIZES or any(w.code == code for w in call.session.warnings):
+        return
+    told = {"size": size, "unit": system.written("m"), "system": system.name}
+    call.warn(code, likely=list(likely_units(size, "m", _SIZES, system)), **told)
 
 
 def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:

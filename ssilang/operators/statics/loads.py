@@ -346,6 +346,12 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
     _THICKNESS,
     family="load",
 )
-def cneq(model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]) -> NodeField:
+def cneq(
+    call: Call, model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]
+) -> NodeField:
     """Volume forces."""
+    if isinstance(force, NodeField):
+        held = [np.isin(z.cells.connectivity, force.node_ids) for z in model.zones]
+        if count := sum(int((at.any(axis=1) & ~at.all(axis=1)).sum()) for at in held):
+            call.warn("operators.statics.force-in-part", force, count=count)
     return body_force(model, force, joined(fields) if fields else None)

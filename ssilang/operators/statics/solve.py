@@ -13,9 +13,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import imposed_outside
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
-from ssilang.kernel.statics.linear_motion import tied, unjoined_bodies
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
 from ssilang.language.registry import ANY, Like, arg, flag, key, many, operator, opt, said
 from ssilang.language.run.call import Call
@@ -25,7 +23,6 @@ from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.workspace import solver_of, workspace
 
-_NAMED = 3  # bodies that warnings name
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
 _WORDS = (
     flag("project", "NOID", en="leave out the part of the loads that drives a free motion"),
@@ -109,7 +106,6 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     if "condition" in matrix.cache:
         return
     _report_solver(call, matrix, options)
-    _warn_unjoined(call, matrix, options)
     found = system_extremes(linear_system(matrix, options), matrix)
     matrix.cache["condition"] = found
     if found is None or found.number <= FEW_DIGITS:
@@ -127,22 +123,6 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
         least=least,
         soft=soft,
     )
-
-
-def _warn_unjoined(call: Call, matrix: Matrix, options: SolveOptions) -> None:
-    """Warn of bodies that nothing holds and no load drives, on nodes of other bodies."""
-    system = linear_system(matrix, options)
-    motions = system.free_motions
-    if motions.shape[1] == 0:
-        return
-    bodies = tied(system.numbering, system.rows.C, system.K)
-    for found in unjoined_bodies(system.numbering, motions, bodies)[:_NAMED]:
-        call.warn(
-            "operators.statics.body-not-joined",
-            place=told_coordinates(matrix.table.shown(found.place)),
-            n_nodes=found.n_nodes,
-            n_doubled=found.n_doubled,
-        )
 
 
 def _or_warning(

@@ -15,16 +15,18 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import arg, choice, flag, many, operator
+from ssilang.language.registry import arg, by, choice, many, operator
 from ssilang.language.run.call import Call
-from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""
 
 
 MODEL = arg("model", "MMODEL", en="model")
-NO_ERROR = flag("silent", "NOER", en="accepted, changes nothing")
+_of_folded = numbered("kernel.elements.jacobian-vanishes-changes-sign")
+_FIELD = by("silent", {True: "MCHAML|ENTIER"}, default="MCHAML")
+_FORCES = by("silent", {True: "CHPOINT|ENTIER"}, default="CHPOINT")
 Fields = tuple[NodeField | CellField, ...]
 
 
@@ -85,7 +87,9 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
     ),
     family="stress",
     full_name="SIGMA",
+    gives=_FIELD,
 )
+@_of_folded
 def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> CellField:
     """Stresses."""
     u, material = displacement_of(call, fields), joined_cells(call, fields)
@@ -114,7 +118,9 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
     ),
     family="stress",
     full_name="EPSILON",
+    gives=_FIELD,
 )
+@_of_folded
 def epsi(
     call: Call, model: Model, fields: Fields, silent: bool, measure: str, gradient: str
 ) -> CellField:
@@ -149,7 +155,9 @@ def _logarithmic(zone: Zone, gradient: CellField, by_displacement: bool) -> Cell
     NO_ERROR,
     family="stress",
     full_name="BSIGMA",
+    gives=_FORCES,
 )
+@_of_folded
 def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) -> NodeField:
     """Internal forces."""
     stress, material = state_and_rest(fields)

@@ -34,6 +34,8 @@ def elim(
     ws = workspace(call.session)
     ids = _ids(first)
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
+    meshes = [m for m in (first, second) if isinstance(m, Mesh)]
+    before = sum(map(repeated_nodes, meshes))
     if second is None:
         merge_close(ws.nodes, ids, near)
     else:
@@ -42,6 +44,8 @@ def elim(
         merge_between(ws.nodes, ids, others, near)
         if apart and not np.isin(_ids(first), _ids(second)).any():
             call.warn("operators.mesh.nothing-merged", distance=near)
+    if (count := sum(map(repeated_nodes, meshes)) - before) > 0:
+        call.warn("operators.mesh.cells-closed", distance=near, count=count)
     return first
 
 
