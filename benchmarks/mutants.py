@@ -55,7 +55,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
 HANGS = 120.0  # s of processor time of one test beyond the limit: it is counted as noticed
-FILES = 12  # of tests, at most, for a mutant
+FILES = 30  # of tests, at most, for a mutant
+CASE = 4  # files whose tests go before one more case of a test
 NOT_SO = "untried: it is in no function of a process"
 WORDS = dict.fromkeys(("assertion", "crash", "time"), "noticed")
 WORDS |= {word: word.upper() for word in ("equivalent", "gone", "untried")}
@@ -394,6 +395,19 @@ def living() -> list[FunctionType]:
     return [f for f in gc.get_objects() if isinstance(f, FunctionType)]
 
 
+def in_turn(items: list[pytest.Item], files: list[str]) -> list[pytest.Item]:
+    """Tests of files, the nearest first; more cases of one test come behind other files' tests."""
+    rank, cases = {file.split("::")[0]: i for i, file in enumerate(files)}, Counter[str]()
+    order: list[tuple[bool, int, int, pytest.Item]] = []
+    for item in items:
+        file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
+        if file in rank:
+            place = rank[file] + CASE * cases[test]
+            order.append((bool(item.get_closest_marker("long")), place, rank[file], item))
+            cases[test] += 1
+    return [item for *_, item in sorted(order, key=lambda one: one[:3])]
+
+
 class _Judge:
     """A plugin of pytest: each fault is tried in a process split off when tests are collected."""
 
@@ -418,11 +432,7 @@ class _Judge:
         gc.freeze()
         items = {item.nodeid: item for item in session.items}
         for fault, files in self.asked:
-            order = {file: i for i, file in enumerate(files)}
-            near = [i for i in session.items if i.nodeid.split("::")[0] in order]
-            near.sort(
-                key=lambda i: (bool(i.get_closest_marker("long")), order[i.nodeid.split("::")[0]])
-            )
+            near = in_turn(session.items, files)
             said = self.split_off(near, fault, functions)
             test = re.match(r"\w+ (tests/.*) \(", said)
             if fault and test and test[1] in items and test[1] not in self.good:
