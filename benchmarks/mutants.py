@@ -54,7 +54,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
-HANGS = 120.0  # s of processor time of one test beyond the limit: it is counted as noticed
+HANGS = 60.0  # s of processor time of one test beyond the limit: it is counted as noticed
 FILES = 30  # of tests, at most, for a mutant
 CASE = 4  # files whose tests go before one more case of a test
 NOT_SO = "untried: it is in no function of a process"
