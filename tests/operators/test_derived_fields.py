@@ -52,11 +52,6 @@ def test_relations_condensed_on_their_multipliers(found):
     assert numbering_of(s).unknowns == ("LX",)
 
 
-def test_missing_inverse_is_refused(refused):
-    script = TWO + "C = RELA 2. 'UX' P '+' 3. 'UX' Q ; S = CMCT C (MANU 'CHPO' P 1 'UX' 1.) ;"
-    assert "no value for UX" in refused(script)
-
-
 def test_matrix_condensed_by_relations_answers_as_the_whole(found):
     script = PLATE + (
         "P1 = S POIN 'PROC' (3. 2.) ; P2 = S POIN 'PROC' (3. 0.) ; "

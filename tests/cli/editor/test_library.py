@@ -1,4 +1,4 @@
-"""What an editor knows of the procedures of the library, against what the language reads in them."""
+"""What an editor knows of the library's procedures, against what the language reads in them."""
 
 from __future__ import annotations
 
