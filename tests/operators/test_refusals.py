@@ -8,6 +8,9 @@ from pathlib import Path
 import pytest
 import script_runs
 
+from ssilang.cli.check import check_source
+from ssilang.language.text.source import Source
+
 ROWS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
 
@@ -16,6 +19,19 @@ def assert_refused(script, code, said, folder):
     assert [error.code for error in result.errors if error.severity == "error"] == [code], script
     for words in said:
         assert words in result.message
+
+
+@pytest.mark.parametrize("code", ROWS["before_the_run"])
+def test_check_says_the_same_at_the_same_place(code):
+    """Of as many scripts as their types and words alone condemn."""
+    found = 0
+    for script in ROWS["refused"][code]:
+        before, _, rest = (ROWS["before"] + script + " ;").partition("«")
+        place, _, after = rest.partition("»")
+        problems, _ = check_source(Source("script", before + place + after))
+        told = [(p.code, p.span.start, p.span.end) for p in problems if p.severity == "error"]
+        found += told == [(code, len(before), len(before) + len(place))]
+    assert found >= ROWS["before_the_run"][code]
 
 
 @pytest.mark.parametrize("code", ROWS["refused"])
