@@ -512,7 +512,7 @@ def verdicts(copy_of: Path, asked: list[Asked], seconds: float) -> Iterator[str]
 
 def project(folder: Path) -> Path:
     """A copy of the project whose byte code is told from its text: mutants come within a second."""
-    left = shutil.ignore_patterns("__pycache__", ".*_cache", ".git", ".venv", "results")
+    left = shutil.ignore_patterns("__pycache__", ".*_cache", ".git", ".venv")
     shutil.copytree(ROOT, folder, ignore=left, dirs_exist_ok=True)
     by_text = py_compile.PycInvalidationMode.CHECKED_HASH
     compileall.compile_dir(folder / "ssilang", quiet=2, invalidation_mode=by_text)
