@@ -26,6 +26,8 @@ import ast
 import compileall
 import copy
 import difflib
+import gc
+import inspect
 import math
 import os
 import py_compile
@@ -45,14 +47,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from types import CodeType, FunctionType
 from typing import Any
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
-HANGS = 120.0  # s of processor time of one test beyond the limit: it is counted as noticed
-FILES = 12  # of tests, at most, for a mutant
+HANGS = 60.0  # s of processor time of one test beyond the limit: it is counted as noticed
+FILES = 30  # of tests, at most, for a mutant
+CASE = 4  # files whose tests go before one more case of a test
+NOT_SO = "untried: it is in no function of a process"
+WORDS = dict.fromkeys(("assertion", "crash", "time"), "noticed")
+WORDS |= {word: word.upper() for word in ("equivalent", "gone", "untried")}
 LIBRARIES = ("hypothesis", "numba", "numpy", "scipy.linalg", "scipy.sparse.linalg", "xdist")
 GOOD = """
 import sys
@@ -113,6 +120,9 @@ class Fault:
         old, new = self.old.split("\n"), self.new.split("\n")
         diff = [d for d in difflib.ndiff(old, new) if d[0] != "?"]
         return "\n".join([f"{self.path}:{self.line} {self.kind}", *diff])
+
+
+Asked = tuple[Fault | None, list[str]]  # a fault not yet in the text, files of tests
 
 
 def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
@@ -347,74 +357,163 @@ def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str
     return [f for f in sorted(rank, key=lambda f: (-rank[f], f)) if rank[f] > 0.0][:FILES]
 
 
-class _Watch:
-    """A plugin of pytest: files in their order, long tests last; the first failure; the end."""
+def compiled(fault: Fault) -> bool:
+    """Whether it is in a function that is compiled: callers keep its machine code."""
+    tree = ast.parse((ROOT / fault.path).read_text(encoding="utf-8"))
+    return any(
+        re.match("compiled|apart|seldom", ast.unparse(decorator))
+        for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
+        for decorator in node.decorator_list
+        if node.lineno <= fault.line <= (node.end_lineno or 0)
+    )  # fmt: skip
 
-    def __init__(self, files: list[str], seconds: float) -> None:
-        self.files, self.seconds, self.said, self.ran = files, seconds, "", 0
 
-    @pytest.hookimpl(trylast=True)
-    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        order = {file: i for i, file in enumerate(self.files)}
-        items.sort(
-            key=lambda i: (i.get_closest_marker("long") is not None, order[i.nodeid.split("::")[0]])
-        )
+def codes(code: CodeType) -> Iterator[tuple[tuple[str, int], CodeType]]:
+    """Functions of a module or class, not those within them, by name and first line."""
+    for one in code.co_consts:
+        if isinstance(one, CodeType):
+            own = one.co_flags & inspect.CO_OPTIMIZED
+            yield from [((one.co_qualname, one.co_firstlineno), one)] if own else codes(one)
+
+
+def put_into(fault: Fault, functions: list[FunctionType]) -> bool:
+    """Give a function of this process the code with a fault, wherever the function is kept."""
+    module = import_module(fault.path[:-3].replace("/", ".").removesuffix(".__init__"))
+    path, found = module.__file__ or "", False
+    was = dict(codes(compile(Path(path).read_text(encoding="utf-8"), path, "exec")))
+    now = dict(codes(compile(fault.source(Path()) or "", path, "exec")))
+    now = {k: code for k, code in now.items() if code != was.get(k) and k[1] <= fault.line}
+    for f in {id(f): f for f in functions + living()}.values():
+        new = now.get((f.__code__.co_qualname, f.__code__.co_firstlineno))
+        if new and f.__code__.co_filename == path and new.co_freevars == f.__code__.co_freevars:
+            f.__code__, found = new, True
+    return found
+
+
+def living() -> list[FunctionType]:
+    """Functions that a search for garbage would see."""
+    return [f for f in gc.get_objects() if isinstance(f, FunctionType)]
+
+
+def in_turn(items: list[pytest.Item], files: list[str]) -> list[pytest.Item]:
+    """Tests of files, the nearest first; more cases of one test come behind other files' tests."""
+    rank, cases = {file.split("::")[0]: i for i, file in enumerate(files)}, Counter[str]()
+    order: list[tuple[bool, int, int, pytest.Item]] = []
+    for item in items:
+        file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
+        if file in rank:
+            place = rank[file] + CASE * cases[test]
+            order.append((bool(item.get_closest_marker("long")), place, rank[file], item))
+            cases[test] += 1
+    return [item for *_, item in sorted(order, key=lambda one: one[:3])]
+
+
+class _Judge:
+    """A plugin of pytest: each fault is tried in a process split off when tests are collected."""
+
+    def __init__(self, asked: list[Asked], seconds: float, told: int) -> None:
+        self.asked, self.seconds, self.told, self.said = asked, seconds, told, ""
+        self.good: set[str] = set()
 
     def pytest_exception_interact(self, node: Any, call: Any) -> None:
+        if isinstance(node, pytest.Collector) and self.asked[0][0]:
+            return  # it misses something here, without a fault
         name = call.excinfo.typename
         word = "assertion" if name in ("AssertionError", "Failed") else "crash"
         self.said = self.said or f"{word} {node.nodeid} ({name})"
 
-    def pytest_runtest_logfinish(self) -> None:
-        self.ran += 1
-        if time.process_time() > self.seconds:
-            pytest.exit("the limit", returncode=0)
+    def tell(self, said: str) -> None:
+        os.write(self.told, (said.replace("\n", " ") + "\n").encode())
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtestloop(self, session: pytest.Session) -> bool | None:
+        if self.said:
+            return None
+        gc.unfreeze()
+        functions = living()
+        gc.freeze()
+        items = {item.nodeid: item for item in session.items}
+        for fault, files in self.asked:
+            near = in_turn(session.items, files)
+            said = self.split_off(near, fault, functions)
+            test = re.match(r"\w+ (tests/.*) \(", said)
+            if fault and test and test[1] in items and test[1] not in self.good:
+                alone = self.split_off([items[test[1]]], None, [])
+                said = said if alone.startswith("passed") else f"passes not without it: {alone}"
+                self.good |= {test[1]} if alone.startswith("passed") else set()
+            self.tell(said)
+        return True
+
+    def split_off(
+        self, items: list[pytest.Item], fault: Fault | None, functions: list[FunctionType]
+    ) -> str:
+        """How tests end that run one after the other up to the first that fails."""
+        reads, writes = os.pipe()
+        pid = os.fork()
+        if pid == 0:
+            os.setpgid(0, 0)
+            most = int(self.seconds + HANGS)
+            resource.setrlimit(resource.RLIMIT_CPU, (most, most + 5))
+            try:
+                said = self.run(items) if not fault or put_into(fault, functions) else NOT_SO
+            except BaseException as problem:
+                said = f"crash of pytest ({type(problem).__name__})"
+            os.write(writes, said.encode())
+            os._exit(0)
+        os.close(writes)
+        with os.fdopen(reads) as told:
+            late = not select.select([told], [], [], 4.0 * (self.seconds + HANGS))[0]
+            said = "" if late else told.read()
+        if not said:
+            os.killpg(pid, signal.SIGKILL)
+        status = os.waitpid(pid, 0)[1]
+        if late or os.WTERMSIG(status) == signal.SIGXCPU:
+            return "time limit"
+        return said or f"crash of the process ({os.WTERMSIG(status)})"
+
+    def run(self, items: list[pytest.Item]) -> str:
+        """Run them here, up to the first that fails or the limit."""
+        for i, item in enumerate(items):
+            after = items[i + 1] if i + 1 < len(items) else None
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=after)
+            if self.said or time.process_time() > self.seconds:
+                return self.said or f"passed {i + 1} tests, the limit"
+        return f"passed {len(items)} tests"
 
 
-def judged(copy_of: Path, files: list[str], seconds: float) -> str:
-    """How tests end in a copy of the project, in a process split off from this one."""
+def verdicts(copy_of: Path, asked: list[Asked], seconds: float) -> Iterator[str]:
+    """How tests end in a copy of the project for each fault, from one process that has them all."""
     reads, writes = os.pipe()
     pid = os.fork()  # the libraries are imported, the copy is not
     if pid == 0:
-        os.close(reads)
         os.setpgid(0, 0)
-        resource.setrlimit(resource.RLIMIT_CPU, (int(seconds + HANGS), int(seconds + HANGS) + 5))
-        _run_tests(copy_of, files, seconds, writes)
+        silence = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(silence, 1)
+        os.dup2(silence, 2)
+        os.chdir(copy_of)
+        os.environ["PYTHONPATH"] = str(copy_of)
+        sys.path.insert(0, str(copy_of))
+        judge = _Judge(asked, seconds, writes)
+        options = ["-n", "0", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=1"]
+        files = sorted({file for _, files in asked for file in files})
+        try:
+            pytest.main([*options, *files], [judge])
+        except BaseException as problem:
+            judge.said = judge.said or f"crash of pytest ({type(problem).__name__})"
+        judge.tell(judge.said)
+        os._exit(0)
     os.close(writes)
     with os.fdopen(reads) as told:
-        late = not select.select([told], [], [], 4.0 * (seconds + HANGS))[0]
-        said = "" if late else told.read().strip()
-    if not said:
-        os.killpg(pid, signal.SIGKILL)
-    status = os.waitpid(pid, 0)[1]
-    if late or os.WTERMSIG(status) == signal.SIGXCPU:
-        return "time limit"
-    return said or f"crash of the process ({os.WTERMSIG(status)})"
-
-
-def _run_tests(copy_of: Path, files: list[str], seconds: float, told: int) -> None:
-    """Run tests in this process, say how they end, and end it."""
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, 1)
-    os.dup2(silence, 2)
-    os.chdir(copy_of)
-    os.environ["PYTHONPATH"] = str(copy_of)
-    sys.path.insert(0, str(copy_of))
-    watch = _Watch(files, seconds)
-    options = ["-n", "0", "-q", "-x", "-p", "no:cacheprovider", "--hypothesis-seed=1"]
-    try:
-        pytest.main([*options, *files], [watch])
-    except BaseException as problem:
-        watch.said = watch.said or f"crash of pytest ({type(problem).__name__})"
-    os.write(told, (watch.said or f"passed {watch.ran} tests").encode())
-    os._exit(0)
+        for _ in asked:
+            yield told.readline().strip() or "crash of the process"
+    os.killpg(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
 
 
 def project(folder: Path) -> Path:
     """A copy of the project whose byte code is told from its text: mutants come within a second."""
-    for name in ("ssilang", "stdlib", "grammar", "tests", "docs", "cases", "benchmarks"):
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "pyproject.toml", folder)
+    left = shutil.ignore_patterns("__pycache__", ".*_cache", ".git", ".venv")
+    shutil.copytree(ROOT, folder, ignore=left, dirs_exist_ok=True)
     by_text = py_compile.PycInvalidationMode.CHECKED_HASH
     compileall.compile_dir(folder / "ssilang", quiet=2, invalidation_mode=by_text)
     return folder
@@ -444,40 +543,53 @@ def warm_up(kept: Path) -> None:
             folder.chmod(0o700)
 
 
-def try_all(asked: list[Fault], seconds: float, folder: Path, kept: Path) -> Counter[str]:
+def try_all(
+    asked: list[Fault], seconds: float, folder: Path, kept: Path, once: bool
+) -> Counter[str]:
     """Judge faults one after the other, telling each; how many ended how."""
     copy_of = project(folder)
     files = [str(f.relative_to(ROOT)) for f in sorted((ROOT / "tests").rglob("test_*.py"))]
     texts = {f: set(re.findall(r"[\w.*]+", written(ROOT / f))) for f in files}
     equivalent = tomllib.loads(EQUIVALENT.read_text(encoding="utf-8"))["equivalent"]
     same = {(e["path"], e["old"].strip(), e["new"].strip()): e["reason"] for e in equivalent}
-    good, callers = unchanged(copy_of), Callers()
-    tests = [near(fault, texts, callers) for fault in asked]
-    warm_up(kept)
-    first = sorted({f for of_one in tests for f in of_one[:1]})
-    print(f"without a mutant: {judged(copy_of, first, seconds)}", flush=True)
+    good, callers, clock = unchanged(copy_of), Callers(), [time.monotonic()]
     count: Counter[str] = Counter()
-    for fault, of_one in zip(asked, tests, strict=True):
-        source = fault.source()
-        key = (fault.path, fault.old.strip(), fault.new.strip())
-        started = time.monotonic()
-        if source is None or key in same:
-            word, said = ("EQUIVALENT", same[key]) if source else ("GONE", "")
+
+    def tell(fault: Fault, said: str) -> None:
+        first = said.split()[0]
+        word = WORDS.get(first, "SURVIVED")
+        count[first if word == "noticed" else word] += 1
+        clock.append(time.monotonic())
+        print(f"{word} {clock[-1] - clock[-2]:.0f} s  {fault}\n-> {said}", flush=True)
+
+    warm_up(kept)
+    warm: list[Asked] = []
+    cold: list[Asked] = []
+    for fault in asked:
+        tests = near(fault, texts, callers)
+        reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
+        if reason or not fault.source() or not tests:
+            tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else "none is near")
         else:
-            target = copy_of / fault.path
-            was = target.read_bytes()
-            target.write_text(source, encoding="utf-8")
-            said = judged(copy_of, of_one, seconds) if of_one else "no test is near"
-            target.write_bytes(was)
-            if (test := re.match(r"\w+ (tests/\S+)", said)) and "[" not in test[1]:
-                alone = judged(copy_of, [test[1]], seconds)
-                said = said if alone.startswith("passed") else f"passes not without it: {alone}"
-            word = "noticed" if re.match("assertion|crash|time", said) else "SURVIVED"
-            for folder in kept.glob("ssilang/compiled/*"):
-                if folder.name not in good:
-                    shutil.rmtree(folder)
-        count[said.split()[0] if word == "noticed" else word] += 1
-        print(f"{word} {time.monotonic() - started:.0f} s  {fault}\n-> {said}", flush=True)
+            (cold if compiled(fault) else warm).append((fault, tests))
+    for (fault, tests), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
+        if once or WORDS.get(said.split()[0]) == "noticed":
+            tell(fault, said)
+        else:
+            cold.append((fault, tests))
+    for fault, tests in cold:
+        target = copy_of / fault.path
+        was = target.read_bytes()
+        target.write_text(fault.source() or "", encoding="utf-8")
+        (said,) = verdicts(copy_of, [(None, tests)], seconds)
+        target.write_bytes(was)
+        if test := re.match(r"\w+ (tests/.*) \(", said):
+            (alone,) = verdicts(copy_of, [(None, [test[1]])], seconds)
+            said = said if alone.startswith("passed") else f"passes not without it: {alone}"
+        tell(fault, said)
+        for made in set(kept.glob("ssilang/compiled/*")):
+            if made.name not in good:
+                shutil.rmtree(made)
     return count
 
 
@@ -488,6 +600,7 @@ def main() -> None:
     parser.add_argument("seed", nargs="?", type=int, default=1, help="of the draw of lines")
     parser.add_argument("--seconds", type=float, default=60.0, help="of tests for a mutant")
     parser.add_argument("--under", default="ssilang", metavar="FOLDER", help="draw from it alone")
+    parser.add_argument("--once", action="store_true", help="survivors get no process of their own")
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")
     asked = parser.parse_args()
@@ -505,7 +618,7 @@ def main() -> None:
     for library in LIBRARIES:
         import_module(library)
     with tempfile.TemporaryDirectory() as folder:
-        count = try_all(chosen, asked.seconds, Path(folder), kept)
+        count = try_all(chosen, asked.seconds, Path(folder), kept, asked.once)
     ended = ", ".join(f"{n} {word}" for word, n in sorted(count.items()))
     noticed = count["assertion"] + count["crash"] + count["time"]
     tried = noticed + count["SURVIVED"]

@@ -66,13 +66,15 @@ def test_values_have_the_types_of_the_language():
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["AG", "=3", "AG=", "1X=2", "A=1:0:1", "A=0:1:0", "A=0:1:0.3", "A=1,,2", "A=1,", "A=0.5,0.50",
-     "A=x,y,x", "A=1E400", "A=::"],
+    ("texts", "code"),
+    [("AG =3 AG= 1X=2", "not-name-value-ag"), ("A=1:0:1 A=0:1:0", "range-no-values-first"),
+     ("A=0:1:0.3", "range-misses-end"), ("A=1,,2 A=1, A=::", "value-empty"),
+     ("A=0.5,0.50 A=x,y,x", "value-twice"), ("A=1E400", "value-too-large")],
 )  # fmt: skip
-def test_what_cannot_be_read_is_refused(text):
-    with pytest.raises(GivenError):
-        cases_of([text], None)
+def test_what_cannot_be_read_is_refused(texts, code):
+    for text in texts.split():
+        with pytest.raises(GivenError, check=lambda e: e.code == f"cli.{code}"):
+            cases_of([text], None)
 
 
 def test_all_combinations_come_in_order():

@@ -86,13 +86,17 @@ def test_every_entry_with_a_range_refuses_what_is_outside_of_it():
     assert refused > 0.5 * tries
 
 
-@pytest.mark.parametrize("values", [[], [0.0, 2.0, 1.0], [0.0, 1.0, 1.0], [math.nan, 1.0]])
-def test_lists_that_must_increase_are_refused_where_they_do_not(values):
+@pytest.mark.parametrize(
+    ("values", "code"),
+    [([], "increasing"), ([1.0, 3.0, 2.0], "increasing"), ([1.0, 2.0, 2.0], "increasing"),
+     ([math.nan, 1.0], "finite")],
+)  # fmt: skip
+def test_lists_that_must_increase_are_refused_where_they_do_not(values, code):
     session = open_session(Session())
     rising = [e for e in BOUNDED if e.range.increasing]
     assert len(rising) >= 5
     for entry in rising:
-        with pytest.raises(SsiError):
+        with pytest.raises(SsiError, check=lambda e: e.code == f"entry-not-{code}"):
             checked(session, entry, ListReel(np.array(values)), entry.path, procedure="P")
 
 

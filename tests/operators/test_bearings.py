@@ -105,18 +105,3 @@ def test_a_core_is_pushed_in_statics(found):
     z = 1 - (1 + 0.01 / 0.02) ** -10
     assert abs(share) == pytest.approx(z, rel=1e-9)
     assert abs(force) == pytest.approx(1e6 * 0.1 + 2e5 * z, rel=1e-9)
-
-
-def test_bearings_stand_between_points_alone(refused):
-    said = refused(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; S = DROI 2 (0. 0.) (1. 0.) ; B = S PLUS (0. 0.) ; "
-        "J = RACC 1.E-6 S B ; M = MODE J MECANIQUE ELASTIQUE APPUI_PENDULE ; "
-        "A = MATE M 'KN' 1.E9 'KS' 1.E8 'RAYO' 2. 'FROT' 0.1 ; "
-    )
-    assert "between two points" in said
-
-
-def test_the_conserving_step_refuses_bearings_by_name(refused):
-    script = isolated("APPUI_PENDULE", "'KN' 1.E8 'KS' 1.E8 'RAYO' 2. 'FROT' 0.1")
-    said = refused(script + "T . 'CONSERVATIF' = VRAI ; " + released(0.01, 1e8, 2, 0.01))
-    assert "APPUI_PENDULE" in said

@@ -35,11 +35,6 @@ def test_product_by_a_scalar_field_and_by_names(found):
     assert values == pytest.approx((15.0, 25.0, 10.0, 5 / 3))
 
 
-def test_field_of_other_cells_does_not_multiply(refused):
-    script = LINE + "M = DROI 3 PA PB ; D = MANU 'CHML' M 'SCAL' 1. ; E = C «*» D ;"
-    assert "is not a zone of the second" in refused(script)
-
-
 def test_components_are_extracted_and_renamed(found):
     names, top = found(
         LINE + "N = EXTR (NOMC (MOTS 'A') (MOTS 'Z') C) 'COMP' ; X = MAXI (EXCO 'A' C) ;", "N", "X"
@@ -136,11 +131,6 @@ def test_hooke_matrices_times_strains_are_stresses_in_any_order(found, order):
     assert str(title).rstrip() == "CONTRAINTES"
 
 
-def test_hooke_matrices_times_strains_ask_for_the_model(refused):
-    assert "wanted a MMODEL" in refused(STRAINED + "T = H «*» E ;")
-    assert "with a model" in refused(STRAINED + "T = «M» E * E ;")
-
-
 def test_products_by_names_take_a_factor_each(found, refused):
     lists = "(MOTS 'A' 'B') (MOTS 'B' 'B') (MOTS 'Y' 'Z')"
     values = found(
@@ -194,13 +184,6 @@ def test_the_word_before_a_list_of_components_and_its_list_may_be_apart(found, t
     assert found(LINE + f"X = {text} ;", "X") == expected
 
 
-@pytest.mark.parametrize(
-    "text", ["«MAXI» C 'SANS' 'ABS'", "«MAXI» C 'SANS' 'A'", "«MINI» 'AVEC' C"]
-)
-def test_a_word_of_components_without_its_list_is_told(refused, text):
-    assert "waits for the list" in refused(LINE + f"X = {text} ;")
-
-
 def test_a_field_is_dealt_out_over_a_table_of_models_and_joined_again(found):
     script = (
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "
@@ -213,10 +196,6 @@ def test_a_field_is_dealt_out_over_a_table_of_models_and_joined_again(found):
     assert (str(kind), count) == ("ESCLAVE", 4)
     assert parts == pytest.approx(8.0)  # the integral of x over the band
     assert whole == pytest.approx(8.0)
-
-
-def test_a_table_without_models_is_told(refused):
-    assert "no models" in refused(LINE + "T = TABL ; T . 1 = 5 ; X = REDU C «T» ;")
 
 
 def test_the_sub_type_of_a_changed_field_is_any_word(found):

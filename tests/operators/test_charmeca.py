@@ -108,18 +108,3 @@ def test_reactions_of_an_added_support_stand_in_the_results(found):
         "R1",
     )  # fmt: skip
     assert value == pytest.approx(7.0, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("script", "said"),
-    [
-        ("T1 . 'CHARMECA' = VRAI ;", "no procedure is called CHARMECA"),
-        ("DEBP CHARMECA T0*TABLE TI*FLOTTANT ; FINP 1. ; T1 . 'CHARMECA' = VRAI ;", "one TABLE"),
-        (procedure(("ADDI_FNL", "1.")), "'ADDI_FNL' must be CHPOINT"),
-        (procedure(("ADDI_KNL", "APPU 'UX' 1. (9. 9.)")), "which the stiffness and the mass lack"),
-        (procedure(("ADDI_MATRICE", "BLOQ 'MINI' 'UY' P")), "put them into RIGI"),
-        (procedure() + "T1 . 'REDUCTION' = 1.E-6 ;", "exclude each other"),
-    ],
-)
-def test_wrong_additions_are_refused(refused, script, said):
-    assert said in refused(BASE + script + RUN)

@@ -61,10 +61,6 @@ def test_grid_of_three_axes_is_linear_in_each():
     np.testing.assert_allclose(on_grid(axes, values, at), expected, rtol=1e-12)
 
 
-def test_unequal_columns_are_refused(refused):
-    assert "different numbers" in refused("N = «NUAG» 'COMP' 'X' 0. 1. 'COMP' 'Y' 5. ;")
-
-
 def test_integrals_of_several_curves_over_several_intervals_make_a_cloud(found):
     second = found(
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; "

@@ -61,7 +61,3 @@ def test_energy_that_impacts_create_is_told_in_every_method(entries, told):
     assert ("operators.dynamics.impacts-change-energy" in codes) is told, codes
     share = result.session.statistics["calculations"][0]["energy_imbalance"]
     assert (share > 0.3) is told
-
-
-def test_persistent_contact_and_the_conserving_step_exclude_each_other(refused):
-    assert "exclude each other" in refused(BLOCK + "T . 'CONTACT_PERSISTANT' = VRAI ; " + END)

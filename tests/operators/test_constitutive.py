@@ -211,14 +211,6 @@ def test_tangent_moduli(found):
     assert found(script, "X1", "X2") == (250.0, 1000.0)
 
 
-def test_step_without_strain_is_refused(refused):
-    assert "no strain" in refused(PLATE + ELASTIC + "C = «COMP» M A A ;")
-
-
-def test_elastic_law_has_no_criterion(refused):
-    assert "no criterion" in refused(PLATE + ELASTIC + ZEROS + "C = «CRIT» M S0 V0 A ;")
-
-
 def test_unloading_joint_has_no_inelastic_step(found):
     script = JOINT.format(law="PLASTIQUE COULOMB", more="'FRIC' 30. 'COHE' 10.") + (
         ZEROS + "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "

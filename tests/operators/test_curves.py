@@ -25,10 +25,6 @@ def test_curve_holds_lists_names_legend_and_colour(found):
     assert whole.parts[0].legend == "measured"
 
 
-def test_lists_of_different_lengths_are_refused(refused):
-    assert "2 abscissas for 1 ordinate" in refused("E = EVOL 'MANU' (PROG 0. 1.) «(PROG 1.)» ;")
-
-
 def test_curve_along_a_line_has_its_length_as_abscissa(found):
     x, y = found(
         LINE + "E = EVOL 'CHPO' (X * Y) 'SCAL' L ; A = EXTR E 'ABSC' ; B = EXTR E 'ORDO' ;",
@@ -285,11 +281,6 @@ def test_one_name_stands_before_each_list(found, names, kept):
     text = "E = EVOL 'MANU' {} (PROG 0. 1.) {} (PROG 2. 3.) ;"
     part = found(text.format(*names), "E").parts[0]
     assert (part.abscissa_name, part.ordinate_name) == kept
-
-
-@pytest.mark.parametrize("names", ["'TIME' 's'", "TIME s", "F (T)", "F(T) s", "'F'(T)"])
-def test_two_names_before_a_list_are_refused(refused, names):
-    assert "one name may stand" in refused(f"E = EVOL 'MANU' {names} (PROG 0. 1.) (PROG 2. 3.) ;")
 
 
 @pytest.mark.parametrize(

@@ -93,22 +93,6 @@ def test_a_cell_under_a_shaken_base_moves_as_masses_on_springs(found):
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
-    [
-        ("'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4) (PROG 1. 1.1))", "rises, from 1 at the shear"),
-        ("'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4) (PROG 0.9 0.5))", "must begin at 1"),
-        ("'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4 1.E-3) (PROG 1. 0.6 0.05))", "at least G/Gmax"),
-        (f"'GGAM' {CURVE} 'GAMR' 1.E-3", "given twice"),
-        (f"'GAMR' {CURVE}", "GAMR is a number"),
-        ("'GAMR' «0.»", "GAMR = 0"),
-        ("'GGAM' 0.5", "parameter GGAM is a curve"),
-    ],
-)
-def test_curves_that_no_soil_has_are_refused_where_they_are_given(refused, given, told):
-    assert told in refused(SQUARE + material(given))
-
-
-@pytest.mark.parametrize(
     "given",
     [
         "'GAMR' 0.05",
@@ -119,31 +103,6 @@ def test_strains_in_percent_are_suspected(given):
     for script, wanted in ((given, ["operators.models.strains-in-percent"]), (GIVEN, [])):
         result = run_text(SQUARE + material(script))
         assert [w.code for w in result.session.warnings] == wanted
-
-
-def test_a_missing_curve_is_told_with_what_may_stand_in_its_place(refused):
-    said = refused(
-        SQUARE + material("") + "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
-        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' LOW ; T . 'CHARGEMENT' = CHAR 'MECA' "
-        "(FORC (1. 0.) (POIN TOP 1)) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
-        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
-    )
-    assert "parameter GGAM (or GAMR in its place) is missing" in said
-
-
-@pytest.mark.parametrize(
-    ("law", "given", "told"),
-    [
-        ("CAM_CLAY", "'E0' 1. 'M' 1. 'P0' 1. 'KAPA' «0.3» 'LAMD' 0.2 'G1' 8.", "KAPA < LAMD"),
-        ("J2", "'SIG0' 2. 'SIGI' «1.» 'KISO' 0. 'VELO' 1.", "J2"),
-    ],
-)
-def test_parameters_that_do_not_fit_each_other_are_refused_where_they_are_given(
-    refused, law, given, told
-):
-    assert told in refused(
-        SQUARE + MODEL.replace("IWAN", law) + f"MA = MATE M 'YOUN' 9. 'NU' 0. {given} ; "
-    )
 
 
 def test_parameters_in_two_fields_wait_for_each_other(found):

@@ -221,10 +221,6 @@ def test_section_that_cannot_carry_its_normal_force_is_refused(refused):
     assert "does not find the normal force" in refused(script)
 
 
-def test_fields_of_a_section_have_no_stiffness_of_their_own(refused):
-    assert "describes the section of a beam" in refused(section() + "K = «RIGI» MS AS ; ")
-
-
 # ---- concrete -------------------------------------------------------------------------------
 
 CONCRETE = section("PLASTIQUE BETON_BAEL", "'FC' 30.E6", 1, 400).replace("2.E11", "3.E10")
@@ -456,14 +452,6 @@ def test_bars_have_the_laws_of_fibres(found, law, given, strains, stresses):
         "X = X ET (EXTR (T . 'CONTRAINTES' . &B) 'EFFX' 1 1 1) ; FIN B ; "
     )
     np.testing.assert_allclose(found(script, "X").values, 1e-3 * np.array(stresses), rtol=1e-4)
-
-
-def test_bodies_have_no_laws_of_fibres(refused):
-    said = refused(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE ACIER_UNI ; "
-    )
-    assert "ACIER_UNI" in said
 
 
 def test_a_section_of_cracked_concrete_and_steel_has_the_moment_of_its_curves(found):

@@ -74,22 +74,3 @@ def test_gane_takes_fields_and_numbers(found):
     )
     assert found(script, "A") == pytest.approx(-1.0)
     assert found(script, "B") == pytest.approx(-3.0)
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("X = «MOCA» (PROG 1. 2.) (PROG 1.) (PROG 1.) (PROG 1.) ;", "2 parameters for 1 list"),
-        ("X = MOCA (PROG 1.) (PROG 1. 2.) «(PROG 1.)» (PROG 1. 2.) ;", "1 value, 2 are wanted"),
-        ("T = TABL ; T . 0 = PROG 1. ; H = GANE «T» ;", "no values at 0 and derivatives"),
-        ("T = TABL ; T . 0 = 1. ; T . 1 = PROG 1. ; H = GANE «T» ;", "different types"),
-        ("T = TABL ; C R = «GANE» T 'MATR' ;", "not available as objects"),
-        (
-            "DEBP F X*LISTREEL P*LISTREEL ; FINP X ; P C = LEVM 'ABSC' (PROG 1.) 'ORDO' (PROG 1.) "
-            "'SIGM' (PROG 1.) 'PARA' (PROG 1.) 'PROC' F ;",
-            "does not give two lists",
-        ),
-    ],
-)
-def test_what_cannot_be_fitted_is_told(refused, text, said):
-    assert said in refused(text)

@@ -118,8 +118,3 @@ def test_axes_of_a_joint_in_space_turn_about_its_segment_and_with_it(found):
                                    [a, np.cross(np.cross(a, b), a)])[0]  # fmt: skip
     expected = (swing * about).apply([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
     np.testing.assert_allclose(seen, expected, atol=1e-12)
-
-
-def test_a_model_alone_is_refused_and_moves_nothing(refused):
-    said = refused(START + BEAM + "C B = «FORM» U M ;")
-    assert "wanted a MCHAML" in said

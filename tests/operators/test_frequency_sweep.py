@@ -163,41 +163,6 @@ def test_frequencies_of_the_default_sweep_show_the_resonance(found):
     np.testing.assert_allclose((0.5 * (u[1:] + u[:-1]))[away], exact[away], rtol=3e-3)
 
 
-def test_default_sweep_needs_a_resonance(refused):
-    text = refused(
-        POINT.format(
-            model="MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) ; CA = MATE MO RAID 4. ;",
-            more="OUBL T1 'TEMPS_CALCULES' ;",
-            force="FX",
-            unknown="UX",
-        )
-    )
-    assert "TEMPS_CALCULES" in text
-
-
-def test_undamped_resonance_is_named(refused):
-    text = refused(
-        POINT.format(
-            model="MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) ;"
-            " CA = MATE MO RAID 0. MASS 4. ;",
-            more="T1 . 'TEMPS_CALCULES' = PROG 0. 1. ;",
-            force="FX",
-            unknown="UX",
-        )
-    )
-    assert "0 Hz" in text
-
-
-def test_a_stiffness_that_depends_on_frequency_is_no_matrix(refused):
-    text = refused(
-        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; G1 = MANU POI1 P1 ;"
-        "MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE COMPLEXE (MOTS UX) ;"
-        "CA = MATE MO MOCO (EVOL MANU 'FREQ' (PROG 0. 1.) 'MOCO' (PROG 1. 2.)) ;"
-        "K = RIGI MO CA ;"
-    )
-    assert "'FREQ'" in text
-
-
 def test_a_dashpot_by_number_without_its_matrix_is_said():
     result = run_text(
         POINT.format(

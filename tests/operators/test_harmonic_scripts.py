@@ -131,28 +131,6 @@ def test_truss_passes_both_limit_points_along_the_arc(found):
     np.testing.assert_array_equal(negative[clear], ((v > limit) & (v < 2 - limit))[clear])
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (
-            TRUSS.replace("(PROG 0. 9.) (PROG 0. 9.)", "(PROG 0. 1. 3.) (PROG 0. 1. 0.)"),
-            "not straight",
-        ),
-        (TRUSS + "T . 'PROCEDURE_CHARMECA' = VRAI ; ", "PROCEDURE_CHARMECA"),
-        (TRUSS + "T . 'STABILITE' = MOTS 'FLOQ' ; ", "harmonic balance"),
-        (TRUSS + "T . 'MAXI_DEPLACEMENT' = 0. ; ", "MAXI_DEPLACEMENT"),
-        (
-            "NH = 1 ; " + DUFFING + "T . 'PROCEDURE_FREQUENCE_TEMPS' = MOT 'AUTRE' ; ",
-            "'AFT'",
-        ),
-        ("NH = 1 ; " + DUFFING + "T . 'COMP_FNL' = MOTS 'UX' ; ", "UX"),
-        ("NH = 9 ; " + DUFFING + "T . 'N_PT_TFR' = 3 ; ", "N_PT_TFR"),
-    ],
-)
-def test_tables_that_make_no_branch_are_refused(text, words, refused):
-    assert words in refused(text + "CONTINU T ;")
-
-
 # --- DYNC ------------------------------------------------------------------------------------
 
 ONE_MODE = """
@@ -245,20 +223,6 @@ def test_uplift_on_a_one_sided_spring_is_what_dynamic_settles_on(found):
     angle = 2 * np.pi * np.arange(steps) / steps
     got = [last.mean(), 2 * (last * np.cos(angle)).mean(), 2 * (last * np.sin(angle)).mean()]
     np.testing.assert_allclose(got, [c0[i], c1[i], s1[i]], atol=2e-3 * abs(c1[i]))
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ("TN . 'TYPE' = MOT 'AUTO' ;", "'AUTO'"),
-        ("TI = TABL 'INITIAL' ;", "FREQUENCE"),
-        ("TN . 'DSMIN' = 1. ;", "DSMIN"),
-        ("TC . 7 = TC . 1 ;", "beyond the 1 harmonic"),
-    ],
-)
-def test_tables_of_dync_that_say_too_little_are_refused(change, words, refused):
-    text = ONE_MODE.format(frequency=0.2, damping=0.1, load=1.0) + CUBIC_LINK + change
-    assert words in refused(text + "R = DYNC TM TC TL TA TI TN 1 64 ;")
 
 
 def test_links_with_a_past_are_refused(refused):

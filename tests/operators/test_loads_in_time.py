@@ -61,11 +61,3 @@ def test_parts_of_a_loading(found):
     names, a, b, d = found(script, "L", "A", "B", "D")
     assert [str(w) for w in names.values] == ["MECA", "SEIS"]
     assert (a, b, d) == (-10.0, 0.5, 1)
-
-
-def test_what_cannot_be_loaded_is_explained(refused):
-    assert "must increase" in refused(
-        LOAD + "C = «CHAR» 'MECA' F (EVOL 'MANU' (PROG 1. 0.) (PROG 0. 1.)) ;"
-    )
-    assert "its parts are: MECA" in refused(LOAD + "C = CHAR 'MECA' F ; X = TIRE «C» 0. 'PRES' ;")
-    assert "moving loadings" in refused(LOAD + "C = «CHAR» 'Q' F E 'TRAN' Q E ;")

@@ -18,10 +18,6 @@ def test_power_of_a_lumped_mass_is_its_inverse(found):
     np.testing.assert_allclose(assemble(root).diagonal(), [2.0, np.sqrt(5)])
 
 
-def test_power_of_negative_terms_is_refused(refused):
-    assert "negative terms" in refused("OPTI DIME 2 ; P = 0. 0. ; M = (MASS 'UX' -4. P) «**» 0.5 ;")
-
-
 def test_curve_is_zero_where_the_field_is_not_and_says_so():
     result = run_text(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; X = COOR 1 (L ELEM 2) ; "
@@ -158,11 +154,6 @@ def test_lists_are_taken_from_tables_by_their_integers(found):
     assert both is False
 
 
-def test_a_table_with_a_word_gives_no_list_of_numbers(refused):
-    said = refused("T = TABL ; T . 1 = 'A' ; L = PROG 'TABL' «T» ;")
-    assert "index 1 of the table holds no number but an object of type MOT" in said
-
-
 def test_a_loading_by_lists_is_that_by_tables(found):
     """3 N half way from 0 to 6 N, whichever way the instants are given."""
     script = (
@@ -175,13 +166,6 @@ def test_a_loading_by_lists_is_that_by_tables(found):
     half, times, last, other, yes, no = found(script, *"FTGHAB")
     assert (half, last, other, yes, no) == (-3.0, -6.0, -3.0, True, False)
     np.testing.assert_array_equal(times.values, [1.0, 3.0])
-
-
-def test_a_loading_has_an_object_for_each_time(refused):
-    script = "OPTI DIME 2 ; P = 0. 0. ; C = CHAR 'MECA' (PROG 1. 3.) «(ENUM (FORC (0. 1.) P))» ;"
-    assert "2 times for 1 object" in refused(script)
-    script = "C = CHAR 'MECA' (PROG 1.) «(ENUM (PROG 2.))» ;"
-    assert "objects of type LISTREEL" in refused(script)
 
 
 # --- what there is ------------------------------------------------------------------------------

@@ -46,7 +46,3 @@ def test_recombined_reactions_are_those_of_the_recombined_displacement(found):
     assert abs(moment) > 1.0
     np.testing.assert_allclose(moment, whole)
     assert other < 1e-9 * abs(moment)
-
-
-def test_shapes_without_reactions_are_named(refused):
-    assert "has no reactions" in refused(MODE + "R = «RECO» Q1 T1 'REAC' ;")

@@ -4,6 +4,10 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
+from ssilang.kernel.fields.node_algebra import applied
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.operators.modal.recombination import ratio
 
 TWO_MASSES = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ;
@@ -321,3 +325,23 @@ def test_pseudo_mode_of_a_shock_is_that_of_a_unit_force_along_its_normal(found, 
     assert "the NORMALE of entry 1 is zero" in refused(flat)
     empty = script + "S . 2 = TABL ; P = PSMO K (T . 'MODES') «S» ;"
     assert "entry 2 wants a POINT" in refused(empty)
+
+
+def test_fields_are_compared_by_one_factor():
+    """What a pseudo-mode stands for is found by it: fields that are proportional, and no others."""
+    table = NodeTable()
+    table.add(np.eye(4, 3))
+    field = NodeField.of(
+        table, np.array([2, 0, 3]), {"FY": [1.0, -2.0, 4.0], "FX": [0.5, 3.0, 0.0]}
+    )
+    assert ratio(applied(field, lambda x: -2.5 * x), field) == pytest.approx(-2.5)
+    one = NodeField.of(table, np.array([0, 2]), {"FX": [3.0, 0.5]})
+    for other, reference in (
+        (field, applied(field, lambda x: 0.0 * x)),
+        (one, field),
+        (field, one),
+        (3.0, field),
+        (NodeField(table, {}, ""), NodeField(table, {}, "")),
+    ):
+        assert ratio(other, reference) is None
+    assert ratio(one, NodeField.of(table, np.array([2, 0]), {"FX": [1.0, 6.0]})) == 0.5

@@ -230,14 +230,6 @@ def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     assert "M1D2" not in told
 
 
-def test_sections_have_no_axes_of_orthotropy(refused):
-    said = refused(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;"
-        "M = MODE L MECANIQUE ELASTIQUE BARR ; C = CARA M 'DIRE' (0. 1.) 'PARA' 'SECT' 0.1 ;"
-    )
-    assert "DIRE" in said
-
-
 @pytest.mark.parametrize("mode", ["DIME 2 MODE PLAN CONT", "DIME 2 MODE PLAN DEFO", "DIME 3"])
 def test_lines_without_an_element_are_bars_in_plane_and_space(run, mode):
     end = "(3. 4. 0.)" if "3" in mode else "(3. 4.)"

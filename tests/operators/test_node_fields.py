@@ -128,11 +128,6 @@ def test_numbers_act_on_every_value(found):
     assert values == (5.0, -2.0, 16.0, 3.0, 2.0)
 
 
-def test_division_by_zero_in_a_field_is_refused(refused):
-    assert "zero" in refused(LINE + "Z = 1. «/» X ;")
-    assert "zero" in refused(LINE + "Z = Y «/» X ;")
-
-
 def test_component_is_taken_under_the_name_scal_or_a_new_one(found, refused):
     a, b = found(
         POINT + "A = EXTR (EXCO 'UY' C) 'SCAL' P ; B = EXTR (EXCO 'UY' C 'T') 'T' P ;", "A", "B"
@@ -209,16 +204,6 @@ def test_restriction_to_points_and_to_where_another_field_is_not_zero(found):
         LINE + "A = NBNO (EXTR (REDU Y PB) 'MAIL') ; B = NBNO (EXTR (REDU Y X) 'MAIL') ;", "A", "B"
     )
     assert (a, b) == (1, 4)
-
-
-@pytest.mark.parametrize(
-    "statement",
-    ["«EXTR» C 'UX' R", "«EXTR» R C 'UX'", "«EXTR» C 'VALE' R", "«EXTR» (SUIT C C) 'VALE' R 'UX'"],
-)
-def test_a_point_that_carries_no_value_is_told_with_the_nearest_node(refused, statement):
-    said = refused(POINT + f"R = 4. 4. ; X = {statement} ;")
-    assert "UX has no value at node 3 (4. 4.)" in said
-    assert "2 (1. 0.), at a distance of 5" in said
 
 
 def test_forces_are_zero_where_none_acts(found, refused):

@@ -75,13 +75,6 @@ def test_words_and_lists_of_words_become_integers():
     assert value("ENTI (MOTS '1.7' '-1.7')").values.tolist() == [1, -1]
 
 
-@pytest.mark.parametrize(
-    "phrase", ["«LOG» 0.", "«ACOS» 2.", "ENTI «'abc'»", "«EXP» 1.E4", "«1 / 0»", "«IFRE» -1."]
-)
-def test_impossible_value_is_explained(phrase, refused):
-    assert "error" in refused(f"X = {phrase} ;")
-
-
 @given(NUMBERS, NUMBERS)
 @settings(max_examples=40, deadline=None)
 def test_comparisons_order_like_the_reals(a, b):
@@ -187,12 +180,6 @@ def test_other_roots_of_negative_values_are_refused(base: str) -> None:
     assert result.exit_code == 1
     assert "0.5" in result.message
     assert run_text(line + f"X = ({base}) ** (1. / 9.) ;").exit_code == 0
-
-
-def test_whether_a_component_exists_is_asked_of_fields_in_cells_alone(refused):
-    said = refused("X = «MASQ» (PROG 1. 2.) 'EXISTE' 'A' ;")
-    assert "'SUPERIEUR' or" in said
-    assert "found EXISTE" in said
 
 
 BIG = st.integers(-(2**40), 2**40)

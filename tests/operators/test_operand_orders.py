@@ -77,10 +77,6 @@ def test_the_only_list_of_a_table_loses_its_doubles(found, phrase):
     assert table.get("A").values.tolist() == [1, 2, 3]
 
 
-def test_doubles_are_dropped_from_one_list_alone(refused):
-    assert "one list only" in refused(_TABLE + "U = «ORDO» T 'A' 'UNIQ' ;")
-
-
 def test_doubles_are_dropped_by_value_where_absolute_values_sort(found):
     made = found("L = ORDO (PROG 2. 1. -1. 1. -1. 2.) 'ABSO' 'UNIQ' ;", "L")
     assert made.values.tolist() == [1, -1, 2]

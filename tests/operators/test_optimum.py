@@ -55,20 +55,6 @@ def test_a_variable_without_influence_stays(found):
     assert found(LINE.format(x=0.5, slope=0.0) + "T = EXCE T ; X = T . 'VX0' . 1 ;", "X") == 0.5
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (LINE.format(x=7.0, slope=1.0), "not between VXMIN and VXMAX"),
-        (LINE.format(x=1.0, slope=1.0) + "T . 'METHODE' = 'LIX' ;", "STA, MOV or LIN, not LIX"),
-        (LINE.format(x=1.0, slope=1.0) + "T . 'T0' = 2. ;", "'T0' is a number between 0 and 1"),
-        (LINE.format(x=1.0, slope=1.0) + "T . 'VF' = TABL ;", "'VF' holds 0 numbers"),
-        ("T = TABL ;", "'VX0' holds 0 numbers"),
-    ],
-)
-def test_what_is_missing_is_told(refused, text, said):
-    assert said in refused(text + "T = EXCE T ;")
-
-
 def test_tangents_give_up_what_cannot_be_met(found):
     script = LINE.format(x=1.0, slope=1.0) + (
         "T . 'METHODE' = 'LIN' ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; T . 'MC' . 1 . 0 = 0. ;"

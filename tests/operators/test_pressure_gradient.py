@@ -48,11 +48,3 @@ def test_springs_of_a_ring_and_of_a_line(found):
     )  # fmt: skip
     assert ring == pytest.approx(5.0 * 2 * np.pi * 2.0 * 1.5)
     assert line == pytest.approx(5.0 * 1.5)
-
-
-def test_bodies_carry_no_gradient(refused):
-    said = refused(
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ; K = KP M 3. ;"
-    )
-    assert "carry no pressure" in said

@@ -48,12 +48,6 @@ def test_folded_quadrangle(found):
     assert y == pytest.approx(50.0, abs=1e-3)  # folded by a right angle
 
 
-def test_indicator_of_other_cells_is_refused(refused):
-    assert "not for SEG2" in refused(
-        "OPTI DIME 2 ELEM SEG2 ; I = «INDI» (DROI 1 (0 0) (1 0)) 'ASPE' ;"
-    )
-
-
 def test_meshes_within_another(found):
     script = (
         "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; L1 = DROI 2 A (1. 0.) ; L2 = DROI 2 A (0. 1.) ; "
@@ -131,8 +125,3 @@ def test_stretched_cell_is_the_best_in_its_metric(found):
         "X", "Y",
     )  # fmt: skip
     assert (x, y) == pytest.approx((1.0, 1.0))
-
-
-def test_quality_in_a_metric_is_for_simplices(refused):
-    script = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-    assert "TRI3 or of TET4" in refused(script + "I = INDI 'TOPO' «S» ;")

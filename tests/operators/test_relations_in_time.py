@@ -64,10 +64,6 @@ def test_relation_with_a_dual_pushes_where_the_dual_says(found):
     assert push == pytest.approx(130 * x - 30 * 0.02)
 
 
-def test_reaction_of_a_dual_that_pushes_the_wrong_way_is_named(refused):
-    assert "further through" in refused(LEVER.format(push=1.0))
-
-
 PRESS = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
 L1 = DROI 1 (0. 0.) (1. 0.) ; S1 = L1 TRAN 2 (0. 1.) ;

@@ -105,14 +105,6 @@ def test_block_in_a_turning_frame(found):
     np.testing.assert_allclose(K, expected, atol=1e-12)
 
 
-def test_a_turning_frame_that_couples_the_parts_of_a_harmonic_is_refused(refused):
-    script = (
-        "OPTI DIME 2 MODE FOUR 1 ELEM QUA4 ; L = DROI 1 (1. 0.) (1.5 0.) ; S = L TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 1. 'NU' 0.3 'RHO' 5. ; "
-    )
-    assert "two parts of a harmonic" in refused(script + "C = «CORI» M A (0. 3.) ;")
-
-
 def test_damping_that_turns_resists_nothing_when_the_body_turns_with_it(found):
     script = shaft("TIMO").replace("'OMEG' 50.", "'OMEG' 50. 'VISQ' 1.E6") + (
         "C H = AMOR M A 'COROTATIF' ; "
@@ -196,8 +188,3 @@ def test_turning_ring_has_a_centrifugal_stiffness_about_its_axis(found):
     np.testing.assert_allclose(dense(k), 9 * dense(j))
     v[:], v[numbering.where("UZ")] = 0.0, 1.0
     assert v @ dense(k) @ v == 0.0
-
-
-def test_gyroscopic_coupling_is_refused_for_shells(refused):
-    script = PLATE.format(cell="TRI3", element="DKT")
-    assert "beams in space" in refused(script + "K = «GYRO» M A ;")

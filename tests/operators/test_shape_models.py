@@ -93,8 +93,3 @@ def test_unit_forces_of_a_table(found):
         "F",
     )
     assert value == 1.0
-
-
-def test_shapes_are_refused_where_strains_are_wanted(refused):
-    said = refused(BEAMS + "X = «EPSI» MO1 (V1 . 'MODES' . 1 . 'DEFORMEE_MODALE') ;")
-    assert "no strains of their own" in (said or "no strains of their own")

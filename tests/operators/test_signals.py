@@ -109,7 +109,8 @@ def test_time_above_a_level_of_a_triangle():
 
 
 def test_inverse_needs_two_frequencies():
-    with pytest.raises(FieldError):
+    code = "kernel.records.signal-needs-two-points"
+    with pytest.raises(FieldError, check=lambda e: e.code == code):
         inverse_fourier(np.array([0.0]), np.array([1.0 + 0j]))
 
 

@@ -33,10 +33,6 @@ def test_vectors_add_and_scale(found):
     assert (made.get("X"), made.get("Y")) == (10.0, 2.0)
 
 
-def test_tables_of_another_kind_do_not_add(refused):
-    assert "VECTEUR" in refused("T = TABL ; U = «T + T» ;")
-
-
 def test_sum_and_union_of_a_table(found):
     total, joined = found(
         "T = TABL 'ESCLAVE' ; T . 1 = PROG 1. ; T . 2 = PROG 5. ; S = + T ; L = ET T ;", "S", "L"

@@ -24,28 +24,3 @@ def test_a_pulled_bar_follows_its_tension_curve(found):
     curve = "EVOL 'MANU' (PROG 0. 1.E-3 2.E-2 1.E-1) (PROG 0. 200.E6 300.E6 340.E6)"
     stress = found(material(curve) + PULLED, "X")
     assert stress == pytest.approx(300.0e6 + (0.03 - 0.02) / (0.1 - 0.02) * 40.0e6, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("curve", "told"),
-    [
-        ("EVOL 'MANU' (PROG 0. 1.E-1) (PROG 200.E6 300.E6)", "begins at zero"),
-        ("EVOL 'MANU' (PROG 0. 2.E-3 1.E-1) (PROG 0. 200.E6 300.E6)", "first slope of TRAC is 1e"),
-        ("EVOL 'MANU' (PROG 0. 1.E-3 2.E-3) (PROG 0. 200.E6 500.E6)", "more than YOUN"),
-    ],
-)
-def test_a_curve_that_is_no_tension_test_is_refused(refused, curve, told):
-    assert told in refused(material(curve))
-
-
-def test_a_hardening_given_twice_is_refused(refused):
-    curve = "EVOL 'MANU' (PROG 0. 1.E-3 1.E-1) (PROG 0. 200.E6 300.E6)"
-    script = BAR + f"E = {curve} ; MA = MATE M 'YOUN' 2.E11 'NU' 0.3 'TRAC' E 'ECRO' E ;"
-    assert "given twice" in refused(script)
-
-
-def test_a_young_modulus_that_is_no_number_is_refused(refused):
-    curve = "EVOL 'MANU' (PROG 0. 1.E-3 1.E-1) (PROG 0. 200.E6 300.E6)"
-    assert "TRAC needs YOUN" in refused(
-        material(curve, "(EVOL 'MANU' 'T' (PROG 0. 1.) (PROG 1. 2.))")
-    )

@@ -36,11 +36,6 @@ def test_parameters_given_by_curves_become_numbers(found):
     assert float(np.ravel(block["NU"])[0]) == 0.3
 
 
-def test_law_of_another_field_is_refused(refused):
-    message = refused(PLATE + "C = «VARI» ((NOMC 'A' X) ET (NOMC 'B' Y)) E ;")
-    assert "abscissa 'T'" in message
-
-
 def test_what_variable_components_depend_on_is_told():
     text = (
         "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "

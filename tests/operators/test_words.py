@@ -85,10 +85,6 @@ def test_message_prints_one_line_and_an_empty_one(printed):
     ]  # fmt: skip
 
 
-def test_message_of_an_object_is_refused(refused):
-    assert "MESSAGE" in refused("T = TABL ; MESS «T» ;")
-
-
 def test_error_by_text_by_number_and_in_passing(refused, printed):
     assert "the beam broke" in refused("«ERRE» 'the beam broke' ;")
     assert "error 5" in refused("«ERRE» 5 ;")

@@ -9,9 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ssilang.cli.check import check_source
 from ssilang.cli.checking import walk
 from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.editor.problems import Findings, find_problems
+from ssilang.cli.run import run_text
 from ssilang.language.text.source import Source
 
 ROOT = Path(__file__).parents[3]
@@ -137,3 +139,32 @@ def test_procedures_beside_the_script_are_read_anew_when_they_change(tmp_path):
         assert ("missing-parameter" in codes()) is wrong
     file.unlink()
     assert "unknown-operator" in codes()
+
+
+@pytest.mark.parametrize(
+    ("between", "sure"),
+    [
+        ("X = 'a' ;", True),
+        ("REPE B 0 ; X = 'a' ; FIN B ;", False),
+        ("REPE B 2 ; QUIT B ; X = 'a' ; FIN B ;", False),
+        ("SI (N0 > 1) ; X = 'a' ; FINS ;", False),
+        ("SI (N0 > 1) ; X = 'a' ; SINO ; MESS 1 ; FINS ;", False),
+        ("SI (N0 < 1) ; MESS 1 ; SINO ; X = 'a' ; FINS ;", False),
+        ("SI (N0 > 1) ; X = 'a' ; SINO ; X = 'b' ; FINS ;", True),
+        ("SI (N0 > 1) ; X = TABL ; SINO ; X = 2. ; FINS ;", False),
+        ("REPE B 1 ; SI (N0 > 1) ; X = 'a' ; FINS ; FIN B ;", False),
+        ("DEBP OTHER ; X = 'a' ; FINP ;", False),
+        ("OTHER = 'X = 1' ; X = 'a' ;", True),
+        ("X = 'a' ; X = 3. ;", False),
+        ("Y W = 3. 'a' ; X = W ;", True),
+        ("T1 = TABL ; T1 . 'X' = 'a' ;", False),
+        ("OUBL X ; X = 'a' ;", True),
+    ],
+)
+def test_a_name_is_of_a_type_where_it_is_so_whichever_way_is_taken(between, sure):
+    text = f"N0 = 0 ; X = 1. ; {between} Z = SIN X ; MESS Z ;"
+    problems, _ = check_source(Source("deck", text))
+    told = [p.code for p in problems if p.severity == "error"]
+    assert told == (["wrong-argument"] if sure else [])
+    if not sure:
+        assert run_text(text).exit_code == 0

@@ -239,15 +239,16 @@ def assert_equal(found, expected):
         np.testing.assert_allclose(found[key], value, rtol=1e-13, err_msg=str(key))
 
 
-def test_sums_of_cell_fields(table, zones):
+@pytest.mark.parametrize("factor", [-1.7, 1.0, 2.0])
+def test_sums_of_cell_fields(table, zones, factor):
     rng = np.random.default_rng(1)
     a = of_cells(rng, zones[:2], ("B", "A"), title="mine")
     b = of_cells(rng, [zones[2], zones[1]], ("A", "C"), points=1, support="GRAVITE", title="other")
     x, y = values(a), values(b)
     wanted = dict(x)
     for key, value in y.items():
-        wanted[key] = wanted[key] - 1.7 * value if key in wanted else -1.7 * value
-    found = cells.added(a, b, -1.7)
+        wanted[key] = wanted[key] + factor * value if key in wanted else factor * value
+    found = cells.added(a, b, factor)
     assert_equal(found, wanted)
     assert found.title == "mine"
     assert [b.support for b in found.blocks] == ["STRESSES", "STRESSES", "GRAVITE"]

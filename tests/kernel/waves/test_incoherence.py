@@ -162,9 +162,12 @@ def test_a_record_keeps_what_is_slow_and_loses_what_is_fast():
 
 
 @pytest.mark.parametrize(
-    "wrong", [lambda: RigidBase("disc", 0.0), lambda: RigidBase("rectangle", 2.0),
-              lambda: Ground(0.0), lambda: Ground(200.0, -0.1), lambda: Ground(200.0, 0.1, 0.0)],
+    ("wrong", "code"),
+    [(lambda: RigidBase("disc", 0.0), "base-without-size"),
+     (lambda: RigidBase("rectangle", 2.0), "base-without-size"),
+     (lambda: Ground(0.0), "speed-not-positive"), (lambda: Ground(200.0, -0.1), "gamma-negative"),
+     (lambda: Ground(200.0, 0.1, 0.0), "speed-not-positive")],
 )  # fmt: skip
-def test_what_cannot_be_is_refused(wrong):
-    with pytest.raises(MaterialError):
+def test_what_cannot_be_is_refused(wrong, code):
+    with pytest.raises(MaterialError, check=lambda e: e.code == f"kernel.waves.{code}"):
         wrong()

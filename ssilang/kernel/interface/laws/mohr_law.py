@@ -27,14 +27,6 @@ ROUNDING = 1e-10
 pressure at all stand exactly there."""
 
 
-@compiled
-def _elastic_normal(closing: float, p: FloatArray) -> tuple[float, float]:
-    """Traction and stiffness of an elastic normal jump."""
-    if p[Par.ECN] > 0.0 and closing < -p[Par.ECN]:
-        return -p[Par.KN] * p[Par.ECN] + p[Par.EF] * (closing + p[Par.ECN]), p[Par.EF]
-    return p[Par.KN] * closing, p[Par.KN]
-
-
 @seldom
 @compiled
 def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
@@ -60,44 +52,45 @@ def mohr_point(
 ) -> None:
     """Traction, new state and tangent, written in place (arguments as `sdm_point`)."""
     n = w.shape[0] - 1
-    clear(D)
-    copy_state(state, new)
-    new[Var.OPENING] = 0.0
-    new[Var.STATUS] = IN_CONTACT
     strength = p[Par.FTRC]
     if p[Par.TPHI] > 0.0:
         strength = min(strength, p[Par.COHE] / p[Par.TPHI])
-    tn, kn = _elastic_normal(w[n] - state[Var.XI], p)
-    bound = strength + ROUNDING * p[Par.COHE]
-    if tn > bound and p[Par.TPSI] > 0.0:
-        # slip opens the joint: what pulls when tried may press once the faces have slid
-        spent = _slide(w, p, t, new, D, tn, kn)
-        if t[n] <= bound:
-            new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + spent
-            _cumulate(state, new, n)
-            return
-        clear(D)
-        copy_state(state, new)
-        new[Var.OPENING] = 0.0
-        new[Var.STATUS] = IN_CONTACT
-    if tn > bound and strength == 0.0:
-        _open(w, state, p, t, new)
-        _cumulate(state, new, n)
-        return
-    loss = 0.0
-    if tn > bound:
-        new[Var.XI] += (tn - strength) / kn
-        loss += strength * (tn - strength) / kn
-        tn, kn = strength, 0.0
-    elif p[Par.FNE] > 0.0 and tn < -(p[Par.FNE] + _hardening(p) * state[Var.DAMAGE]):
-        yielded = (-tn - p[Par.FNE] - _hardening(p) * state[Var.DAMAGE]) / (kn + _hardening(p))
-        new[Var.XI] -= yielded
-        new[Var.DAMAGE] += yielded
-        tn += kn * yielded
-        loss -= tn * yielded
-        kn = p[Par.QT]
-    new[Var.SHEAR_LOSS] = state[Var.SHEAR_LOSS] + loss + _slide(w, p, t, new, D, tn, kn)
+    # slip opens the joint: what pulls when tried may press once the faces have slid, and more yet
+    closing, kn, stays = w[n] - state[Var.XI], p[Par.KN], 1.0
+    tn, yielded = kn * closing, 0.0
+    loss = _slide(w, state, p, t, new, D, tn, kn, stays)
+    if t[n] > strength + ROUNDING * p[Par.COHE]:
+        opened = (tn - strength) / kn  # by tension and by slip together
+        loss = _slide(w, state, p, t, new, D, strength, 0.0, 0.0)
+        if strength == 0.0:
+            loss = _open(w, state, p, t, new, D, loss)
+        else:
+            new[Var.XI] += opened
+            loss += strength * opened
+    else:
+        if p[Par.ECN] > 0.0 and t[n] < -kn * p[Par.ECN]:
+            tn, kn = p[Par.EF] * (closing + p[Par.ECN]) - kn * p[Par.ECN], p[Par.EF]
+            loss = _slide(w, state, p, t, new, D, tn, kn, stays)
+        limit = p[Par.FNE] + _hardening(p) * state[Var.DAMAGE]
+        if p[Par.FNE] > 0.0 and t[n] < -limit:
+            yielded = (-tn - limit) / (kn + _hardening(p))
+            stays = p[Par.QT] / p[Par.KN]
+            loss = _slide(w, state, p, t, new, D, tn + kn * yielded, p[Par.QT], stays)
+            loss -= t[n] * yielded
+            new[Var.XI] -= yielded
+            lift = p[Par.TPSI] * _length(state, new, n)
+            new[Var.DAMAGE] += yielded + (1.0 - stays) * lift
+    new[Var.SHEAR_LOSS] += loss
     _cumulate(state, new, n)
+
+
+@compiled
+def _length(state: FloatArray, new: FloatArray, n: int) -> float:
+    """Slip of a step."""
+    total: float = 0.0
+    for i in range(n):
+        total += (new[Var.SLIP1 + i] - state[Var.SLIP1 + i]) ** 2
+    return math.sqrt(total)
 
 
 @compiled
@@ -107,28 +100,50 @@ def _hardening(p: FloatArray) -> float:
 
 
 @compiled
-def _open(w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray) -> None:
-    """An open point: no traction, the shear's stored energy is lost."""
+def _open(
+    w: FloatArray,
+    state: FloatArray,
+    p: FloatArray,
+    t: FloatArray,
+    new: FloatArray,
+    D: FloatArray,
+    spent: float,
+) -> float:
+    """An open point: no traction; what it spent sliding and its stored shear are lost, once."""
     n = w.shape[0] - 1
+    clear(D)
     new[Var.STATUS] = IS_OPEN
     new[Var.OPENING] = w[n] - state[Var.XI]
     for i in range(n):
+        if p[Par.KS1 + i] > 0.0:
+            spent += 0.5 * t[i] * t[i] / p[Par.KS1 + i]
         t[i] = 0.0
         new[Var.SLIP1 + i] = w[i]
     t[n] = 0.0
+    return 0.0 if state[Var.STATUS] == IS_OPEN else spent
 
 
 @compiled
 def _slide(
     w: FloatArray,
+    state: FloatArray,
     p: FloatArray,
     t: FloatArray,
     new: FloatArray,
     D: FloatArray,
     tn: float,
     kn: float,
+    stays: float,
 ) -> float:
-    """Shear returned to the cone, dilatancy; returns the energy spent on slip."""
+    """Shear returned to the cone, dilatancy; returns the energy spent on slip.
+
+    From `state` anew; `stays` is the share of the dilatancy that is not made up for by an opening
+    in tension or by crushing.
+    """
+    clear(D)
+    copy_state(state, new)
+    new[Var.OPENING] = 0.0
+    new[Var.STATUS] = IN_CONTACT
     n = w.shape[0] - 1
     # elastic trial: size of the traction, length of the elastic jump
     size, length = 0.0, 0.0
@@ -161,8 +176,9 @@ def _slide(
     D[n, n] = kn - kn * p[Par.TPSI] * length * kn * p[Par.TPHI] / down
     # tractions, slip and what it spends
     t[n] = tn - kn * p[Par.TPSI] * slip
-    spent: float = t[n] * p[Par.TPSI] * slip
-    new[Var.XI] += p[Par.TPSI] * slip
+    lift = stays * p[Par.TPSI] * slip
+    spent: float = t[n] * lift
+    new[Var.XI] += lift
     for i in range(n):
         moved = (1.0 - ratio) * (w[i] - new[Var.SLIP1 + i])
         new[Var.SLIP1 + i] += moved

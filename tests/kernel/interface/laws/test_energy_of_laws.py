@@ -18,6 +18,12 @@ LAWS = {
     "bonded": (LawCode.SDM, {"FU": 2e4, "GF": 15.0, "FC": -1e4, "FROT": -1.0}),
     "rubs": (LawCode.SDM, {"FU": 0.0, "FC": 0.0, "FROT": 0.4}),
     "Mohr": (LawCode.MOHR, {"TPHI": 0.6, "TPSI": 0.2, "COHE": 1e4, "FTRC": 5e3}),
+    "Mohr, dilatant": (LawCode.MOHR, {"TPHI": 0.6, "TPSI": 0.5, "COHE": 5e4, "FTRC": 5e3}),
+    "Mohr, crushed": (
+        LawCode.MOHR,
+        {"TPHI": 0.6, "TPSI": 0.4, "COHE": 1e4, "FTRC": 5e3, "FNE": 2e4, "QT": 0.3 * KN},
+    ),
+    "Mohr, two slopes": (LawCode.MOHR, {"TPHI": 0.5, "COHE": 1e4, "ECN": 6e-5, "EF": 2.5 * KN}),
     "lead": (LawCode.LEAD, {"QD": 3e4, "KPOS": 6e6, "ETA": 1.0, "BETA": 0.5}),
     "slider": (LawCode.PENDULUM, {"RAYO": 2.0, "FROT": 0.06}),
 }
@@ -37,23 +43,49 @@ def path_of(seed, d, pressed):
     return np.vstack([a + part * (b - a) for a, b in itertools.pairwise(corners)])
 
 
+class Point:
+    """One point of a law: its state, traction and energies after each jump."""
+
+    def __init__(self, name, d):
+        self.code, given = LAWS[name]
+        self.p = np.zeros((1, N_PARAMETERS))
+        for parameter, value in {"KN": KN, "KS1": KS, "KS2": 0.4 * KS, **given}.items():
+            self.p[0, Parameter[parameter]] = value
+        self.state, self.d = np.zeros((1, N_STATE)), d
+
+    def to(self, w):
+        t, new = np.zeros((1, self.d)), np.zeros((1, N_STATE))
+        D, codes = np.zeros((1, self.d, self.d)), np.array([int(self.code)])
+        respond(codes, w[None], self.state, self.p, t, new, D)
+        self.state = new
+        return t[0], point_energies(int(self.code), w, t[0], new[0], self.p[0])
+
+
 @pytest.mark.parametrize("d", [2, 3])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("name", LAWS)
 def test_work_is_stored_and_lost(name, seed, d):
-    code, given = LAWS[name]
-    p = np.zeros((1, N_PARAMETERS))
-    for parameter, value in {"KN": KN, "KS1": KS, "KS2": 0.4 * KS, **given}.items():
-        p[0, Parameter[parameter]] = value
-    state, new = np.zeros((1, N_STATE)), np.zeros((1, N_STATE))
-    t, D, codes = np.zeros((1, d)), np.zeros((1, d, d)), np.array([int(code)])
+    point = Point(name, d)
     before, push, work, moved, lost = np.zeros(d), np.zeros(d), 0.0, 0.0, 0.0
     for w in path_of(seed, d, name == "slider"):
-        respond(codes, w[None], state, p, t, new, D)
-        done = 0.5 * (push + t[0]) @ (w - before)
-        stored, gone = point_energies(int(code), w, t[0], new[0], p[0])
+        t, (stored, gone) = point.to(w)
+        done = 0.5 * (push + t) @ (w - before)
         assert gone >= lost - 1e-9 * moved
-        before, push, work, moved, lost = w, t[0].copy(), work + done, moved + abs(done), gone
-        state[:] = new
+        before, push, work, moved, lost = w, t, work + done, moved + abs(done), gone
     assert stored + lost == pytest.approx(work, abs=3e-3 * moved)
     assert moved > 0.0
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("name", LAWS)
+def test_the_same_jump_again_changes_nothing(name, d):
+    """Whatever a large step did, on cones, caps and their edges at once: its end is admissible."""
+    rng = np.random.default_rng(5)
+    point = Point(name, d)
+    for w in rng.uniform(-1.0, 1.0, (300, d)) * [*(1e-3, 8e-4)[: d - 1], 3e-4]:
+        t, energies = point.to(w)
+        state = point.state
+        again, same = point.to(w)
+        np.testing.assert_allclose(again, t, atol=1e-9 * KN * 1e-3)
+        np.testing.assert_allclose(point.state, state, rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(same, energies, atol=1e-9 * KN * 1e-6)

@@ -6,7 +6,7 @@ import pytest
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
 from ssilang.kernel.interface.laws.parameters import check_mohr_parameters
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.point_laws import respond
 
 MOHR = 2
 
@@ -134,18 +134,6 @@ def test_dilatant_slip_counts_its_opening_in_the_cumulated_jump():
     slip, lift = states[-1, Variable.SLIP1], states[-1, Variable.XI]
     assert lift == pytest.approx(0.4 * slip)
     assert states[-1, Variable.CUMULATED] == pytest.approx(np.sqrt(2 / 3) * np.hypot(slip, lift))
-
-
-def test_work_is_stored_or_lost():
-    p = parameters(TPSI=0.2, COHE=1.0, FTRC=0.5)
-    a = np.linspace(0, 4 * np.pi, 40001)
-    path = np.stack([0.2 * np.sin(a), -0.05 + 0.06 * np.sin(0.7 * a)], 1)
-    t, state = walk(path, p)
-    work = np.sum(0.5 * (t[1:] + t[:-1]) * np.diff(path, axis=0))
-    stored, lost = point_energies(MOHR, path[-1], t[-1], state[-1], p[0])
-    assert lost == pytest.approx(state[-1, Variable.SHEAR_LOSS])
-    start, _ = point_energies(MOHR, path[0], t[0], state[0], p[0])
-    assert stored + lost - start == pytest.approx(work, rel=1e-3)
 
 
 @pytest.mark.parametrize("wrong", [{"KN": 0.0}, {"COHE": -1.0}, {"FNE": 1.0, "QT": 200.0}])

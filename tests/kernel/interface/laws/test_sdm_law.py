@@ -204,10 +204,18 @@ def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"KN": 0.0}, {"KS1": -1.0}, {"FC": 1.0}, {"FU": 1e5}, {"FU": -1.0}, {"KN": np.nan}]
-)
-def test_inadmissible_parameters_are_refused(wrong):
-    with pytest.raises(MaterialError):
+    ("code", "wrong"),
+    [("parameter-must", {"KN": 0.0}), ("parameter-must", {"KS1": -1.0}),
+     ("parameter-must", {"FC": 1.0}), ("parameter-must", {"FU": -1.0}),
+     ("fu-gf-perfectly", {"FU": 1e5}), ("parameter-not-finite", {"KN": np.nan})],
+)  # fmt: skip
+def test_inadmissible_parameters_are_refused(code, wrong):
+    with pytest.raises(
+        MaterialError,
+        check=lambda e: (
+            e.code == f"kernel.interface.joint-{code}" and e.data.get("name") in {*wrong, None}
+        ),
+    ):
         check_sdm_parameters(parameters(**wrong))
 
 

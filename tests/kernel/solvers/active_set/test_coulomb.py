@@ -51,7 +51,22 @@ def test_conditions_hold_for_random_bodies(width, mu):
     for m in (1, 2, 5, 12):
         for _ in range(5):
             problem = held(m, width, mu, rng)
-            check(problem, solve_coulomb(problem))
+            found = solve_coulomb(problem)
+            check(problem, found)
+            for force, length in ((3e-8, 2e5), (5e9, 1e-4)):
+                other = solve_coulomb(in_units(problem, force, length))
+                np.testing.assert_allclose(other.forces / force, found.forces, atol=1e-8)
+                assert (other.sticking == found.sticking).all()
+                assert other.turns <= found.turns + 2
+
+
+def in_units(problem, force, length):
+    """The same bodies, their numbers in other units."""
+    p = problem
+    return replace(
+        p, W=p.W * length / force, q=p.q * length, B=p.B * length, r=p.r * force,
+        constant=p.constant * force,
+    )  # fmt: skip
 
 
 def all_sticking(forces, width, rng):
@@ -132,9 +147,10 @@ def test_body_held_by_friction_alone():
         W, np.zeros(3), B, B[:2], np.array([-10.0, 2.0]), 1, 1, np.array([0]), np.array([0.3]),
         np.zeros(1),
     )  # fmt: skip
-    found = solve_coulomb(problem)
-    assert found.forces == pytest.approx([10.0, -2.0])
-    assert found.sticking.all()
+    for force, length in ((1.0, 1.0), (3e-8, 2e5), (5e9, 1e-4)):
+        found = solve_coulomb(in_units(problem, force, length))
+        assert found.forces / force == pytest.approx([10.0, -2.0])
+        assert found.sticking.all()
 
 
 def test_body_that_friction_cannot_hold_is_refused():
@@ -144,7 +160,8 @@ def test_body_that_friction_cannot_hold_is_refused():
         W, np.zeros(3), B, B[:2], np.array([-10.0, 4.0]), 1, 1, np.array([0]), np.array([0.3]),
         np.zeros(1),
     )  # fmt: skip
-    with pytest.raises(
-        ConvergenceError, check=lambda e: e.code == "kernel.solvers.no-state-contact-friction"
-    ):
-        solve_coulomb(problem)
+    for force, length in ((1.0, 1.0), (3e-8, 2e5), (5e9, 1e-4)):
+        with pytest.raises(
+            ConvergenceError, check=lambda e: e.code == "kernel.solvers.no-state-contact-friction"
+        ):
+            solve_coulomb(in_units(problem, force, length))

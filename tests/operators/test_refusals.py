@@ -1,0 +1,47 @@
+"""What operators refuse, why, where and in which words: scripts of `test_refusals.toml`."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import pytest
+import script_runs
+
+from ssilang.cli.check import check_source
+from ssilang.language.text.source import Source
+
+ROWS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+
+def assert_refused(script, code, said, folder):
+    result = script_runs.failed(script, folder)
+    assert [error.code for error in result.errors if error.severity == "error"] == [code], script
+    for words in said:
+        assert words in result.message
+
+
+@pytest.mark.parametrize("code", ROWS["before_the_run"])
+def test_check_says_the_same_at_the_same_place(code):
+    """Of as many scripts as their types and words alone condemn."""
+    found = 0
+    for script in ROWS["refused"][code]:
+        before, _, rest = (ROWS["before"] + script + " ;").partition("«")
+        place, _, after = rest.partition("»")
+        problems, _ = check_source(Source("script", before + place + after))
+        told = [(p.code, p.span.start, p.span.end) for p in problems if p.severity == "error"]
+        found += told == [(code, len(before), len(before) + len(place))]
+    assert found >= ROWS["before_the_run"][code]
+
+
+@pytest.mark.parametrize("code", ROWS["refused"])
+def test_it_is_refused_for_its_reason_and_at_its_place(code, tmp_path):
+    for script in ROWS["refused"][code]:
+        assert_refused(ROWS["before"] + script + " ;", code, (), tmp_path)
+
+
+@pytest.mark.parametrize("name", ROWS["told"])
+def test_it_is_told(name, tmp_path):
+    group = ROWS["told"][name]
+    for code, script, *said in group["rows"]:
+        assert_refused(group["before"] + script, code, said, tmp_path)
