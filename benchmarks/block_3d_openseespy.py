@@ -210,8 +210,8 @@ def run_ssilang(cells: int, steps: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def peer_model(case: Case, forces: Forces, solver: str) -> None:
-    """The same model in OpenSees, ready to analyse."""
+def peer_model(case: Case, forces: Forces, solver: str, strength: float = 1.0) -> None:
+    """The same model in OpenSees, ready to analyse; the push is `strength` times as strong."""
     import openseespy.opensees as ops
 
     ops.wipe()
@@ -236,14 +236,14 @@ def peer_model(case: Case, forces: Forces, solver: str) -> None:
         ops.element("zeroLength", number, low + 1, up + 1, "-mat", 11, 12, 12, "-dir", 3, 1, 2)
     times = DT * np.arange(case.steps + 2)  # beyond its last value a path gives nothing
     ops.timeSeries("Constant", 1)
-    ops.timeSeries("Path", 2, "-dt", DT, "-values", *push_at(times).tolist())
+    ops.timeSeries("Path", 2, "-dt", DT, "-values", *(strength * push_at(times)).tolist())
     ops.pattern("Plain", 1, 1)
     for i in case.block.ravel().tolist():
         ops.load(i + 1, 0.0, 0.0, float(forces.weight[i]))
     ops.pattern("Plain", 2, 2)
     for i in case.block.ravel().tolist():
         ops.load(i + 1, float(forces.mass[i]), 0.0, 0.0)
-    peer_start(case, forces)
+    peer_start(case, forces, strength)
     ops.constraints("Plain")
     ops.numberer("RCM")
     ops.system(solver)
@@ -253,12 +253,12 @@ def peer_model(case: Case, forces: Forces, solver: str) -> None:
     ops.analysis("Transient")
 
 
-def peer_start(case: Case, forces: Forces) -> None:
+def peer_start(case: Case, forces: Forces, strength: float) -> None:
     """Initial acceleration in equilibrium with the loads, as ssilang takes it."""
     import openseespy.opensees as ops
 
     for i in case.block.ravel().tolist():
-        ops.setNodeAccel(i + 1, 1, PUSH, "-commit")
+        ops.setNodeAccel(i + 1, 1, strength * PUSH, "-commit")
         ops.setNodeAccel(i + 1, 3, float(forces.weight[i] / forces.mass[i]), "-commit")
 
 

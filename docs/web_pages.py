@@ -58,6 +58,7 @@ _GUIDES: tuple[tuple[str, tuple[tuple[str, str], ...]], ...] = (
     ("Learn", (
         ("The language", "docs/language.md"), ("Uplift", "docs/uplift.md"),
         ("Meshes of others", "docs/meshes.md"), ("Sweeps", "docs/sweep.md"),
+        ("Suites of records", "docs/suites.md"),
         ("Editor", "docs/editor.md"), ("Python", "docs/python.md"),
         ("Notebooks", "docs/jupyter.md"), ("Report", "docs/report.md"), ("PETSc", "docs/petsc.md"),
     )),

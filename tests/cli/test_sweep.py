@@ -1,12 +1,16 @@
 """Sweeps: values, all runs in one table, failures, resumption, motions, clusters."""
 
 import csv
+import gc
 import io
 import os
 import time
+import weakref
 from dataclasses import replace
 from multiprocessing.context import SpawnContext
+from types import SimpleNamespace
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
@@ -24,7 +28,7 @@ from ssilang.cli.sweeping.given import (
 from ssilang.cli.sweeping.pool import run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.trunk import run_grown
-from ssilang.cli.sweeping.worker import Task
+from ssilang.cli.sweeping.worker import Task, row_anyhow
 
 pytestmark = pytest.mark.usefixtures("one_after_the_other")
 
@@ -428,6 +432,23 @@ def test_a_trunk_or_a_fork_that_dies_costs_its_own_run_alone(tmp_path, work, los
     rows = sorted(run_grown(some_tasks(tmp_path, 6), 2, work), key=lambda r: r["run"])
     assert [r["run"] for r in rows] == list(range(1, 7))
     assert [r["run"] for r in rows if r["exit_code"]] == [lost]
+
+
+def test_what_a_run_of_a_fork_leaves_is_gone_before_the_next(tmp_path):
+    left = []
+
+    def work(task):
+        session = SimpleNamespace(arrays=np.zeros(3))
+        session.itself = session  # a cycle, as a session is: nobody but the collector sees it
+        left.append(weakref.ref(session.arrays))
+        return {}
+
+    gc.freeze()  # as the process does from which others fork
+    try:
+        assert row_anyhow(Task(1, tmp_path, tmp_path, {}), work) == {}
+        assert left[0]() is None
+    finally:
+        gc.unfreeze()
 
 
 def test_a_sweep_that_is_left_ends_its_processes(tmp_path):

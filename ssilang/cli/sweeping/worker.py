@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import time
 from collections.abc import Callable
@@ -141,6 +142,9 @@ def row_anyhow(task: Task, work: Work = run_task) -> Row:
         return work(task)
     except Exception as problem:
         return lost_row(task, str(problem))
+    finally:
+        if gc.get_freeze_count():  # of a fork: few objects hold all arrays of a run, in cycles
+            gc.collect()
 
 
 def lost_row(task: Task, reason: str) -> Row:

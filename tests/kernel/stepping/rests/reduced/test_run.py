@@ -215,6 +215,17 @@ def test_a_tolerance_out_of_reach_runs_the_whole_model():
     assert "vectors do not reach" in str(history.reduction.refused)
 
 
+def test_an_interface_of_too_many_unknowns_is_told_before_any_vector_is_made(monkeypatch):
+    problem, module = soil_block(steps=20), "ssilang.kernel.stepping.rests.reduced"
+    monkeypatch.setattr(f"{module}.run.MOST", 2 * problem.interface.size - 1)
+    monkeypatch.setattr(f"{module}.basis.invert", None)  # no factor is made
+    history = integrate_reduced(problem, 1e-3)
+    assert history.loop == "condensed"
+    assert f"the {problem.interface.size} unknowns of the interface" in str(
+        history.reduction.refused
+    )
+
+
 @pytest.mark.parametrize("tolerance", [0.0, -1.0, 1.0, np.nan])
 def test_tolerances_out_of_range_are_refused(tolerance):
     with pytest.raises(KernelError, match="tolerance"):
