@@ -5,8 +5,11 @@
 
 COUNT lines are drawn by SEED over all of `ssilang` that runs: bodies of functions, without what is
 declared (signatures, decorators, annotations, tables of modules) and what is said (docstrings,
-refusals, texts). Each gets one fault (`faults`); the tests near it run in a copy of the project,
-the nearest first, until one fails or `--seconds` of processor time are used. A mutant that they
+refusals, texts). Each gets one fault (`faults`). The tests near it are collected once, with those
+of all others, in a copy of the project; a process split off from there gives the function its
+faulty code and runs them, the nearest first and one case of each before the next, until one fails
+or `--seconds` of processor time are used. Survivors, and faults in compiled functions, are tried
+in a process of their own that imports the module with the fault (`--once`: not). A mutant that all
 pass is a survivor and printed as a diff; `--again` tries those of a report once more. Changes that
 change nothing stand with their reason in `mutants_equivalent.toml`.
 

@@ -93,25 +93,6 @@ def test_states_of_the_other_laws():
     assert Point(STRIP, **strip).to(1e-3, -1e-3).condition == OPEN
 
 
-@pytest.mark.parametrize(
-    ("code", "given", "path"),
-    [
-        (SDM, {"FU": 1e5, "GF": 20.0, "FC": -2e4}, [(0, 6e-4), (0, -2e-4), (0, 9e-4)]),
-        (SDM, {}, [(0, 6e-4), (0, -2e-4)]),
-        (SDM, {"FROT": 0.4}, [(0, -2e-4), (5e-4, -2e-4), (-2e-4, -1e-4)]),
-        (MOHR, {"TPHI": 0.4, "COHE": 1e4, "FTRC": 5e3}, [(2e-4, -1e-4), (2e-4, 1e-4)]),
-        (STRIP, {"KN": 1e6, "LARG": 4.0}, [(1e-3, -1e-3), (-2e-3, 1e-3)]),
-    ],
-)
-def test_stored_and_lost_energies_are_the_work(code, given, path):
-    p = Point(code, **given)
-    for shear, normal in path:
-        p.to(shear, normal, 20000)
-    stored, lost = p.energies
-    assert lost >= 0.0
-    assert stored + lost == pytest.approx(p.work, rel=2e-4, abs=1e-9)
-
-
 def test_opening_spends_the_fracture_energy():
     fu, gf = 1e5, 20.0
     p = Point(SDM, FU=fu, GF=gf).to(0, 6e-4)

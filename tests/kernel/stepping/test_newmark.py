@@ -151,48 +151,6 @@ def test_steps_are_those_of_the_equations(scheme, numbers, radius, way, monkeypa
         np.testing.assert_allclose(recorder.of(name)[:, i], exact[:, column], atol=1e-11 * size)
 
 
-def test_acceleration_at_the_start_balances_spring_dashpot_and_load():
-    problem, i = oscillator(newmark(), np.array([0.0, 0.01]), 0.02, -0.7, np.array([5.0, 5.0]))
-    recorder = Recorder(2)
-    integrate(problem, [recorder])
-    assert recorder.of("a")[0, i] == pytest.approx((5.0 + 3.0 * 0.7 - 800.0 * 0.02) / 2.0)
-
-
-def test_reactions_of_the_conserving_step_carry_the_dashpot():
-    """The top is pulled by its support: spring and dashpot pull back at the step's middle."""
-    bench = Bench()
-    top, far = bench.node(0.0, 0.0), bench.node(1.0, 0.0)
-    bench.spring(STIFFNESS, top, unknown="UX")
-    bench.mass(MASS, top)
-    bench.dashpot(DASHPOT, top, "UX")
-    bench.dashpot(7.0, far, "UX")
-    bench.spring(11.0, far, top, unknown="UX")
-    bench.mass(1.0, far)
-    for node in (top, far):
-        bench.fix(node, "UY")
-    held = bench.relate([(1.0, "UX", top)])
-    dt, times = 0.01, np.arange(4) * 0.01
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            bench.mass_matrix,
-            bench.damping,
-            bench.load(bench.field((held, "FLX", 1.0)), times, [0.0, 0.02, 0.01, 0.05]),
-            scheme=Scheme(conserving=True),
-        )
-    )
-    recorder = Recorder(len(times))
-    integrate(problem, [recorder])
-    i, j = (problem.numbering.index_of(n, "UX") for n in (top, far))
-    u, v = recorder.of("u"), recorder.of("v")
-    for k in range(1, len(times)):
-        middle, rate = (u[k] + u[k - 1]) / 2, (u[k] - u[k - 1]) / dt
-        inertia = MASS * (v[k] - v[k - 1])[i] / dt
-        pull = inertia + DASHPOT * rate[i] + (STIFFNESS + 11.0) * middle[i] - 11.0 * middle[j]
-        assert recorder.of("reaction")[k, i] == pytest.approx(pull, rel=1e-9)
-
-
 @pytest.mark.parametrize(("scheme", "numbers", "radius"), SCHEMES)
 def test_free_damped_motion_is_met_at_second_order(scheme, numbers, radius):
     omega, decay = np.sqrt(STIFFNESS / MASS), DASHPOT / (2 * MASS)

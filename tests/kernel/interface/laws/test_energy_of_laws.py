@@ -25,6 +25,8 @@ LAWS = {
     ),
     "Mohr, two slopes": (LawCode.MOHR, {"TPHI": 0.5, "COHE": 1e4, "ECN": 6e-5, "EF": 2.5 * KN}),
     "lead": (LawCode.LEAD, {"QD": 3e4, "KPOS": 6e6, "ETA": 1.0, "BETA": 0.5}),
+    "sharp lead": (LawCode.LEAD, {"QD": 3e4, "KPOS": 6e6, "ETA": 3.5, "BETA": 0.5}),
+    "strip": (LawCode.STRIP, {"LARG": 0.8, "LONG": 0.5}),
     "slider": (LawCode.PENDULUM, {"RAYO": 2.0, "FROT": 0.06}),
 }
 

@@ -102,19 +102,6 @@ def test_path_does_not_depend_on_the_steps():
     np.testing.assert_allclose(detailed[398::399], coarse, rtol=1e-9, atol=1e-4)
 
 
-def test_energy_of_full_opening_is_the_fracture_energy():
-    fu, gf = 1e5, 20.0
-    p = parameters(FU=fu, GF=gf)
-    w = np.linspace(0, 2e-3, 40001)
-    t, states = walk(np.stack([0 * w, w], 1), p)
-    work = np.trapezoid(t[:, 1], w)
-    xi = states[-1, Variable.XI]
-    spent = gf * -np.expm1(-fu * xi / gf)
-    stored, lost = point_energies(SDM, np.array([0.0, w[-1]]), t[-1], states[-1], p[0])
-    assert lost == pytest.approx(spent, rel=1e-12)
-    assert work == pytest.approx(stored + lost, rel=1e-6)
-
-
 def test_closed_cycle_in_compression_gives_back_its_energy():
     p = parameters(FU=1e5, GF=20.0, FC=-3e4)
     _, opened = walk(np.array([[0.0, 6e-4], [0.0, 0.0]]), p)
