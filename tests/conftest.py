@@ -4,6 +4,7 @@ import ctypes
 import gc
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,8 +12,11 @@ from hypothesis import HealthCheck, settings
 from not_tested import pytest_terminal_summary  # noqa: F401
 
 from ssilang.cli.main import SELDOM
+from ssilang.cli.sweeping import trunk
+from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
 from ssilang.io.plots import figure
 from ssilang.kernel.base import compiled
+from ssilang.kernel.solvers.backends import keep_factors
 
 # processes that tests start keep their byte code, as a person's do: half of a start otherwise
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -27,6 +31,18 @@ gc.set_threshold(SELDOM)
 
 
 figure.DPI = 60  # what few pixels show is the same, and software draws each pixel of a scene
+
+
+@pytest.fixture
+def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Runs of a sweep with one job are made in this process: a new one costs a second."""
+
+    def run_all(tasks: list[Task], jobs: int) -> Iterator[Row]:
+        return trunk.run_all(tasks, jobs) if jobs > 1 else map(row_anyhow, tasks)
+
+    monkeypatch.setattr("ssilang.cli.sweeping.sweep.run_all", run_all)
+    yield
+    keep_factors(0)
 
 
 class _Nothing(set[str]):

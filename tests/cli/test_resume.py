@@ -213,7 +213,7 @@ def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
     assert started(deck, tmp_path / "truth").wait() == 0
     truth = files_of(tmp_path / "truth")
     assert len(truth) > 10
-    for number in (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM):
+    for number in (signal.SIGKILL, signal.SIGTERM):
         out = tmp_path / f"out{draw.random()}"
         process = started(deck, out)
         wait_for(out / "checkpoints" / "1.state", process)

@@ -30,6 +30,8 @@ from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.trunk import run_grown
 from ssilang.cli.sweeping.worker import Task, row_anyhow
 
+pytestmark = pytest.mark.usefixtures("one_after_the_other")
+
 DECK = """OPTI DIME 2 ELEM SEG2 ;
 AG = 0.3 ; N = 4 ; MOTION = 'none' ;
 SI (AG > 0.85) ; ERRE 'too strong' ; FINSI ;

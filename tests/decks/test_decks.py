@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from ssilang.io.plots import figure
+from ssilang.language.run.session import Check
 from ssilang.operators.drawing import scenes
+from ssilang.operators.files import writing
 
 from .comparisons import COMPARISONS
 from .running import CASES, DECKS, run_changed, run_deck
@@ -126,12 +128,31 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(scenes, "_draw_files", lambda *_: None)
 
 
+class _NoticedError(BaseException):
+    """A check is out of tolerance: what comes behind it is not waited for."""
+
+
+def noted(name: str, value: float, expected: float, tolerance: float) -> Check:
+    """What @VERIFIE leaves for the summary: its tolerance is that of the difference."""
+    if not abs(value - expected) <= tolerance:
+        raise _NoticedError(name)
+    return Check(name, value, expected, tolerance)
+
+
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("deck", "old", "new"), SPOILT, ids=lambda x: x if "/" in x else "")
-def test_spoilt_deck_fails_on_its_own_checks(deck: str, old: str, new: str, tmp_path: Path):
-    result = run_changed(CASES / deck, tmp_path, (old, new), *SHORTER.get(deck, []))
-    assert result.exit_code == 1
-    assert "out of tolerance" in result.message
+def test_spoilt_deck_fails_on_its_own_checks(
+    deck: str, old: str, new: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    changes = [(old, new), *SHORTER.get(deck, [])]
+    if deck.startswith("basics/"):
+        result = run_changed(CASES / deck, tmp_path, *changes)
+        assert result.exit_code == 1
+        assert "out of tolerance" in result.message
+        return
+    monkeypatch.setattr(writing, "Check", noted)
+    with pytest.raises(_NoticedError):
+        run_changed(CASES / deck, tmp_path, *changes)
 
 
 def test_every_deck_has_a_spoilt_twin():

@@ -66,6 +66,7 @@ def test_the_deck_rocks_and_lifts_its_edges(folder: Path) -> None:
     assert up.max() > settled
 
 
+@pytest.mark.usefixtures("one_after_the_other")
 def test_the_suite_has_the_fragility_that_its_records_were_made_for(tmp_path: Path) -> None:
     (tmp_path / "records.ssi").write_text(_RECORDS)
     (tmp_path / "oscillator.ssi").write_text(_OSCILLATOR)

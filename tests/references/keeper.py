@@ -19,7 +19,7 @@ class Ending:
         self.files = Checkpoints(folder, Deck("0", "a deck"), resume)
         self.every, self.ends, self.known = stride, ends, 0
 
-    def stride(self, done: int, small: bool) -> int:
+    def stride(self, done: int, unknowns: int) -> int:
         return self.every - done % self.every
 
     def steady(self, done: int, state):

@@ -26,6 +26,7 @@ from ssilang.report.fragilities import (
 from ssilang.report.sweep_table import Sweep
 from tests.report.conftest import VERDICT
 
+pytestmark = pytest.mark.usefixtures("one_after_the_other")
 TOLD = teller("en")
 
 

@@ -26,16 +26,11 @@ from ssilang.kernel.stepping.problem.problem import Problem
 
 State = dict[str, Any]
 
-SMALL_STRIDE = 4096
-"""Steps of a small problem after which they are cut."""
-STRIDE = 16
-"""The same of others: seconds where a step takes long."""
-
 
 class Keeper(Protocol):
     """Keeps the state of one calculation."""
 
-    def stride(self, done: int, small: bool) -> int:
+    def stride(self, done: int, unknowns: int) -> int:
         """Steps after `done` up to the next instant at which the state may be kept."""
         ...
 
@@ -76,9 +71,9 @@ class Cut:
     def __init__(self, every: int) -> None:
         self.every = every
 
-    def stride(self, done: int, small: bool) -> int:
+    def stride(self, done: int, unknowns: int) -> int:
         """Steps up to the next cut."""
-        return stride_of(done, small, self.every)
+        return stride_of(done, unknowns, self.every)
 
     def steady(self, done: int, state: Callable[[], State]) -> AbstractContextManager[None]:
         """Nothing waits."""
@@ -94,9 +89,14 @@ class Cut:
         return None
 
 
-def stride_of(done: int, small: bool, every: int) -> int:
-    """Steps up to the next multiple of `every` (0: none) or of the problem's own stride."""
-    own = SMALL_STRIDE if small else STRIDE
+def stride_of(done: int, unknowns: int, every: int = 0) -> int:
+    """Steps up to the next multiple of `every` (0: none) or of the problem's own stride.
+
+    That one is a power of two: a second of steps or so, 4096 with 1000 unknowns, 64 with 50 000,
+    one with 300 000; as long as it lasts, progress and an interruption wait.
+    """
+    bits = unknowns.bit_length()
+    own = 1 << max(min(12, 22 - bits, 38 - 2 * bits), 0)
     return min(n - done % n for n in (own, every) if n)
 
 

@@ -29,6 +29,7 @@ from ssilang.kernel.stepping.keeping import (
     put_back,
     recall,
     steady,
+    stride_of,
     told_to_leave,
 )
 from ssilang.kernel.stepping.problem.bodies import full_uplift
@@ -42,7 +43,7 @@ from ssilang.kernel.stepping.problem.initial import (
 )
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
-from ssilang.kernel.stepping.state import LONGEST_CHUNK, N_ENERGIES, Motion, recorder_of, rows_of
+from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
@@ -53,9 +54,7 @@ if TYPE_CHECKING:
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
-CHUNK_SECONDS = 0.5  # wished duration of a chunk of steps: progress and interruption
-GRID = 64  # steps at whose multiples chunks begin
-EVEN = 50_000  # unknowns; larger problems may begin a chunk anywhere, else Ctrl-C waits for minutes
+GRID = 64  # where memory cuts steps, it does so at multiples
 LITTLE = 0.01  # of the largest energy: what is given may be this small beside it
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
 
@@ -244,18 +243,20 @@ class Integration:
                     observer.receive(snapshot)
 
     def _run(self, history: History) -> None:
-        if self.keeper is None:
-            self._run_by_time(history)
-            return
         keeper, total = self.keeper, len(self.problem.times) - 1
+        unknowns = self.problem.numbering.size
+        if keeper is None:
+            done = 0
+            while done < total:
+                done = self._chunk(done, stride_of(done, unknowns), history).last
+            return
 
         def state() -> State:
             return self._state(history)
 
         with told_to_leave(keeper, lambda: self._done, state):
             while self._done < total:
-                longest = keeper.stride(self._done, self.problem.small)
-                self._chunk(self._done, longest, history)
+                self._chunk(self._done, keeper.stride(self._done, unknowns), history)
                 if self._done < total:
                     keeper.reached(self._done, state)
         keeper.finished(self._done, state)
@@ -269,22 +270,6 @@ class Integration:
         if self.progress is not None:
             self.progress(run.last, len(times) - 1)
         return run
-
-    def _run_by_time(self, history: History) -> None:
-        times, done = self.problem.times, 0
-        longest = 4096 if self.problem.small else GRID
-        # loops begin anew at multiples of GRID: the clock must not say where, or last digits change
-        least = GRID if self.problem.numbering.size <= EVEN else 1
-        while done < len(times) - 1:
-            before = time.perf_counter()
-            run = self._chunk(done, longest, history)
-            spent = time.perf_counter() - before
-            done = run.last
-            if spent < CHUNK_SECONDS / 2 and run.last - run.first == longest:
-                faster = int(CHUNK_SECONDS / 2 / max(spent, 1e-4))
-                longest = min(max(2, faster) * longest, LONGEST_CHUNK)
-            elif spent > 2 * CHUNK_SECONDS:
-                longest = max(longest // 2 // least, 1) * least
 
     def _steps(self, run: Run, history: History) -> None:
         first = run.first

@@ -102,11 +102,11 @@ class KeptCalculation:
 
     # ---- a keeper
 
-    def stride(self, done: int, small: bool) -> int:
+    def stride(self, done: int, unknowns: int) -> int:
         """Steps up to the next instant at which the state may be kept."""
         from ssilang.kernel.stepping.keeping import stride_of
 
-        return stride_of(done, small, self.every)
+        return stride_of(done, unknowns, self.every)
 
     @contextmanager
     def steady(self, done: int, state: Callable[[], State]) -> Iterator[None]:

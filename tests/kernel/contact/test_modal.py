@@ -15,6 +15,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.stepping.choose import Case, Rule, only, rule_of
+from ssilang.kernel.stepping.keeping import Cut
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.initial import closed_at_start
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
@@ -203,15 +204,14 @@ def test_rounding_of_the_displacements_around_does_not_part_what_touches(gap):
     assert closed_at_start(replace(problem, u=apart)).tolist() == [False]
 
 
-def test_saved_instants_and_step_lengths_do_not_matter(monkeypatch):
+def test_saved_instants_and_step_lengths_do_not_matter():
     problem = feet(steps=400)
     few = Recorder(401)
     few.wanted[:] = False
     few.wanted[[0, 3, 250, 400]] = True
     integrate(problem, [few])
     whole = Recorder(401)
-    monkeypatch.setattr("ssilang.kernel.stepping.run.LONGEST_CHUNK", 64)
-    integrate(problem, [whole])
+    integrate(problem, [whole], keeper=Cut(64))
     assert [s.step for s in few.snapshots] == [0, 3, 250, 400]
     for s in few.snapshots:
         np.testing.assert_allclose(s.u, whole.of("u")[s.step], rtol=0, atol=1e-12)

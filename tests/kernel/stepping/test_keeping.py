@@ -171,10 +171,11 @@ def test_load_steps_of_joints_and_of_relations(tmp_path):
 
 def test_a_stride_ends_at_multiples_of_both_lengths():
     ends, done = [], 0
-    while done < 100:
-        done += stride_of(done, small=False, every=10)
+    while done < 10000:
+        done += stride_of(done, unknowns=500, every=1000)
         ends.append(done)
-    assert ends == sorted({*range(10, 101, 10), *range(16, 100, 16)})
+    assert ends == sorted({*range(1000, 10001, 1000), 4096, 8192})
+    assert [stride_of(0, n) for n in (1, 10**4, 50_000, 10**5, 3 * 10**5)] == [4096, 256, 64, 16, 1]
 
 
 def test_records_of_arrays_are_taken_apart_and_made_again():
