@@ -43,6 +43,7 @@ _KNOWN = {
     "parameter": words.known_parameters(),
     "component": words.known_components(),
     "option": tuple(READERS),
+    "structure": ("SI", "SINON", "FINSI", "REPETER", "DEBPROC", "FINPROC", "DEBMETH", "FINMETH"),
 }  # fmt: skip
 
 

@@ -22,7 +22,7 @@ __all__ = [
     "meanings", "names", "near", "words", "words_of",
 ]  # fmt: skip
 
-KINDS = ("formulation", "law", "element", "parameter", "component", "option")
+KINDS = ("formulation", "law", "element", "parameter", "component", "option", "structure")
 """The lists of words; the file of each is named after it in the plural."""
 
 WORDS_OF: dict[str, tuple[str, ...]] = {
@@ -32,7 +32,7 @@ WORDS_OF: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Lists of words that operators take besides their keywords."""
 
-_FOUR_LETTERS = ("element", "option", "parameter")
+_FOUR_LETTERS = ("element", "option", "parameter", "structure")
 SHORT = 4
 """Characters by which words are told apart, unless the whole word is written."""
 

@@ -52,6 +52,12 @@ _BEARINGS = {
 }  # fmt: skip
 _UPRIGHT = "OPTI DIME 3 MODE TRID ELEM SEG2 ;\nL = DROI 1 (0 0 0) (0 0 0.1) ;\n"
 
+_DOUBLE = "DEBP DOUBLE X1*FLOTTANT ;\nFINP (2. * X1) ;\nY = DOUBLE 3. ;\nLIST Y ;"
+_CLASS = (
+    "DEBM ADDONE ; %N = %N + 1 ; FINM %N ;\nDEBM COUNTER ; %N = 0 ; %METHODE ADD ADDONE ; FINM ;\n"
+    "O = OBJE COUNTER ;\nLIST (O%ADD) ;"
+)
+
 _OWN = ("elasticity", "plastic", "joint")
 """Sorts of laws of which one has an example of its own."""
 
@@ -152,6 +158,11 @@ EXAMPLES: dict[str, str] = {
     "formulation MECANIQUE": _SQUARE + _BODY,
     "formulation CONTACT": _SIDES + "M = MODE SOIL 'CONTACT' BASE ;\nLIST (TYPE M) ;",
     "formulation CHARGEMENT": _SIDES + "M = MODE SOIL 'CHARGEMENT' 'PRESSION' ;\nLIST (TYPE M) ;",
+    # structure of a script
+    "structure": "I = 4 ;\nSI (I > 3) ; MESS 'more' ; SINON ; MESS 'less' ; FINSI ;",
+    "structure REPETER": "REPE BL 3 ; MESS &BL ; FIN BL ;",
+    "structure DEBPROC": _DOUBLE, "structure FINPROC": _DOUBLE,
+    "structure DEBMETH": _CLASS, "structure FINMETH": _CLASS,
 }  # fmt: skip
 
 

@@ -199,7 +199,8 @@ _PARTS = {
 
 def _see_also(kind: str, word: Word) -> list[str]:
     """Operators, neighbours, pages of the manual that name the word."""
-    operators = {"option": ["OPTI", "VALE"], "value": ["OPTI"], "component": ["EXCO"]}
+    operators = {"option": ["OPTI", "VALE"], "value": ["OPTI"], "component": ["EXCO"],
+                 "structure": ["FIN", "QUIT", "ITER", "ARGU"]}  # fmt: skip
     found = operators.get(kind, ["MODE", "MATE"])
     if kind in ("law", "element") and word.kind:
         alike = [w.name for w in vocabulary.words(kind) if w.kind == word.kind and w is not word]
