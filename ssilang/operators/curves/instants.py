@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar, overload
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.language.near import nearest
@@ -79,7 +80,7 @@ class RecordedFields(_Recorded[AnyField]):
     """Of nodes."""
 
 
-class RecordedPoints(_Recorded["CellField"]):
+class RecordedPoints(_Recorded[CellField]):
     """Of joints."""
 
     def history(self, name: str, zone: int, cell: int, point: int) -> FloatArray | None:

@@ -95,10 +95,11 @@ def _results(found: BentSection, moments: list[ListReel], checked: bool) -> tupl
     results = (*moments, ListReel.of(found.strains))
     if not checked:
         return results
-    parts = {
-        "CONTRAINTES": found.stresses,
-        "VARIABLES_INTERNES": found.variables,
-        "DEFORMATION": [float(e) for e in found.strains],
-    }
-    table = Table.of({name: Table.numbered(values) for name, values in parts.items()})
+    table = Table.of(
+        {
+            "CONTRAINTES": Table.numbered(found.stresses),
+            "VARIABLES_INTERNES": Table.numbered(found.variables),
+            "DEFORMATION": Table.numbered(float(e) for e in found.strains),
+        }
+    )
     return (*results, table)
