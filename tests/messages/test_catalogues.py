@@ -190,6 +190,7 @@ def named_words() -> set[str]:
     """Codes of what the words of the program are called in help, which are put together."""
     load_operators()
     names = {f"subject-{word.subject}" for word in cast3m_words().values()}
+    names |= {f"reason-{word.reason}" for word in cast3m_words().values() if word.reason}
     names |= {f"theme-{theme}" for theme in THEMES}
     names |= {f"family-{o.family}" for o in OPERATORS.values()} | {"family-procedures"}
     names |= {"operator", "procedure"}

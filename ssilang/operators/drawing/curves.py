@@ -174,7 +174,7 @@ def _told_apart(curves: tuple[Operand, ...]) -> dict[int, str]:
         for part in operand.value.parts:
             row = next(numbers), part.colour, name
             alike.setdefault(part.legend.strip(), []).append(row)
-    found = {}
+    found: dict[int, str] = {}
     for legend, rows in alike.items():
         _, colours, names = (set(column) for column in zip(*rows, strict=True))
         if legend and len(rows) > 1 and (len(colours) > 1 or colours == {0}):

@@ -150,7 +150,7 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         call.keyword(("ALFA",))
         places = [(s.unknown, s.mark.node) for s in shapes if s.unknown == "ALFA"]
     else:
-        places = _places_asked(call, fields[:1])
+        places = _places_asked(call, list(fields[:1]))
     names = [c for c, _ in places]
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
     at = call.given(TIMES)

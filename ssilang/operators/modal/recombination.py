@@ -142,15 +142,15 @@ class _SavedSteps(Sequence[Any]):
     call: Call
     table: Table
     name: str
-    count: int
+    n_steps: int
 
     def __len__(self) -> int:
-        return self.count
+        return self.n_steps
 
     def __getitem__(self, place: Any) -> Any:
         if isinstance(place, slice):
-            return [self[i] for i in range(*place.indices(self.count))]
-        if place >= self.count:
+            return [self[i] for i in range(*place.indices(self.n_steps))]
+        if place >= self.n_steps:
             raise IndexError(place)
         entry = self.table.get(int(place) + 1)
         field = entry.get(Mot(self.name)) if isinstance(entry, Table) else None
