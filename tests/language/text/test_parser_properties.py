@@ -6,10 +6,10 @@ import time
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from script_printer import print_script, same_tree
 
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors
-from ssilang.language.text.printer import print_script, same_tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse

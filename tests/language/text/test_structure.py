@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from script_printer import print_script
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import end_of_run
-from ssilang.language.text.printer import print_script
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
