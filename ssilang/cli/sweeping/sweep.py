@@ -229,13 +229,7 @@ def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
     allowed = tuple(p.resolve() for p in options.allowed)
     deck = options.deck.resolve()
     return Task(
-        case.number,
-        deck,
-        folder,
-        case.values,
-        allowed,
-        options.language,
-        report=options.report,
+        case.number, deck, folder, case.values, allowed, options.language, report=options.report
     )
 
 

@@ -1,17 +1,14 @@
-"""From parsed items back to their text, names in capitals; parsing that gives the same again."""
+"""Items of a parsed script back to their text; parsing that text gives the same items again."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import fields
-from functools import cache
 from typing import Any
 
 from ssilang.language.text import tree
 
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*\Z|[@&!#$]\w+\Z")
-_IGNORED_FIELDS = frozenset({"span", "spelling", "cache"})
 
 
 def heading(node: tree.Definition) -> str:
@@ -24,6 +21,9 @@ def _parameter(p: tree.Parameter) -> str:
     if p.type or p.optional:
         text += ("/" if p.optional else "*") + _word(p.type)
     return f"{text}*{_word(p.subtype)}" if p.subtype else text
+
+
+# ---- items -----------------------------------------------------------------------------------
 
 
 def print_items(items: Iterable[tree.Item]) -> str:
@@ -64,27 +64,3 @@ _ITEMS: dict[type, Callable[[Any], str]] = {
     tree.Path: _path,
     tree.Attribute: _attribute,
 }
-
-
-def same_tree(a: Any, b: Any) -> bool:
-    """Whether two trees (or parts of trees) say the same, wherever they stand in their texts."""
-    pairs = [(a, b)]  # no recursion: parentheses may be nested by thousands
-    while pairs:
-        a, b = pairs.pop()
-        if type(a) is not type(b):
-            return False
-        if isinstance(a, tuple):
-            if len(a) != len(b):
-                return False
-            pairs += zip(a, b, strict=True)
-        elif hasattr(a, "__dataclass_fields__"):
-            pairs += ((getattr(a, n), getattr(b, n)) for n in _said(a.__class__))
-        elif a != b:
-            return False
-    return True
-
-
-@cache
-def _said(kind: Any) -> tuple[str, ...]:
-    """Fields of a kind of node that say something."""
-    return tuple(f.name for f in fields(kind) if f.name not in _IGNORED_FIELDS)

@@ -44,20 +44,8 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
     "SIAR",
     arg("spectrum", "EVOLUTIO", en="power density per hertz", over="Hz"),
     opt("modulation", "EVOLUTIO", en="modulations in time by bands of frequencies"),
-    opt(
-        "limits",
-        "LISTREEL",
-        range=RISING,
-        en="limits of the bands",
-        unit="Hz",
-    ),
-    opt(
-        "duration",
-        "FLOTTANT",
-        range=POSITIVE,
-        en="end of the signals",
-        unit="s",
-    ),
+    opt("limits", "LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
+    opt("duration", "FLOTTANT", range=POSITIVE, en="end of the signals", unit="s"),
     key(
         "start",
         "TINI",
@@ -200,13 +188,7 @@ def pert(
     "PRNS",
     arg("curve", "EVOLUTIO", en="power density per hertz", over="Hz"),
     arg("modulation", "EVOLUTIO", en="a curve for each band"),
-    arg(
-        "bands",
-        "LISTREEL",
-        range=RISING,
-        en="limits of the bands",
-        unit="Hz",
-    ),
+    arg("bands", "LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
     PERIODS,
     opt(
         "damping",

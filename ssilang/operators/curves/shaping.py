@@ -218,9 +218,7 @@ def lapl(
         raise call.error("operators.curves.only-inverse-transform")
     if len(real) != len(imaginary):
         raise call.error(
-            "operators.curves.parts-differ",
-            n_real=len(real),
-            n_imaginary=len(imaginary),
+            "operators.curves.parts-differ", n_real=len(real), n_imaginary=len(imaginary)
         )
     t, y = inverse_laplace(omega.values, real.values + 1j * imaginary.values, shift, group)
     return Curve((CurvePart(t, y, "TEMPS", "F(T)", "LAPLACE INVERSE"),))

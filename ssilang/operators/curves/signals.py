@@ -19,17 +19,7 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.registry import (
-    ANY,
-    Chosen,
-    arg,
-    choice,
-    flag,
-    key,
-    operator,
-    opt,
-    select,
-)
+from ssilang.language.registry import ANY, Chosen, arg, choice, flag, key, operator, opt, select
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListReel
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
@@ -193,13 +183,7 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
     full_name="FILTRE",
 )
 def filt(
-    call: Call,
-    power: int,
-    type: bool,
-    kind: Chosen | None,
-    shown: bool,
-    form: str,
-    spacing: float,
+    call: Call, power: int, type: bool, kind: Chosen | None, shown: bool, form: str, spacing: float
 ) -> Curve:
     """Make a filter."""
     if kind is None or spacing <= 0 or not 1 <= power <= 26:
@@ -231,9 +215,7 @@ def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
     """Smooth a spectrum."""
     part = one_part(call, curve)
     made = dataclasses.replace(
-        part,
-        ordinates=smoothed(part.ordinates, passes),
-        colour=shade(colour, part.colour),
+        part, ordinates=smoothed(part.ordinates, passes), colour=shade(colour, part.colour)
     )
     return Curve((made,), f"HANNING({passes}) {curve.title}".rstrip(), curve.kind)
 

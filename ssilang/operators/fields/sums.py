@@ -11,15 +11,7 @@ from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import (
-    arg,
-    flag,
-    main,
-    many,
-    operator,
-    opt,
-    shared,
-)
+from ssilang.language.registry import arg, flag, main, many, operator, opt, shared
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER
@@ -117,9 +109,7 @@ def xtx(
 
 
 @xtx.form(
-    main("first", "MCHAML", en="field"),
-    opt("second", "MCHAML", en="field to add"),
-    *_FACTORS,
+    main("first", "MCHAML", en="field"), opt("second", "MCHAML", en="field to add"), *_FACTORS
 )
 def xtx_in_cells(
     call: Call, first: CellField, second: CellField | None, a: float | None, b: float | None

@@ -136,5 +136,4 @@ def _stl(call: Call, file: str) -> Mesh:
     corners = read_stl(file_to_read(call, str(file), ".stl"))
     warn_flat(call, str(file), corners.reshape(-1, 3))
     nodes = workspace(call.session).nodes
-    mesh = Mesh.of(nodes, "TRI3", nodes.add(corners.reshape(-1, 3)).reshape(-1, 3))
-    return mesh
+    return Mesh.of(nodes, "TRI3", nodes.add(corners.reshape(-1, 3)).reshape(-1, 3))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
 
+Tell = Callable[..., None]
 _KEY = "connections"
 _NAMED = 4  # nodes that a warning names
 
@@ -27,23 +29,27 @@ def warn_connections(
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
     swapped, beams that end on one node of a solid, bodies that touch and are not joined, cells
-    that count twice. Joints are those of
-    `model`, whose law stands beside the matrix, without it those that the matrix was made from.
+    that count twice. Joints are those of `model`, whose law stands beside the matrix, without it
+    those that the matrix was made from.
     """
     if _KEY in matrix.cache:
         return
     matrix.cache[_KEY] = True
-    _warn_doubled_supports(session, span, operator, matrix, model)
+
+    def tell(code: str, **data: object) -> None:
+        session.warn(code, span, operator=operator, **data)
+
+    _warn_doubled_supports(tell, matrix, model)
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
-    _warn_swapped_joints(session, span, operator, matrix, model, characteristics)
-    _warn_hinges(session, span, operator, matrix, model)
+    _warn_swapped_joints(tell, matrix, model, characteristics)
+    _warn_hinges(tell, matrix, model)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
-        _warn_apart(session, span, operator, matrix, model)
+        _warn_apart(tell, matrix, model)
     warn_repeated(session, span, operator, matrix, "RIGI")
     if model is None or not any(is_joint(z) for z in model.zones):
-        _warn_negative(session, span, operator, matrix)
+        _warn_negative(tell, matrix)
 
 
 def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
@@ -53,9 +59,7 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
     return tuple(found.values())
 
 
-def _warn_doubled_supports(
-    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
-) -> None:
+def _warn_doubled_supports(tell: Tell, matrix: Matrix, model: Model | None) -> None:
     from ssilang.kernel.statics.doubled import doubled_supports
 
     used = None if model is None or not model.zones else model.mesh.node_ids
@@ -63,20 +67,10 @@ def _warn_doubled_supports(
     if found is None:
         return
     x, y, z = matrix.table.coordinates[found.held[0]]
-    session.warn(
-        "operators.matrices.held-nodes-without-stiffness",
-        span,
-        operator=operator,
-        n_held=len(found.held),
-        x=x,
-        y=y,
-        z=z,
-    )
+    tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)
 
 
-def _warn_apart(
-    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
-) -> None:
+def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
     from ssilang.kernel.statics.doubled import bodies_apart
 
     zones = () if model is None else model.zones
@@ -84,29 +78,17 @@ def _warn_apart(
         return
     found = bodies_apart(matrix, [z for z in zones if is_joint(z)])
     if len(found) > 1:  # bodies that meet in a single node are seldom one
-        session.warn(
-            "operators.matrices.bodies-apart",
-            span,
-            operator=operator,
-            count=len(found),
-            place=matrix.table.told(int(found[0])),
-        )
+        place = matrix.table.told(int(found[0]))
+        tell("operators.matrices.bodies-apart", count=len(found), place=place)
 
 
-def _warn_negative(session: Any, span: Any, operator: str, matrix: Matrix) -> None:
+def _warn_negative(tell: Tell, matrix: Matrix) -> None:
     from ssilang.kernel.statics.stability import negative_unknowns
 
     if found := negative_unknowns(matrix):
         node, name, value = found[0]
-        session.warn(
-            "operators.matrices.negative-stiffness",
-            span,
-            operator=operator,
-            count=len(found),
-            node=matrix.table.told(node),
-            name=name,
-            value=value,
-        )
+        told = {"node": matrix.table.told(node), "name": name, "value": value}
+        tell("operators.matrices.negative-stiffness", count=len(found), **told)
 
 
 def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:
@@ -116,20 +98,12 @@ def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: 
     blocks = [] if kind == "RIGI" else [b.nodes[:, 0] for b in repeated_blocks(matrix)]
     found = repeated_cells(matrix) if kind == "RIGI" else np.concatenate([*blocks, [0]])[:-1]
     if len(found):
-        session.warn(
-            "operators.matrices.cells-twice",
-            span,
-            operator=operator,
-            kind=kind,
-            count=len(found),
-            node=matrix.table.told(int(found[0])),
-        )
+        told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
+        session.warn("operators.matrices.cells-twice", span, operator=operator, **told)
 
 
 def _warn_swapped_joints(
-    session: Any,
-    span: Any,
-    operator: str,
+    tell: Tell,
     matrix: Matrix,
     model: Model | None,
     characteristics: CellField | None,
@@ -138,29 +112,20 @@ def _warn_swapped_joints(
     from ssilang.kernel.statics.sides import swapped_joints
 
     for found in swapped_joints(matrix, model, characteristics):
-        session.warn(
-            "operators.matrices.sides-swapped",
-            span,
-            operator=operator,
-            place=told_coordinates(matrix.table.shown(np.round(found.middle, 9))),
-            points=found.points,
-            overlap=found.overlap,
-        )
+        place = told_coordinates(matrix.table.shown(np.round(found.middle, 9)))
+        told = {"points": found.points, "overlap": found.overlap}
+        tell("operators.matrices.sides-swapped", place=place, **told)
 
 
-def _warn_hinges(
-    session: Any, span: Any, operator: str, matrix: Matrix, model: Model | None
-) -> None:
+def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
     from ssilang.kernel.statics.hinges import hinges
 
     joints = tuple(z for z in model.zones if is_joint(z)) if model is not None else ()
     found = hinges(matrix, joints)
     if found is None:
         return
-    session.warn(
+    tell(
         "operators.matrices.beam-ends-on-solid",
-        span,
-        operator=operator,
         rotations=found.rotations,
         nodes=[matrix.table.told(int(n)) for n in found.nodes[:_NAMED]],
         more=len(found.nodes[_NAMED:]),

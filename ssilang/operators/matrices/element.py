@@ -24,17 +24,7 @@ from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import (
-    Argument,
-    arg,
-    by,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-)
+from ssilang.language.registry import Argument, arg, by, choice, flag, key, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListMots
 from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
@@ -343,12 +333,7 @@ def kp(
     _WHOLE,
 )
 def kp_of_gradient(
-    call: Call,
-    model: Model,
-    modulus: float,
-    direction: Point | None,
-    buckling: bool,
-    whole: bool,
+    call: Call, model: Model, modulus: float, direction: Point | None, buckling: bool, whole: bool
 ) -> Matrix:
     """Pressure that varies in space."""
     shown = present(call, model, pressures=True)

@@ -287,12 +287,7 @@ def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value 
 
 
 def _set_axes(
-    call: Call,
-    axes: Chosen,
-    turn: Chosen | None,
-    model: Model,
-    given: list[Values],
-    known: Known,
+    call: Call, axes: Chosen, turn: Chosen | None, model: Model, given: list[Values], known: Known
 ) -> None:
     taking = [i for i, z in enumerate(model.zones) if "V1X" in known(z)]
     if not taking:

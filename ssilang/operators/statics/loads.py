@@ -226,11 +226,7 @@ def brick_pressure(
     return _on_faces(call, model, value, _brick_faces(call, model, side))
 
 
-@pres.form(
-    said("TUYA"),
-    MODEL,
-    many("material", "MCHAML", at_least=1, en="parameters"),
-)
+@pres.form(said("TUYA"), MODEL, many("material", "MCHAML", at_least=1, en="parameters"))
 def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeField:
     """Pressure on the closed ends of pipes."""
     return pipe_pressure(model, joined(material))
@@ -336,13 +332,7 @@ def line_forces(model: Model, density: NodeField | Point, normal: Point | None) 
 @operator(
     "CNEQ",
     MODEL,
-    arg(
-        "force",
-        "CHPOINT",
-        "MCHAML",
-        en="force per volume",
-        unit="N/m3",
-    ),
+    arg("force", "CHPOINT", "MCHAML", en="force per volume", unit="N/m3"),
     _THICKNESS,
     family="load",
 )

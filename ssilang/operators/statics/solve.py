@@ -65,11 +65,7 @@ def _options(call: Call, words: Mapping[str, Any]) -> SolveOptions:
 
 
 def _reso(
-    call: Call,
-    matrix: Matrix,
-    precision: float | None,
-    loads: tuple[NodeField, ...],
-    **words: Any,
+    call: Call, matrix: Matrix, precision: float | None, loads: tuple[NodeField, ...], **words: Any
 ) -> tuple[NodeField, ...]:
     options = _options(call, words)
     if words["warned"]:
@@ -152,11 +148,7 @@ RESO = operator(
 
 @RESO.form(said("ENSE"), _MATRIX, _PRECISION, _LOADS, *_WORDS, gives=ANY)
 def with_motions(
-    call: Call,
-    matrix: Matrix,
-    precision: float | None,
-    loads: tuple[NodeField, ...],
-    **words: Any,
+    call: Call, matrix: Matrix, precision: float | None, loads: tuple[NodeField, ...], **words: Any
 ) -> tuple[Any, ...]:
     """Solutions, then the number of free motions and the nodes that pin them.
 
@@ -183,11 +175,7 @@ def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> Li
     return ListChpo(tuple(solve(matrix, fields, _options(call, words))))
 
 
-@RESO.form(
-    _MATRIX,
-    arg("table", "TABLE", en="table LIAISONS_STATIQUES"),
-    *_WORDS,
-)
+@RESO.form(_MATRIX, arg("table", "TABLE", en="table LIAISONS_STATIQUES"), *_WORDS)
 def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
     """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
     ws, options = workspace(call.session), _options(call, words)

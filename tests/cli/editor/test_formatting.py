@@ -7,9 +7,9 @@ import re
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from script_printer import same_tree
 
 from ssilang.cli.editor.formatting import formatted
-from ssilang.language.text.printer import same_tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse

@@ -6,10 +6,10 @@ import time
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from script_printer import print_script, same_tree
 
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors
-from ssilang.language.text.printer import print_items, same_tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
@@ -28,11 +28,14 @@ _SIGNS = st.sampled_from(["+", "-", "*", "/", "**", "<", ">EG"])
 def parse_or_explain(text: str) -> None:
     """Parse; every error must have a place and render in both languages, in time."""
     start = time.process_time()
-    problems = []
     try:
-        parse(Source("test", text))
+        script = parse(Source("test", text))
     except SeveralErrors as several:
         problems = several.errors
+    else:
+        problems = []
+        again = parse(Source("printed", print_script(script)))
+        assert same_tree(script.body, again.body)
     assert all(e.span is not None and render(e, "en") and render(e, "fr") for e in problems)
     assert time.process_time() - start < _SECONDS
 
@@ -63,7 +66,7 @@ def test_any_bytes_are_read(tmp_path_factory, data):
     parse_or_explain(read_source(path).text)
 
 
-# ---- statements that are right, printed and parsed again ---------------------------------------
+# ---- scripts that are right, printed and parsed again ------------------------------------------
 
 _names = st.from_regex(r"[A-Z][A-Z0-9_]{0,7}", fullmatch=True).filter(
     lambda n: n[:4] not in {"SI", "SINO", "FINS", "REPE", "FIN", "DEBP", "FINP", "DEBM", "FINM"}
@@ -91,15 +94,28 @@ _plain = st.one_of(
     ),
     st.tuples(_names, st.lists(_items, max_size=4)).map(lambda p: f"{p[0]} {' '.join(p[1])} ;"),
 )
+_blocks = st.recursive(
+    _plain,
+    lambda inner: st.one_of(
+        st.tuples(_items, inner, inner).map(
+            lambda p: f"SI {p[0]} ;\n{p[1]}\nSINON ;\n{p[2]}\nFINSI ;"
+        ),
+        st.tuples(_names, inner).map(lambda p: f"REPE {p[0]} 3 ;\n{p[1]}\nFIN {p[0]} ;"),
+        st.tuples(_names, inner).map(
+            lambda p: f"DEBP {p[0]} A*MAILLAGE B/FLOTTANT ;\n{p[1]}\nFINP A B ;"
+        ),
+    ),
+    max_leaves=5,
+)
 
 
 @_QUICK
-@given(st.lists(_plain, min_size=1, max_size=4).map("\n".join))
-def test_printed_items_parse_to_the_same_tree(text):
-    body = parse(Source("test", text)).body
-    printed = [print_items(s.targets) + " = " * s.assigns + print_items(s.items) for s in body]
-    again = parse(Source("printed", "".join(f" {line} ;\n" for line in printed)))
-    assert same_tree(body, again.body), printed
+@given(st.lists(_blocks, min_size=1, max_size=4).map("\n".join))
+def test_a_printed_script_parses_to_the_same_tree(text):
+    script = parse(Source("test", text))
+    printed = print_script(script)
+    again = parse(Source("printed", printed))
+    assert same_tree(script.body, again.body), printed
 
 
 @_QUICK
