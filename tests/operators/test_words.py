@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
+from ssilang.language.values import ANNULE
 from ssilang.operators.texts.fortran_format import formatted
 
 
@@ -110,7 +111,7 @@ def test_existence(found):
 def test_forgotten_index_and_name(found):
     size, known = found("T = TABL ; T . 1 = 5 ; OUBL T 1 ; N = DIME T ; X = 2 ; OUBL X ;", "N", "X")
     assert size == 0
-    assert known is None
+    assert known is ANNULE
 
 
 def test_computed_name(found):

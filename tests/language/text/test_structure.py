@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from script_printer import print_script
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import end_of_run
