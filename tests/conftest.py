@@ -6,13 +6,14 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import HealthCheck, settings
 from not_tested import pytest_terminal_summary  # noqa: F401
 
 from ssilang.cli.main import SELDOM
-from ssilang.cli.sweeping import trunk
+from ssilang.cli.sweeping import trunk, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
 from ssilang.io.plots import figure
 from ssilang.kernel.base import compiled
@@ -37,8 +38,13 @@ figure.DPI = 60  # what few pixels show is the same, and software draws each pix
 def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Runs of a sweep with one job are made in this process: a new one costs a second."""
 
+    def row_of(task: Task) -> Row:
+        with pytest.MonkeyPatch.context() as patch:  # the objects of all tests are too many
+            patch.setattr(worker, "gc", SimpleNamespace(get_freeze_count=lambda: 0))
+            return row_anyhow(task)
+
     def run_all(tasks: list[Task], jobs: int) -> Iterator[Row]:
-        return trunk.run_all(tasks, jobs) if jobs > 1 else map(row_anyhow, tasks)
+        return trunk.run_all(tasks, jobs) if jobs > 1 else map(row_of, tasks)
 
     monkeypatch.setattr("ssilang.cli.sweeping.sweep.run_all", run_all)
     yield
