@@ -203,7 +203,9 @@ class Basis:
         self.damping = damping
         joints = problem.interface
         ports = sp.csr_array((0, T.shape[1])) if joints is None else sp.csr_array(joints.J @ T)
-        if 2 * ports.shape[0] > largest:  # static answers and the step's own, before any is made
+        if (
+            min(2 * ports.shape[0], T.shape[1]) > largest
+        ):  # static answers and the step's own, before any is made
             raise NoReduction(
                 "kernel.stepping.interface-of-too-many", q=ports.shape[0], n_vectors=largest
             )
