@@ -266,6 +266,9 @@ def test_a_browser_draws_curves_and_clouds(case):
         drawn = "document.querySelectorAll('#fragility figure.chart canvas').length"
         browser.run("document.querySelector('#fragility figure:last-of-type').scrollIntoView()")
         browser.until(f"{drawn} === document.querySelectorAll('#fragility figure.chart').length")
+        labels = "[...document.querySelectorAll('#fragility figure.chart')].map(f =>"
+        labels += " f.plot.axes.map(a => a._values.filter(v => v).length))"
+        assert all(count >= 2 for axes in browser.run(labels) for count in axes)
         link = browser.run("document.querySelector('#fragility a').href")
         assert link.startswith((case / "out" / "runs").as_uri())
         assert browser.console == []

@@ -49,12 +49,19 @@ const span = (values, log) => {
   return [low - room, high + room];
 };
 
+/* Values of a logarithmic axis that are written: where it spans few powers of ten, others too. */
+function few(plot, values) {
+  const ratio = values[values.length - 1] / values[0];
+  const first = ratio < 8 ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : ratio < 150 ? [1, 2, 5] : [1];
+  return values.map(v => first.includes(Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9))) ? v : null);
+}
+
 function draw(figure) {
   const chart = charts[+figure.dataset.chart], place = figure.querySelector(".plot");
   place.textContent = "";
   const width = Math.max(place.clientWidth, 240);
   const ink = style("--soft"), grid = { stroke: style("--line"), width: 1 };
-  const axis = label => ({ label, labelSize: 22, stroke: ink, grid, ticks: grid, values: ticks,
+  const axis = (label, log) => ({ label, ...(log ? { filter: few } : {}), labelSize: 22, stroke: ink, grid, ticks: grid, values: ticks,
     font: "12px system-ui", labelFont: "12px system-ui" });
   const every = key => chart.lines.flatMap(line => line[key]);
   const whole = { x: span(every("x"), chart.log[0]), y: span(every("y"), chart.log[1]) };
@@ -68,7 +75,7 @@ function draw(figure) {
     ...(key === "x" || chart.loop ? { range: (u, low, high) =>
       low == null ? whole[key] : [low, high] } : {}) });
   const common = { width, height: 260, scales: { x: scale("x"), y: scale("y") },
-    axes: [axis(chart.x), { ...axis(chart.y), size: 68 }],
+    axes: [axis(chart.x, chart.log[0]), { ...axis(chart.y, chart.log[1]), size: 68 }],
     cursor: { drag: { x: true, y: chart.loop, uni: 20, setScale: true } },
     legend: { show: chart.lines.length > 1 || !chart.loop } };
   const stroke = i => COLOURS[i % COLOURS.length];
