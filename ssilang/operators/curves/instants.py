@@ -45,24 +45,21 @@ MadeField = TypeVar("MadeField")
 
 
 @dataclass(frozen=True)
-class _Recorded(Sequence[MadeField]):
-    """Stands for the fields of all instants that a track holds.
+class MadeFields(Sequence[MadeField]):
+    """Fields of several instants, each made when it is asked for.
 
     Attributes
     ----------
-    track : NodeTrack
-    name : str
-        `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
+    n_fields : int
     make : callable
-        Makes the field of the entry at a place, from 0.
+        Makes the field at a place, from 0.
     """
 
-    track: NodeTrack
-    name: str
+    n_fields: int
     make: Callable[[int], MadeField]
 
     def __len__(self) -> int:
-        return len(self.track)
+        return self.n_fields
 
     @overload
     def __getitem__(self, place: int) -> MadeField: ...
@@ -70,10 +67,25 @@ class _Recorded(Sequence[MadeField]):
     def __getitem__(self, place: slice) -> list[MadeField]: ...
     def __getitem__(self, place: int | slice) -> MadeField | list[MadeField]:
         if isinstance(place, slice):
-            return [self[i] for i in range(*place.indices(len(self)))]
-        if not 0 <= place < len(self):
+            return [self[i] for i in range(*place.indices(self.n_fields))]
+        if not 0 <= place < self.n_fields:
             raise IndexError(place)
         return self.make(place)
+
+
+@dataclass(frozen=True)
+class _Recorded(MadeFields[MadeField]):
+    """Fields of all instants that a track holds.
+
+    Attributes
+    ----------
+    track : NodeTrack
+    name : str
+        `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
+    """
+
+    track: NodeTrack
+    name: str
 
 
 class RecordedFields(_Recorded[AnyField]):

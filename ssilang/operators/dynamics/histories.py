@@ -110,10 +110,11 @@ class TableObserver:
         if not self.whole:
             if index in VECTORS:
                 make = partial(track.node_field, name=VECTORS[index])
-                return RecordedFields(track, VECTORS[index], make), track.times
+                return RecordedFields(len(track), make, track, VECTORS[index]), track.times
             if index in JOINTS and track.problem.interface is not None:
                 name = JOINTS[index]
-                return RecordedPoints(track, name, partial(self._points, name=name)), track.times
+                made = partial(self._points, name=name)
+                return RecordedPoints(len(track), made, track, name), track.times
             return None
         if index not in VECTORS or self.nodes is not None:
             return None

@@ -21,6 +21,7 @@ from ssilang.language.run.call import Call
 from ssilang.language.values import ListChpo, ListReel, Mot, Table
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.evol import results_in_time
+from ssilang.operators.curves.instants import MadeFields
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
 
 QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT", "REAC")
@@ -135,32 +136,6 @@ def contribution(
     return [float(weights.values_at(name(s.unknown), np.array([s.mark.node]))[0]) for s in shapes]
 
 
-@dataclass(frozen=True)
-class _SavedSteps(Sequence[Any]):
-    """Fields of the saved instants of DYNE's results, each looked up when it is asked for."""
-
-    call: Call
-    table: Table
-    name: str
-    n_steps: int
-
-    def __len__(self) -> int:
-        return self.n_steps
-
-    def __getitem__(self, place: Any) -> Any:
-        if isinstance(place, slice):
-            return [self[i] for i in range(*place.indices(self.n_steps))]
-        if place >= self.n_steps:
-            raise IndexError(place)
-        entry = self.table.get(int(place) + 1)
-        field = entry.get(Mot(self.name)) if isinstance(entry, Table) else None
-        if field is None:
-            raise self.call.error(
-                "operators.modal.results-hold-no-steps", self.table, name=self.name
-            )
-        return field
-
-
 def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any], FloatArray]:
     """Contributions in time of the results of DYNE or of PASAPAS, and the times."""
     name = _INDEX.get(quantity, quantity)
@@ -169,7 +144,16 @@ def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any
         return results_in_time(table, plural)
     times = table.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)
-    return _SavedSteps(call, table, name, len(times)), times.values
+
+    def saved(place: int) -> Any:
+        """The contributions of one instant."""
+        entry = table.get(int(place) + 1)
+        field = entry.get(Mot(name)) if isinstance(entry, Table) else None
+        if field is None:
+            raise call.error("operators.modal.results-hold-no-steps", table, name=name)
+        return field
+
+    return MadeFields(len(times), saved), times.values
 
 
 def at_time(call: Call, fields: Sequence[Any], times: FloatArray, time: float) -> NodeField:
