@@ -10,9 +10,9 @@ of all others, in a copy of the project; a process split off from there gives th
 faulty code and runs them, the nearest first, one case of each (and those that name its room) before
 the next, until one fails or `--seconds` of processor time are used. Survivors (`--once`: not), and
 faults in compiled functions, which get three times the limit, are tried in a process of their own
-that imports the module with the fault. A mutant that all
-pass is a survivor and printed as a diff; `--again` tries those of a report once more. Changes that
-change nothing stand with their reason in `mutants_equivalent.toml`.
+that imports the module with the fault. A mutant that all pass is a survivor and printed as a diff;
+`--again` tries those of a report once more. Changes that change nothing stand with their reason in
+`mutants_equivalent.toml`.
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
 what calls it, or the word of the operator or procedure that does; rare names count more. What the
@@ -151,8 +151,6 @@ def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
                 yield "condition left out", ast.BoolOp(op, rest) if rest[1:] else rest[0]
         case ast.Compare(left, [op, *ops], values) if type(op) in _OTHER:
             yield "comparison", ast.Compare(left, [_OTHER[type(op)](), *ops], values)
-        case ast.UnaryOp(ast.USub(), ast.Constant(1)):
-            yield "off by one", ast.UnaryOp(ast.USub(), ast.Constant(2))
         case ast.UnaryOp(ast.USub() | ast.Not(), operand):
             yield "sign", operand
         case ast.Constant(bool(value)):

@@ -8,7 +8,6 @@ from ssilang.kernel.interface.laws.columns import (
     N_STATE,
     LawCode,
     Parameter,
-    Variable,
 )
 from ssilang.kernel.interface.laws.point_laws import point_energies
 from ssilang.kernel.interface.mean_traction import mean_response
