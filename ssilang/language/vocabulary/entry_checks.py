@@ -19,6 +19,8 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
+from ssilang.language.vocabulary.terms import UNSAID
+from ssilang.language.vocabulary.unit_systems import SOIL, usual_of_entry, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
@@ -166,6 +168,17 @@ class TableCheck:
                 missing = 1 if entry.index == NUMBER else entry.index
                 raise self._error("entry-missing", shown((*where, missing)))
         self._without_effect(table, path, where, given)
+        self._waves(path, dict(given))
+
+    def _waves(self, path: tuple[str, ...], given: Mapping[Any, Any]) -> None:
+        """Warn of a soil that no ground is: of a modulus and a density in units of two systems."""
+        known, soil = self.declared.inside(path), {n: given.get(Mot(n)) for n in SOIL}
+        if not self.aloud or not all(n in known and isinstance(soil[n], float) for n in SOIL):
+            return
+        flaw = wave_flaw(soil, self.session.units())
+        if flaw is not None:
+            name = self.declared.name
+            self.session.warn("soil-waves", self.place, procedure=name, operator=name, **flaw)
 
     def _words_of_truth(
         self, table: Table, path: tuple[str, ...], where: tuple[object, ...]
@@ -217,6 +230,8 @@ class TableCheck:
             beside = self.declared.at(path, index)
             given = table.get(Mot(index)) if table.has(Mot(index)) else beside and beside.fallback
             said = beside.word(given) if beside is not None and isinstance(given, str) else None
+            if isinstance(given, bool):
+                said = "VRAI" if given else "FAUX"
             if said is not None and said not in words:
                 name, other = self.declared.name, shown((*where[:-1], index))
                 self.session.warn(
@@ -235,7 +250,10 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
-        said = entry.usual.flaw(value, entry.index)
+        usual = entry.usual
+        if usual is UNSAID:
+            usual = usual_of_entry(entry.index, entry.unit, self.session.units())
+        said = usual.flaw(value, entry.index)
         if said is not None:
             self.session.warn(
                 "entry-unusual", self.place, procedure=name, operator=name, where=shown(where),

@@ -192,7 +192,7 @@ def _stretch(
         line.close()
     if record is not None:
         record.save(history)
-    if finite:
+    if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
