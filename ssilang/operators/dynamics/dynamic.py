@@ -168,11 +168,18 @@ def _step_again(
         integrate_reduced(problem, float(tolerance), [extremes])
 
 
+AMPLIFIED = 10.0
+"""How much more than the tolerance a motion may move under loads that are stronger by it."""
+
+
 def _say_reduction(entries: Entries, history: History) -> None:
-    """Warn when a reduction that was asked for was not made."""
+    """Warn when a reduction that was asked for was not made, or its estimate is no guide."""
     found = history.reduction
     if found is not None and found.vectors == 0:
         entries.warn("operators.dynamics.reduction-not-used", refused=found.refused)
+    elif found is not None and found.swing > AMPLIFIED * (share := entries.get("REDUCTION")):
+        told = {"estimate": found.estimate, "swing": found.swing, "share": share}
+        entries.warn("operators.dynamics.reduction-amplified", **told)
 
 
 # ---- what is read ----------------------------------------------------------------------------
