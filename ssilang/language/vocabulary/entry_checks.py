@@ -259,7 +259,11 @@ class TableCheck:
                 "entry-unusual", self.place, procedure=name, operator=name, where=shown(where),
                 en=entry.en, fr=entry.fr, **said[1],
             )  # fmt: skip
-        if self.aloud and type_of(value) == "EVOLUTIO" and not any(p.ordinates.any() for p in value.parts):
+        if (
+            self.aloud
+            and type_of(value) == "EVOLUTIO"
+            and not any(p.words or p.ordinates.any() for p in value.parts)
+        ):
             told = {"where": shown(where), "en": entry.en, "fr": entry.fr}
             self.session.warn("entry-of-noughts", self.place, procedure=name, operator=name, **told)
         if isinstance(value, Table) and self.declared.inside(entry.path):
