@@ -156,7 +156,7 @@ GENERIC_ELEMENTS: dict[str, dict[str, str]] = {
 
 
 LOCKING = {"QUA4": True, "CUB8": True, "TRI3": False, "TET4": False, "PRI6": False, "PYR5": False}
-"""Elements too stiff for nearly incompressible matter; whether the mean volume change is the cure."""
+"""Elements too stiff for nearly incompressible matter; whether the mean volume change cures it."""
 
 
 def register_element(kind: ElementKind) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -20,8 +20,8 @@ from ssilang.operators.workspace import workspace
 Given = tuple[NDArray[Any], Any]
 _CODE = "operators.models.unusual-value"
 COMPRESSIBLE = 0.49
-"""Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by 27 %
-at 0.499; on CUB8 by 43 % and three times."""
+"""Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by
+27 % at 0.499; on CUB8 by 43 % and three times."""
 _SIZES = Range(high=5000.0)  # m; what soil and structures measure across at most
 
 
@@ -36,22 +36,20 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         Parameters of the zone: their values, and what the script gave for them.
     """
     session, system = call.session, workspace(call.session).units
-    _warn_of_sign(call, given)
-    if session.frame.procedure in session.library.standard_names:
-        return
-    _warn_of_numbers(call, zone, given)
-    _warn_of_ratios(call, zone, given)
-    _warn_of_locking(call, zone, given)
-    if system is None:
-        return
-    _warn_of_size(call, zone, system)
+    ours = session.frame.procedure in session.library.standard_names
+    if system is not None and not ours:
+        _warn_of_size(call, zone, system)
     for name, (array, said) in given.items():
         meant = words.parameter(name, zone)
-        if meant is None or not meant.unit or array.dtype != float:
+        ends = _ends(array) if meant is not None and array.dtype == float else ()
+        if meant is None or not ends or (ours and name != "FROT"):
             continue
-        here = system.factor(meant.unit)
-        unusual = next((v for v in _ends(array) if v * here not in meant.usual), None)
-        if unusual is not None:
+        for code, told in _odd(zone, meant, ends, {n: v for n, (v, _) in given.items()}):
+            said_of = {"meaning": meant.meaning(session.language)} if "range" in told else {}
+            call.warn(f"operators.models.{code}", said, name=name, **told, **said_of)
+        here = 0.0 if system is None or not meant.unit else system.factor(meant.unit)
+        unusual = next((v for v in ends if here and v * here not in meant.usual), None)
+        if unusual is not None and system is not None and not ours:
             _warn(call, meant, unusual, said, system)
 
 
@@ -66,58 +64,35 @@ def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:
     call.warn(code, likely=list(likely_units(size, "m", _SIZES, system)), **told)
 
 
-def _warn_of_sign(call: Call, given: Mapping[str, Given]) -> None:
-    """Warn of negative coefficients of friction but -1: the shear has no bound there."""
-    array, said = given.get("FROT", (np.empty(0), None))
-    wrong = array[(array < 0.0) & (array != -1.0)] if array.dtype == float else array[:0]
-    if wrong.size:
-        told = {"name": "FROT", "value": float(wrong[0])}
-        call.warn("operators.models.friction-negative", said, **told)
-
-
-def _warn_of_numbers(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
-    """Warn of numbers without unit out of what is usual, which shows in any system of units."""
-    for name, (array, said) in given.items():
-        meant = words.parameter(name, zone)
-        if meant is None or meant.unit != "" or array.dtype != float:
-            continue
-        value = next((v for v in _ends(array) if v not in meant.usual), None)
-        if value is None or (value < 0.0 and name == "FROT"):  # told by its sign
-            continue
+def _odd(
+    zone: Zone, meant: Quantity, ends: tuple[float, float], given: Mapping[str, NDArray[Any]]
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """What is unusual in any system of units, codes with data: numbers by themselves, by their
+    sign, ratios to others of the same unit, incompressible matter in elements that lock."""
+    name, (low, high) = meant.name, ends
+    if name == "FROT" and low < 0.0 and low != -1.0:  # which says that nothing slides
+        yield "friction-negative", {"value": low}
+    elif meant.unit == "" and (low not in meant.usual or high not in meant.usual):
         if name in ("FROT", "MU"):
-            tangent = float(np.tan(np.radians(min(value, 89.0))))
-            told: dict[str, Any] = {"tangent": tangent, "degrees": value < 90.0}
-            call.warn("operators.models.friction-as-angle", said, name=name, value=value, **told)
-            continue
-        told = {"range": meant.usual.text(name), "meaning": meant.meaning(call.session.language)}
-        call.warn("operators.models.unusual-number", said, name=name, value=value, **told)
-
-
-def _warn_of_ratios(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
-    """Warn of parameters out of proportion to another one of the same unit."""
-    for name, (array, said) in given.items():
-        meant = words.parameter(name, zone)
-        for other, usual in () if meant is None else meant.beside.items():
-            base = given[other][0] if other in given else np.empty(0)
-            if not (array.dtype == base.dtype == float and array.size and base.size and base.all()):
-                continue
-            ratio = float((array / base.mean(axis=1, keepdims=True)).max())
+            tangent = float(np.tan(np.radians(min(high, 89.0))))
+            yield "friction-as-angle", {"value": high, "tangent": tangent, "degrees": high < 90.0}
+        else:
+            value = low if low not in meant.usual else high
+            yield "unusual-number", {"value": value, "range": meant.usual.text(name)}
+    for other, usual in meant.beside.items():
+        base = given.get(other, np.empty(0))
+        if base.dtype == float and base.size and base.all():
+            ratio = float((given[name] / base.mean(axis=1, keepdims=True)).max())
             if ratio not in usual:
-                told = {"ratio": ratio, "other": other, "range": usual.text(f"{name}/{other}")}
-                code, value = "operators.models.unusual-ratio", float(array.max())
-                call.warn(code, said, name=name, value=value, **told)
-
-
-def _warn_of_locking(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
-    """Warn of nearly incompressible matter in elements that are too stiff for it."""
-    array, said = given.get("NU", (np.empty(0), None))
-    value = max(_ends(array), default=0.0) if array.dtype == float else 0.0
-    if value > COMPRESSIBLE and zone.element in LOCKING and zone.mode is not Mode.PLANE_STRESS:
+                told = {"other": other, "range": usual.text(f"{name}/{other}")}
+                yield "unusual-ratio", {"value": high, "ratio": ratio, **told}
+    locks = zone.element in LOCKING and zone.mode is not Mode.PLANE_STRESS
+    if name == "NU" and high > COMPRESSIBLE and locks:
         told = {"mean": LOCKING[zone.element], "element": zone.element}
-        call.warn("operators.models.locks", said, value=value, **told)
+        yield "locks", {"value": high, **told}
 
 
-def _ends(array: NDArray[Any]) -> tuple[float, ...]:
+def _ends(array: NDArray[Any]) -> tuple[float, float] | tuple[()]:
     """The least and the largest finite number, none where all are nought."""
     numbers = array[np.isfinite(array) & (array != 0.0)]
     return (float(numbers.min()), float(numbers.max())) if numbers.size else ()

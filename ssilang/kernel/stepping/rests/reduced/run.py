@@ -201,7 +201,7 @@ class ReducedIntegration:
         """How far loads that are stronger by the tolerance move the motion, as `Difference`."""
         p, difference = self.problem, Difference(self.problem)
         last = np.arange(len(p.times)) == len(p.times) - 1
-        plain, stronger = Trace(p, model, last), Trace(p, model, last, 1.0 + self.tolerance)
+        stronger, plain = (Trace(p, model, last, s) for s in (1.0 + self.tolerance, 1.0))
         for run in comparing(p.times):
             a, b = stronger.advance(run), plain.advance(run)
             if a is None or b is None:
