@@ -230,20 +230,11 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
         entries.warn("operators.dynamics.steps-not-written")
+    words = ("MASS", "AMOR", "CHAR", "DEPL", "VITE", "MODELE", "CARACTERISTIQUES")
     return Inputs(
-        entries.needed("RIGI"),
-        times,
-        entries.get("MASS"),
-        entries.get("AMOR"),
-        entries.get("CHAR"),
-        entries.get("DEPL"),
-        entries.get("VITE"),
-        entries.get("MODELE"),
-        entries.get("CARACTERISTIQUES"),
-        scheme_of(entries),
-        contact_options(entries),
-        solver=solver_of(entries.call.session),
-    )
+        entries.needed("RIGI"), times, *(entries.get(word) for word in words), scheme_of(entries),
+        contact_options(entries), solver=solver_of(entries.call.session),
+    )  # fmt: skip
 
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
