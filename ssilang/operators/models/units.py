@@ -45,8 +45,7 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         if meant is None or not ends or (ours and name != "FROT"):
             continue
         for code, told in _odd(zone, meant, ends, {n: v for n, (v, _) in given.items()}):
-            said_of = {"meaning": meant.meaning(session.language)} if "range" in told else {}
-            call.warn(f"operators.models.{code}", said, name=name, **told, **said_of)
+            call.warn(code, said, name=name, **told, meaning=meant.meaning(session.language))
         here = 0.0 if system is None or not meant.unit else system.factor(meant.unit)
         unusual = next((v for v in ends if here and v * here not in meant.usual), None)
         if unusual is not None and system is not None and not ours:
@@ -71,25 +70,31 @@ def _odd(
     sign, ratios to others of the same unit, incompressible matter in elements that lock."""
     name, (low, high) = meant.name, ends
     if name == "FROT" and low < 0.0 and low != -1.0:  # which says that nothing slides
-        yield "friction-negative", {"value": low}
+        yield "operators.models.friction-negative", {"value": low}
     elif meant.unit == "" and (low not in meant.usual or high not in meant.usual):
         if name in ("FROT", "MU"):
             tangent = float(np.tan(np.radians(min(high, 89.0))))
-            yield "friction-as-angle", {"value": high, "tangent": tangent, "degrees": high < 90.0}
+            yield (
+                "operators.models.friction-as-angle",
+                {"value": high, "tangent": tangent, "degrees": high < 90.0},
+            )
         else:
             value = low if low not in meant.usual else high
-            yield "unusual-number", {"value": value, "range": meant.usual.text(name)}
+            yield (
+                "operators.models.unusual-number",
+                {"value": value, "range": meant.usual.text(name)},
+            )
     for other, usual in meant.beside.items():
         base = given.get(other, np.empty(0))
         if base.dtype == float and base.size and base.all():
             ratio = float((given[name] / base.mean(axis=1, keepdims=True)).max())
             if ratio not in usual:
                 told = {"other": other, "range": usual.text(f"{name}/{other}")}
-                yield "unusual-ratio", {"value": high, "ratio": ratio, **told}
+                yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
     locks = zone.element in LOCKING and zone.mode is not Mode.PLANE_STRESS
     if name == "NU" and high > COMPRESSIBLE and locks:
         told = {"mean": LOCKING[zone.element], "element": zone.element}
-        yield "locks", {"value": high, **told}
+        yield "operators.models.locks", {"value": high, **told}
 
 
 def _ends(array: NDArray[Any]) -> tuple[float, float] | tuple[()]:
