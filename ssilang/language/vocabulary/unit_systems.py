@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import UNITS, UNSAID, Quantity, Range
@@ -119,7 +120,7 @@ SOIL = ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
 """Entries of an elastic soil."""
 
 
-def wave_flaw(soil: Mapping[str, float], system: UnitSystem | None) -> dict[str, float] | None:
+def wave_flaw(soil: Mapping[str, Any], system: UnitSystem | None) -> dict[str, float] | None:
     """What is wrong with the shear waves of a soil: their speed, in units of length by second."""
     speed = math.sqrt(soil["YOUNG"] / (2.0 + 2.0 * soil["POISSON"]) / soil["MASSE_VOLUMIQUE"])
     here = 1.0 if system is None else system.length

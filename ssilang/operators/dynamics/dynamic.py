@@ -230,9 +230,10 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
         entries.warn("operators.dynamics.steps-not-written")
-    words = ("MASS", "AMOR", "CHAR", "DEPL", "VITE", "MODELE", "CARACTERISTIQUES")
+    get = entries.get
     return Inputs(
-        entries.needed("RIGI"), times, *(entries.get(word) for word in words), scheme_of(entries),
+        entries.needed("RIGI"), times, get("MASS"), get("AMOR"), get("CHAR"), get("DEPL"),
+        get("VITE"), get("MODELE"), get("CARACTERISTIQUES"), scheme_of(entries),
         contact_options(entries), solver=solver_of(entries.call.session),
     )  # fmt: skip
 

@@ -91,10 +91,9 @@ def _odd(
             if ratio not in usual:
                 told = {"other": other, "range": usual.text(f"{name}/{other}")}
                 yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
-    locks = zone.element in LOCKING and zone.mode is not Mode.PLANE_STRESS
-    if name == "NU" and high > COMPRESSIBLE and locks:
-        told = {"mean": LOCKING[zone.element], "element": zone.element}
-        yield "operators.models.locks", {"value": high, **told}
+    mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
+    if name == "NU" and high > COMPRESSIBLE and mean is not None:
+        yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}
 
 
 def _ends(array: NDArray[Any]) -> tuple[float, float] | tuple[()]:

@@ -164,7 +164,7 @@ class ReducedIntegration:
             time.perf_counter() - built,
             Reduction(
                 pair.rich.size, estimate, None, built - started,
-                *difference.relative[3:].tolist(), swing,
+                *[*difference.relative[3:].tolist(), swing],
             ),
         )  # fmt: skip
 
