@@ -125,7 +125,8 @@ def wave_flaw(soil: Mapping[str, Any], system: UnitSystem | None) -> dict[str, f
     speed = math.sqrt(soil["YOUNG"] / (2.0 + 2.0 * soil["POISSON"]) / soil["MASSE_VOLUMIQUE"])
     here = 1.0 if system is None else system.length
     told = {"speed": speed, "low": WAVES.low / here, "high": WAVES.high / here}
-    return None if speed * here in WAVES else told
+    scaled = system is None and soil["MASSE_VOLUMIQUE"] == 1.0  # a soil without units
+    return None if scaled or speed * here in WAVES else told
 
 
 _RATES = {
