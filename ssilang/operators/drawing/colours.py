@@ -6,13 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.kernel.curves.curve import CurvePart
-from ssilang.language.registry import Like, main, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import COUL
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @COUL.form(

@@ -10,26 +10,9 @@ from ssilang.kernel.fields.arrows import (
     arrows_in_cells,
     principal_strokes,
 )
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart, automatic_scale
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    arg,
-    choice,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.dispatch import EXTR, union
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @union(("DEFORME", "DEFORME"))

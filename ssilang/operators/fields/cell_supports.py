@@ -17,16 +17,10 @@ from ssilang.kernel.elements.results.supports import (
     values_at_points,
 )
 from ssilang.kernel.fields.cell_algebra import united
-from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import When, arg, choice, flag, main, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.language.registry import When
 from ssilang.operators.dispatch import CHAN, COOR, REDU
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 

@@ -6,13 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.cloud import Cloud, inverse_distance, moving_plane, on_grid
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.language.values import ListReel
+from ssilang.operators.prelude import *
 
 
 def interpolate_cloud(

@@ -7,25 +7,10 @@ from collections.abc import Collection
 import numpy as np
 
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    ANY,
-    Chosen,
-    arg,
-    by,
-    choice,
-    each,
-    main,
-    many,
-    operator,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.registry import each
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
+from ssilang.operators.prelude import *
 
 
 @union(("NUAGE", "NUAGE"))

@@ -6,16 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.language.registry import (
-    Like,
-    arg,
-    operator,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _ODD = {
     "UT", "FT", "SMRT", "SMZT", "GART", "GAZT", "EPRT", "EPZT", "GAST", "RTST", "NSST", "MSST",

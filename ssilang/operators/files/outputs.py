@@ -7,10 +7,7 @@ from typing import Any
 
 from ssilang.io.file_names import fault_on_windows, portable
 from ssilang.io.run_output import RunOutput
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.say.errors import SsiError
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def run_output(session: Session) -> RunOutput:

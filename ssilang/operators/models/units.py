@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.materials.model import Zone
-from ssilang.language.run.call import Call
 from ssilang.language.vocabulary import Quantity
 from ssilang.language.vocabulary.terms import Range
 from ssilang.language.vocabulary.unit_systems import UnitSystem, likely_units
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
-from ssilang.operators.workspace import workspace
 
 Given = tuple[NDArray[Any], Any]
 _CODE = "operators.models.unusual-value"

@@ -10,13 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import SCALAR_RULES, arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import workspace
+from ssilang.language.registry import SCALAR_RULES
+from ssilang.operators.prelude import *
 
 _NUMBERS = (int, float)
 

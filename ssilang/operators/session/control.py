@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import ANY, many, named, operator, opt, said, shared
-from ssilang.language.run.call import Call
+from ssilang.language.registry import named
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
-from ssilang.language.run.session import Session
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ANNULE, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.values import ANNULE
+from ssilang.operators.prelude import *
 
 
 @operator(

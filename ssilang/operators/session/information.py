@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from ssilang.language.registry import OPERATORS, arg, operator, opt, shared
-from ssilang.language.run.call import Call
+from ssilang.language.registry import OPERATORS
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.run.session import Session
 from ssilang.language.say.reference import (
     operator_page,
     overview,
     procedure_page,
 )
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
 

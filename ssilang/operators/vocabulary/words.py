@@ -13,7 +13,6 @@ from functools import cache
 
 import numpy as np
 
-from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.elements.families import FAMILIES, family_of
@@ -30,16 +29,15 @@ from ssilang.kernel.materials.behaviours import (
     UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.mesh import CellBlock, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
+from ssilang.operators.prelude import *
 
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 FEWEST = 4

@@ -6,17 +6,10 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
-    from ssilang.kernel.curves.curve import Curve
-    from ssilang.kernel.mesh.mesh import Mesh
     from ssilang.kernel.waves.layered_half_space import HalfSpace, Kind
     from ssilang.kernel.waves.plane_wave import Given, PlaneWave, WaveMotion
 

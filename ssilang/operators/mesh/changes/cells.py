@@ -7,21 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.complete import COMPLETE, complete, taken_apart
 from ssilang.kernel.mesh.changes.degree import LINEAR, linear, quadratic
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, union
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import arg, choice, main, many, opt, said
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListEnti
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import CHAN, MANU
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _SIMPLEX = {"TRI3": "QUA4", "TRI6": "QUA8"}
 

@@ -9,12 +9,10 @@ import numpy as np
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.mesh.combine import recolour
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import Chosen, arg, either, group, main, operator
-from ssilang.language.run.session import Session
+from ssilang.language.registry import either
 from ssilang.language.vocabulary.terms import between
 from ssilang.operators.dispatch import COUL
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 # other cells are white
 _COLOURS = {

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parted
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.operators.matrices.supports import as_matrix
+from ssilang.operators.prelude import *
 
 
 def refined(mesh: Mesh, sizes: NodeField) -> Mesh:

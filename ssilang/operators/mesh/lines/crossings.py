@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
@@ -15,9 +13,6 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.language.registry import Chosen, arg, key, main, select
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
@@ -31,7 +26,7 @@ from ssilang.operators.mesh.lines.ends import (
     ends_of,
     positions,
 )
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _CENTRE = arg("centre", "POINT", en="centre")
 _AXIS = arg("axis", "POINT", en="point of the axis")

@@ -7,14 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
 from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, choice, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
@@ -30,7 +24,7 @@ from ssilang.operators.mesh.lines.ends import (
     ends_of,
     positions,
 )
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @operator("DROI", COUNT, START, END, SIZES, family="mesh", full_name="DROIT", aliases=("D",))

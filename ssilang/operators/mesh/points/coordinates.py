@@ -4,20 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.language.registry import ANY, arg, main, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import COOR
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _AXIS = arg(
     "axis",

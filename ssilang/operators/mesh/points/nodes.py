@@ -4,14 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, operator, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import POSITIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @operator("NOEU", arg("point", "POINT", en="point"), family="mesh", full_name="NOEUD")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,
@@ -12,13 +11,12 @@ from ssilang.kernel.mesh.boundary import (
     sharp_edges,
 )
 from ssilang.kernel.mesh.combine import join_blocks
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.orientation import (
     flip,
     orient,
 )
-from ssilang.language.registry import arg, choice, flag, operator, opt
 from ssilang.language.vocabulary.terms import between
+from ssilang.operators.prelude import *
 
 
 def _whole_lines(mesh: Mesh) -> Mesh:

@@ -6,11 +6,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.charts import (
     Chart,
     cone_chart,
@@ -25,22 +22,8 @@ from ssilang.kernel.mesh.surfaces.polynomial_surface import (
     mesh_polynomial_surface,
 )
 from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.mesh.lines.ends import chosen_family
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _CENTRE = arg("centre", "POINT", en="centre")
 _APEX = arg("apex", "POINT", en="apex")

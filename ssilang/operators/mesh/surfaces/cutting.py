@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.surfaces.contour_split import split_contour
-from ssilang.language.registry import arg, choice, operator
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.prelude import *
 
 
 @operator(

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import ANY, arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.operators.prelude import *
 
 
 @operator(
