@@ -7,8 +7,8 @@ import io
 import pytest
 
 from ssilang.cli.run import RunOptions, make_session, phrase_values, run_text
-from ssilang.language.near import meant, slips
 from ssilang.language.say.diagnostics import sentence
+from ssilang.language.search import meant, slips
 from ssilang.language.text.source import Source
 
 OSCILLATOR = """

@@ -14,7 +14,7 @@ import pytest
 
 from ssilang.cli.main import main
 from ssilang.cli.run import write_report
-from ssilang.io.file_names import inside
+from ssilang.io.atomic import inside
 from ssilang.report.page import page_of
 from ssilang.report.results import read_results
 from tests.report.test_report_file import Sections, page

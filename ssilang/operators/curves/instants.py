@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeVar, overload
 import numpy as np
 
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.language.near import nearest
+from ssilang.language.search import nearest
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:

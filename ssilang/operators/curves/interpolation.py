@@ -22,7 +22,7 @@ from ssilang.language.registry import either
 from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
-from ssilang.operators.fields.cloud_functions import interpolate_cloud
+from ssilang.operators.fields.clouds import interpolate_cloud
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.prelude import *

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray
-from ssilang.kernel.records.directions import turned
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched
 from ssilang.kernel.records.signals import (
@@ -18,6 +17,7 @@ from ssilang.kernel.records.signals import (
     scales,
     settled,
     transform,
+    turned,
 )
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL
 from ssilang.operators.curves.signals import filt

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ssilang.language.near import nearest
+from ssilang.language.search import nearest
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
 

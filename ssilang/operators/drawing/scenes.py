@@ -20,7 +20,7 @@ from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.matrices.support import support_mesh
+from ssilang.kernel.matrices.location import support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit

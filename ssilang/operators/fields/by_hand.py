@@ -10,9 +10,9 @@ import numpy as np
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.hooke import hooke_block
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields.cell_curves import through
+from ssilang.kernel.fields.cell_algebra import through
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import Nature
 from ssilang.kernel.materials.parameters import geometric_names, material_names

@@ -7,10 +7,12 @@ from dataclasses import replace
 from functools import partial, reduce
 from typing import cast
 
-from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
 from ssilang.kernel.elements.results.supports import (
     cells_of_mesh,
     cells_of_nodal,
+    field_on_mesh,
+    field_on_model,
+    model_on_mesh,
     moved,
     nodal_of_cells,
     point_coordinates,

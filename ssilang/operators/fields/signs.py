@@ -11,7 +11,7 @@ from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.curves.algebra import combined
 from ssilang.kernel.elements.families import elastic_stress
-from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
+from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.node_field import Nature
 from ssilang.language.registry import When

@@ -15,7 +15,7 @@ from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.orientation import orient
-from ssilang.language.near import nearest
+from ssilang.language.search import nearest
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE, warn_flat, warn_repeated_cells, warn_without_cells
 from ssilang.operators.files.writing import SORT, target_path

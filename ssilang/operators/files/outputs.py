@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ssilang.io.file_names import fault_on_windows, portable
+from ssilang.io.atomic import fault_on_windows, portable
 from ssilang.io.run_output import RunOutput
 from ssilang.operators.prelude import *
 

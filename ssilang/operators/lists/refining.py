@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.operators.lists.progressions import check_length
-from ssilang.operators.mesh.changes.refining import refined
+from ssilang.operators.mesh.changes.cells import refined
 from ssilang.operators.prelude import *
 
 RAFF = shared("RAFF", "lists", full_name="RAFFINER")

@@ -12,8 +12,8 @@ import numpy as np
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
-from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal

@@ -15,11 +15,10 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
-from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
+from ssilang.kernel.materials.plastic.backbone import break_points, hardening_of, hyperbola
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
-from ssilang.kernel.materials.plastic.tension_curve import hardening_of
-from ssilang.language.near import nearest_names
 from ssilang.language.registry import HelpTable, each
+from ssilang.language.search import nearest_names
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words

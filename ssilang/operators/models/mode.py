@@ -33,7 +33,7 @@ from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.modal import shape_models
 from ssilang.language.cast3m import IN_SCOPE
-from ssilang.language.near import nearest
+from ssilang.language.search import nearest
 from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model

@@ -13,8 +13,8 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
-from ssilang.language.near import nearest, nearest_names
 from ssilang.language.registry import each
+from ssilang.language.search import nearest, nearest_names
 from ssilang.language.vocabulary.terms import between
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.prelude import *

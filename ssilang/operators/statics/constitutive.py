@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.solids.hooke import hooke_block
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond

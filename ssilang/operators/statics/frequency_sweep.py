@@ -75,7 +75,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 
 def _inputs(entries: Entries) -> HarmonicInputs:
     from ssilang.kernel.statics.frequency import HarmonicInputs
-    from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
+    from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones

@@ -7,9 +7,9 @@ from typing import NoReturn
 
 import numpy as np
 
-from ssilang.kernel.elements.loads.line_loads import line_load
 from ssilang.kernel.elements.loads.loads import (
     body_force,
+    line_load,
     loaded_faces,
     on_sides,
     pipe_pressure,
@@ -17,7 +17,7 @@ from ssilang.kernel.elements.loads.loads import (
     shell_load,
     traction,
 )
-from ssilang.kernel.elements.results.reduction import model_on_mesh
+from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.materials.model import Mode

@@ -14,8 +14,13 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
-from ssilang.kernel.statics.pressure_load import loaded_sides, pressures, with_pressures
-from ssilang.kernel.statics.thermal_load import check_strains, split_strains
+from ssilang.kernel.statics.thermal_load import (
+    check_strains,
+    loaded_sides,
+    pressures,
+    split_strains,
+    with_pressures,
+)
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start

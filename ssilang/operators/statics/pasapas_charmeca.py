@@ -13,7 +13,7 @@ from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.statics.pressure_load import along_normals, pressures
+from ssilang.kernel.statics.thermal_load import along_normals, pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.elements.results.reduction import field_on_model
+from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save
 from ssilang.operators.prelude import *

@@ -228,7 +228,7 @@ def _components(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str
 def known_components() -> tuple[str, ...]:
     """Every component that an element or a law gives, with the duals of unknowns."""
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
-    from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
+    from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
     from ssilang.kernel.interface.bed import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES

@@ -185,8 +185,7 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
 
 def _tell_reflecting(entries: Entries, motion: Motion) -> None:
     """Warn where what leaves the layer comes back from an edge before the motion ends."""
-    from ssilang.kernel.waves.reflecting_edges import reflecting_edges
-    from ssilang.kernel.waves.resolution import pressure_speed
+    from ssilang.kernel.waves.resolution import pressure_speed, reflecting_edges
 
     model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
     found = reflecting_edges(model, entries.needed("COUCHE"), entries.get("AMORTISSEURS"))

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.combine import (
     take,
     union,
 )
-from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
+from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
 from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
 from ssilang.language.registry import find_operator
 from ssilang.operators.mesh.points.picking import (
