@@ -1,7 +1,5 @@
 """Running a script in a test and looking at what it made."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The house rules: lint, format, types, import directions, circles, rooms, names, global state."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess

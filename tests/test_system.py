@@ -4,8 +4,6 @@ A child process gets a Python from which these names are gone, and in which a fi
 be neither replaced nor removed, as on Windows. Windows' own locks are played by those of POSIX.
 """
 
-from __future__ import annotations
-
 import ast
 import csv
 import os

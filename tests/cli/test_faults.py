@@ -1,7 +1,5 @@
 """Streams that are closed or full, folders that go away, signals, names that cannot be."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """A deck reads and writes below its folder and the output folder, and nowhere else."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 

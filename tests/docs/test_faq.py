@@ -1,7 +1,5 @@
 """The figures of the page of questions: its deck runs with some of the rows of its tables."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

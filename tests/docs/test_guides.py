@@ -1,7 +1,5 @@
 """The scripts shown in the README and the guide to uplift run."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

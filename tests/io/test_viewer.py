@@ -1,7 +1,5 @@
 """ssilang view: what is drawn of results, meshes and pictures; what is refused; the window."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

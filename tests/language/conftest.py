@@ -1,7 +1,5 @@
 """Running small scripts: their variables, their output, their first error."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """Tables given to procedures: what cannot be used is refused, what nobody reads is a warning."""
 
-from __future__ import annotations
-
 import io
 
 import pytest

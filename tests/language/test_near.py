@@ -1,7 +1,5 @@
 """Near names: fewest slips, a swap being one."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.language.search import likeness, nearest, nearest_names, slips

@@ -1,7 +1,5 @@
 """Type words are compared on their eight letters."""
 
-from __future__ import annotations
-
 from ssilang.cli.run import run_text
 
 

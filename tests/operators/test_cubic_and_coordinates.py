@@ -1,7 +1,5 @@
 """DEG3; POINTCYL and POINTSPH of the library."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

@@ -1,7 +1,5 @@
 """Supports on lines made twice."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

@@ -1,7 +1,5 @@
 """DESS: what a statement makes of its words and table."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from xml.etree import ElementTree
 

@@ -1,7 +1,5 @@
 """TRAC, DEFO, VECT, ANNO: what statements draw."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 from pathlib import Path

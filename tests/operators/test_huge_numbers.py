@@ -1,7 +1,5 @@
 """Numbers past what a calculation can hold are told, wherever they come in."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

@@ -1,7 +1,5 @@
 """INFO, NOTI, AIDE, SOUC."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

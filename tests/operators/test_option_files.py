@@ -1,7 +1,5 @@
 """Options that name files: the listing, further scripts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

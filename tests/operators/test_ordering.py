@@ -1,7 +1,5 @@
 """ORDO with its keywords first, of tables and of meshes."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """SAUV and REST: a calculation goes on in another run."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

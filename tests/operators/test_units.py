@@ -4,8 +4,6 @@ The expected numbers are those of tables of materials: steel is 210 GPa and 7850
 the units of a deck.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import re

@@ -1,7 +1,5 @@
 """SORT: VTK, CSV, text, AVS, figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio

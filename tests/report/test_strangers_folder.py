@@ -1,7 +1,5 @@
 """Reports of folders that somebody else has written: nothing of the reader's, and no traceback."""
 
-from __future__ import annotations
-
 import copy
 import json
 import math

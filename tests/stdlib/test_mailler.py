@@ -1,7 +1,5 @@
 """MAILLER: where its parts lie, what they share, what it refuses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The interactive session, fed with lines."""
 
-from __future__ import annotations
-
 import io
 
 import pytest

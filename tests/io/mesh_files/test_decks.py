@@ -1,7 +1,5 @@
 """Abaqus and Nastran decks, read back by meshio and by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio

@@ -1,7 +1,5 @@
 """Scenes in space: what hides what, light, arrows, labels, cuts, and systems that cannot draw."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Plastic bodies in calculations: limit loads, convergence of Newton, energy, elastic limit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Yielding oscillators against energy balances, SciPy's integrator and the linear spectrum."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

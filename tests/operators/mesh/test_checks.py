@@ -1,7 +1,5 @@
 """VERM: defects are found and named, sound meshes are silent."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

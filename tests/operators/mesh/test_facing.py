@@ -1,7 +1,5 @@
 """VISA: pairs of nodes at one place."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.cli.run import run_text

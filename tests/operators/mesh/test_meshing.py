@@ -1,7 +1,5 @@
 """Meshing as scripts write it: the forms of the operators, read against closed forms."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

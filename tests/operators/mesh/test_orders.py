@@ -1,7 +1,5 @@
 """Meshing operators read their operands and words in whatever order they stand."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """Rarer meshing operators and forms, as scripts write them."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """TRIA 'TOPO': boundaries filled with simplices, in the plane and in space."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

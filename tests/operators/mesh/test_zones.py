@@ -1,7 +1,5 @@
 """PART and CCON: zones of lines, surfaces and volumes; @ISOSURF."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

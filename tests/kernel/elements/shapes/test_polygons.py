@@ -1,7 +1,5 @@
 """Meshes of polygons and Wachspress' element on them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

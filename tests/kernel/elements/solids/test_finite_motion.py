@@ -1,7 +1,5 @@
 """Rotation and stretch of a gradient, and the components that a mode gives it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Complete quadratic cells: shared middles, and the cells that they are taken apart into."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

@@ -1,7 +1,5 @@
 """Compiled passes over elements against the laws themselves, and terms that stay in their place."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
