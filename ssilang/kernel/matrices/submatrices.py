@@ -1,7 +1,5 @@
 """Parts of a matrix: nodes, unknowns, diagonal, symmetric halves, blocks by name or by mesh."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

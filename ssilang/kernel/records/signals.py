@@ -1,7 +1,5 @@
 """Fourier transforms, filters, shocks and wavelets of sampled signals."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
 
-from __future__ import annotations
-
 import dataclasses
 from typing import Any
 

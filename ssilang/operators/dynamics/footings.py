@@ -1,7 +1,5 @@
 """ZSEM: what the joints under a footing carry in time, behind the procedure @BILANSSI."""
 
-from __future__ import annotations
-
 from typing import cast
 
 import numpy as np

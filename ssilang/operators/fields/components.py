@@ -1,7 +1,5 @@
 """EXCO NOMC MANU CHAN EXTR REDU ENLE COPI on fields: components, supports, natures."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 import numpy as np

@@ -1,7 +1,5 @@
 """LIRE: ground motions as evolutions in time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

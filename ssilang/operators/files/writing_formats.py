@@ -1,7 +1,5 @@
 """SORT of meshes, fields and matrices in others' formats; of named meshes in ssilang's own."""
 
-from __future__ import annotations
-
 from contextlib import closing
 from typing import Any
 

@@ -1,7 +1,5 @@
 """MOCA LEVM GANE: parameters of functions by least squares."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """PASAPAS on modes with links: models MODAL and LIAISON, which DYNE steps."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

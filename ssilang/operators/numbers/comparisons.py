@@ -1,7 +1,5 @@
 """EGA NEG < > <EG >EG: comparisons give a LOGIQUE."""
 
-from __future__ import annotations
-
 import math
 import operator as python
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """BRUI: random values."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on, what procedures read and give."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any, NoReturn
 

@@ -1,7 +1,5 @@
 """VIDE: empty objects, and whether an object is empty."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

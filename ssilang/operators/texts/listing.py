@@ -1,7 +1,5 @@
 """LIST: what objects hold, in readable lines."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Nodal forces of pressures, surface tractions and body forces."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

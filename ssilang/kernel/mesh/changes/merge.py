@@ -1,7 +1,5 @@
 """Merging of nodes that lie close to each other (ELIM), and cells that this degenerates (REGE)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

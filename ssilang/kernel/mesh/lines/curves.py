@@ -1,7 +1,5 @@
 """Shapes of curves: circular arcs, parabolas, polynomial curves, cubics."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Circular arcs that round the corner between two lines."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

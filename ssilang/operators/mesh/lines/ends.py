@@ -1,7 +1,5 @@
 """What operators that draw lines read: ends, numbers of elements, mesh sizes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

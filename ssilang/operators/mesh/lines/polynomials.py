@@ -1,7 +1,5 @@
 """Polynomial curves: PARA CUBP CUBT COUR."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Straight and broken lines: DROI LIGN QUEL."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """POIN: points picked from meshes and fields, or made from coordinates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What lies inside lines, surfaces and volumes: DEDA INCL."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 
