@@ -12,6 +12,8 @@ On the unknowns of the interface, with h = 2 f* - R y and P = 2 p*,
     dg = dg_0 - S_GJ h + S_GG P
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -4,6 +4,8 @@ Unknown i of a node (of c) becomes U i for the mean, U (k c + i) for cos k and V
 sin k; forces F and G. `Z(w) = K + w C + w^2 M` of the expanded matrices.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -5,6 +5,8 @@ becomes `Z(w) Q - F_nl(Q) - F = 0`. Coefficients are arrays (2 H + 1, n): 0, cos
 Nonlinear forces are sampled over one period (Cameron and Griffin 1989).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Protocol
 

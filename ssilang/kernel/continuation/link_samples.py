@@ -1,5 +1,7 @@
 """Forces of links at instants of a period, with their derivatives by small differences."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Sums, products, integrals and interpolation of curves; complex curves are pairs of parts."""
 
+from __future__ import annotations
+
 import dataclasses
 from collections.abc import Callable
 from typing import Any

@@ -4,6 +4,8 @@ Families give the element its behaviour (see `ssilang.kernel.elements.family`); 
 (joints) add their own elements with `register_element`.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 
 import numpy as np

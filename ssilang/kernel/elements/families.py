@@ -1,5 +1,7 @@
 """The families of elements by name, and the quantities of a zone computed through them."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 import numpy as np

@@ -5,6 +5,8 @@ strain, stress, internal forces are then the same few lines for all. Arrays are
 (n_cells, n_strains, n_points, ...): one strain component is a contiguous (n_cells, n_points).
 """
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 

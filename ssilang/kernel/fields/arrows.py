@@ -1,5 +1,7 @@
 """Arrows made from fields: at nodes, in cells, principal values."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Sums, products and functions of fields in cells, block by block."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Deformed shapes and arrows: what DEFO and VECT make and TRAC draws."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What a user wants to know of each point of a joint: open or closed, energies stored and lost."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,5 +1,7 @@
 """Forces and stiffness of an interface as functions of its jumps, compiled."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

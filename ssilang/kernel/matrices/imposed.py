@@ -1,5 +1,7 @@
 """Values of conditions: second members FLX at their multipliers (DEPI, JEU)."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Parts of a matrix: nodes, unknowns, diagonal, symmetric halves, blocks by name or by mesh."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Relations that tie nodes together: rigid bodies, common values, meshes hooked onto others."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from itertools import combinations
 

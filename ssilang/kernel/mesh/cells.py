@@ -4,6 +4,8 @@ Quadratic cells number their nodes along the contour (corner, middle, corner, mi
 corners first as VTK does; `ssilang.io` converts.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 

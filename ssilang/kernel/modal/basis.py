@@ -1,5 +1,7 @@
 """Projection on shapes and recombination: `F* = X^T F`, `K* = X^T K X`, `u = X q`."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

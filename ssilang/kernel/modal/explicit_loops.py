@@ -1,5 +1,7 @@
 """Compiled loops of the time stepping on modes."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

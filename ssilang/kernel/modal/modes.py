@@ -1,5 +1,7 @@
 """Natural modes of a system: frequencies, shapes, generalised masses and displacements."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

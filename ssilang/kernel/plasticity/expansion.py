@@ -1,5 +1,7 @@
 """Strains of expansion in time that plastic bodies take without stress."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

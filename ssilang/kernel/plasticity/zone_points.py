@@ -1,5 +1,7 @@
 """The plastic points of a zone, by its kind: bodies and bars, beams of fibres, layered shells."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

@@ -15,6 +15,8 @@ not independent: where records are named, scores are summed by record first (the
 and Zeger, Biometrika 73 (1986)).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -8,6 +8,8 @@ their correlation through time give the rate at which levels are crossed (Vanmar
 Mech. 42, 1975, with the non-stationary moments of Di Paola, Eng. Fract. Mech. 21, 1985).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,5 +1,7 @@
 """Fourier transforms, filters, shocks and wavelets of sampled signals."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

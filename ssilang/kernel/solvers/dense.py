@@ -1,5 +1,7 @@
 """Dense products and factors in compiled code: LU with row exchanges, one right side or many."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

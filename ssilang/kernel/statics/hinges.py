@@ -5,6 +5,8 @@ turns about that node like on a hinge, and a tower that was to be clamped has a 
 bending of a mast hinged at its foot.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 

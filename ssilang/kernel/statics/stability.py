@@ -1,5 +1,7 @@
 """Free motions of a system with conditions, its negative eigenvalues, springs below zero."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,5 +1,7 @@
 """Free strains in a load (temperatures, given strains), as forces and as stresses to take off."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

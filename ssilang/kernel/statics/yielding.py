@@ -1,5 +1,7 @@
 """Yield criteria of stresses: negative inside, zero on the surface, in the unit of the stress."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

@@ -3,6 +3,8 @@
 What footings carry is made of each instant that an observer is given.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar

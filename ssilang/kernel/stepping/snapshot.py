@@ -1,5 +1,7 @@
 """One saved instant of a motion, and who receives it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol

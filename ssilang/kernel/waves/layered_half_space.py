@@ -6,6 +6,8 @@ to the top of their layer and waves that go up to its bottom, so that no exponen
 thick the layer and however oblique the wave (Knopoff 1964; Kausel and Roesset 1981).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Literal
 

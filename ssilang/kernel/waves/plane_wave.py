@@ -1,5 +1,7 @@
 """Motion in time of a layered half-space under one plane wave, from the record of a point."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Literal
 

@@ -1,5 +1,7 @@
 """Whether a mesh carries the waves of a record: elements against wavelengths."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -3,6 +3,8 @@
 And those of a free field that have yielded: no linear ground moves as they did.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,5 +1,7 @@
 """INSI COSI CHSP DSPR PSRS: integrated and corrected records, spectra of power and of response."""
 
+from __future__ import annotations
+
 import dataclasses
 
 import numpy as np

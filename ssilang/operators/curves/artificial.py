@@ -1,5 +1,7 @@
 """SIAR PERT PRNS: artificial signals, random perturbations, spectra of modulated signals."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

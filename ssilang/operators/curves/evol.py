@@ -1,5 +1,7 @@
 """EVOL: curves from lists, along lines of nodes, in time."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any

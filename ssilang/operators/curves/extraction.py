@@ -1,5 +1,7 @@
 """Curves in EXTR DIME CHAN ORDO MAXI MINI COPI ET and in signs."""
 
+from __future__ import annotations
+
 import dataclasses
 from typing import Any
 

@@ -1,5 +1,7 @@
 """ZFRA: a fragility from counts, or from a cloud of demands, for @FRAGILITE."""
 
+from __future__ import annotations
+
 from dataclasses import astuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
 
+from __future__ import annotations
+
 import dataclasses
 from typing import Any
 

@@ -1,5 +1,7 @@
 """FILT of a record, TOUR of two components, ZOND for a spectrum, ONDE: its wavelets."""
 
+from __future__ import annotations
+
 import dataclasses
 from typing import Any
 

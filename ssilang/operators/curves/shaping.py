@@ -1,5 +1,7 @@
 """PROL CONC LSQF MAPP CMOY LAPL: curves made longer, joined, simplified, and read off others."""
 
+from __future__ import annotations
+
 import dataclasses
 
 import numpy as np

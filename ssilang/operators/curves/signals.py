@@ -1,5 +1,7 @@
 """TFR TFRI FILT HANN COMT TOTE FDT: signals in time and frequency."""
 
+from __future__ import annotations
+
 import dataclasses
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Spectra of oscillators, linear and yielding (SPON), of floors (ZSPP), their envelopes; VALP."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What operators on curves read: one curve, colours, names of axes."""
 
+from __future__ import annotations
+
 import re
 
 import numpy as np

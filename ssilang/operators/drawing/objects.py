@@ -1,5 +1,7 @@
 """DEFO VECT ANNO: deformed shapes, arrows and texts for TRAC; their unions."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from typing import Any
 

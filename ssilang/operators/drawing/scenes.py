@@ -1,5 +1,7 @@
 """TRAC: meshes, deformed shapes, arrows and fields drawn to files."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any

@@ -1,5 +1,7 @@
 """ZSEM: what the joints under a footing carry in time, behind the procedure @BILANSSI."""
 
+from __future__ import annotations
+
 from typing import cast
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Modes and displacements by name that a script leaves: scenes of a report beside calculations."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 

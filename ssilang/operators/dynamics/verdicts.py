@@ -1,5 +1,7 @@
 """ZBIL: what @BILANSSI found, for the summary and the report of a run."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any, cast
 

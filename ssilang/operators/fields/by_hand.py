@@ -1,5 +1,7 @@
 """MANU 'CHPO' and 'CHML': fields from values; ZERO: fields of zeros."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any, cast
 

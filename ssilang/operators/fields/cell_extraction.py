@@ -1,5 +1,7 @@
 """EXTR, ET and LIST of fields in cells."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection
 from typing import Any
 

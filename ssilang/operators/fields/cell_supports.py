@@ -1,5 +1,7 @@
 """CHAN between supports of fields in cells, REDU and EXTR of models and fields in cells."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial, reduce

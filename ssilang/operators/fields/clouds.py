@@ -1,5 +1,7 @@
 """NUAG: clouds, and clouds in EXTR DIME REDU LIST."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from typing import Any
 

@@ -1,5 +1,7 @@
 """EXCO NOMC MANU CHAN EXTR REDU ENLE COPI on fields: components, supports, natures."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 
 import numpy as np

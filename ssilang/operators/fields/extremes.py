@@ -1,5 +1,7 @@
 """MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs); PILE for strains."""
 
+from __future__ import annotations
+
 from functools import partial
 from typing import Any
 

@@ -1,5 +1,7 @@
 """SENS: senses of contours, differences of fields."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.fields.cell_algebra import added, component_names

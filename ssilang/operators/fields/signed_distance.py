@@ -1,5 +1,7 @@
 """PSIP: signed distances to lines and surfaces."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

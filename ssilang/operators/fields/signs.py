@@ -1,5 +1,7 @@
 """`+ - * / **`, ET, PSCA on fields at nodes and in cells."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from typing import Any
 

@@ -1,5 +1,7 @@
 """RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations of fields and lists."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

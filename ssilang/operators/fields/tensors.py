@@ -1,5 +1,7 @@
 """PRIN INVA VMIS TRES ENER GRAD INTG JACO: quantities derived from fields in cells."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 from ssilang.kernel.elements import families

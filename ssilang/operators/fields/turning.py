@@ -1,5 +1,7 @@
 """Vectors and tensors held by fields, turned by a rotation."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any

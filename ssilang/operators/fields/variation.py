@@ -1,5 +1,7 @@
 """VARI: fields that follow a law of variation, parameters that depend on a field."""
 
+from __future__ import annotations
+
 from typing import Any, cast
 
 import numpy as np

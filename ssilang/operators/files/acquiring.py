@@ -1,5 +1,7 @@
 """ACQU: values read from a text file into names."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Callable

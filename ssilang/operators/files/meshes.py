@@ -1,5 +1,7 @@
 """LIRE 'MESH' and SORT 'MESH': meshes of other programs, with their named parts."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Any, NoReturn
 

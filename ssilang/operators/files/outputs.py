@@ -1,5 +1,7 @@
 """The files that operators read and write: where they may be, what the options call them."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

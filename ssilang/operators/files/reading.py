@@ -1,5 +1,7 @@
 """LIRE: tables of numbers, procedures and meshes from files."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.io.csv_tables import as_columns, read_csv

@@ -1,5 +1,7 @@
 """LIRE: ground motions as evolutions in time."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 import numpy as np

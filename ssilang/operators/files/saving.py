@@ -1,5 +1,7 @@
 """SAUV and REST: objects kept in a file between two runs."""
 
+from __future__ import annotations
+
 from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,5 +1,7 @@
 """SORT of meshes, fields and matrices in others' formats; of named meshes in ssilang's own."""
 
+from __future__ import annotations
+
 from contextlib import closing
 from typing import Any
 

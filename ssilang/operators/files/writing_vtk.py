@@ -1,5 +1,7 @@
 """SORT 'VTK ': meshes and fields to .vtu files and the .pvd that lists them."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,5 +1,7 @@
 """MOCA LEVM GANE: parameters of functions by least squares."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

@@ -1,5 +1,7 @@
 """DANS SAUF INTE: what lists, meshes and words hold."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

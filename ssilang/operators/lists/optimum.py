@@ -1,5 +1,7 @@
 """EXCE: a step towards the least value of a function under conditions."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares

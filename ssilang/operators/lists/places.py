@@ -1,5 +1,7 @@
 """Items of lists by their places: EXTR ENLE INSE REMP SOMM DIME INVE COPI, ET."""
 
+from __future__ import annotations
+
 from itertools import accumulate
 from typing import Any, cast
 

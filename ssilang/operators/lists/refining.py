@@ -1,5 +1,7 @@
 """RAFF: lists with more values between those given, meshes with smaller cells."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,5 +1,7 @@
 """DIAD LTL CVOL FONC ZLEG: lists of reals as samples, special functions, quadrature."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,5 +1,7 @@
 """Signs, ET, EXTR, DIME, REDU, CHAN, LIST, XTMX, YTMX, DIMN on matrices (RIGIDITE)."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
 

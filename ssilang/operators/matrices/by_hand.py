@@ -1,5 +1,7 @@
 """Matrices of no model: MANU 'RIGI' by hand, MFIL, XXT and ZXXT, CABL."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Warnings of what is not joined as it looks: supports, joints and ends of beams."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

@@ -1,5 +1,7 @@
 """RIGI, MASS, LUMP, AMOR, HOOK, KSIG: matrices of the elements of a model."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps

@@ -1,5 +1,7 @@
 """RELA: linear relations between unknowns of several nodes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 from ssilang.kernel.matrices import relations as made

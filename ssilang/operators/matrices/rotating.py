@@ -1,5 +1,7 @@
 """KENT CORI GYRO: matrices of turning bodies."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling

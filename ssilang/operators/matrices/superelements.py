@@ -1,5 +1,7 @@
 """SUPE CMCT: static condensation of a body, matrices without some unknowns."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

@@ -1,5 +1,7 @@
 """BLOQ DEPI SYMT ANTI APPU: conditions on single nodes, their values, planes, springs."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

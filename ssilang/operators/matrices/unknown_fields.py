@@ -1,5 +1,7 @@
 """Fields for a matrix: CHPO on its unknowns, ORTH makes some orthogonal for it."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

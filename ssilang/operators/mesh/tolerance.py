@@ -1,5 +1,7 @@
 """How near points count as being at one place."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.language.registry import When

@@ -1,5 +1,7 @@
 """Volumes: VOLU by translation, rotation, along a line, between two surfaces, by thickness."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

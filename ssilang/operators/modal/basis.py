@@ -1,5 +1,7 @@
 """PJBA PSMO IDLI: projection on modes and static shapes, pseudo-modes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from typing import Any
 

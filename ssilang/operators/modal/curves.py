@@ -1,5 +1,7 @@
 """EVOL 'RECO' and 'PJBA': curves in time of modal contributions, and of what they recombine to."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,5 +1,7 @@
 """DYNE: time stepping on modes, with shocks, friction, plastic links and couplings."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any

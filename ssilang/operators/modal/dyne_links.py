@@ -1,5 +1,7 @@
 """Tables LIAISON_ELEMENTAIRE of DYNE read as links of the kernel, and their results as tables."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 

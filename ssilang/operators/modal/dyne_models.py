@@ -1,5 +1,7 @@
 """Tables PASAPAS for DYNE: models MODAL and LIAISON with their parameters, read as its tables."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from ssilang.kernel.elements.zone_fields import zone_field

@@ -1,5 +1,7 @@
 """IMPE VIBC: matrices of harmonic motions, complex modes of small systems."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from ssilang.kernel.matrices.impedance import factors, impedance

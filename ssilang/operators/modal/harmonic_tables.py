@@ -1,5 +1,7 @@
 """Tables of HBM, CONTINU and HBM_POST: results asked for, curves, entries by number."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

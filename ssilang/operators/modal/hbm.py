@@ -1,5 +1,7 @@
 """ZHBM: matrices of harmonic balance (procedure HBM); ZHPO: results in time (HBM_POST)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """RIGI, MASS, AMOR of a modal basis: diagonal matrices on the modes' unknowns ALFA."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.matrices.build import nodal_diagonal

@@ -1,5 +1,7 @@
 """RECO: fields on the body from the contributions of modes and static shapes."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any

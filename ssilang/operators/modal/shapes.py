@@ -1,5 +1,7 @@
 """NNOR, TABLE * RIGIDITE, JEU: shapes made of unit size, inertia of shapes, gaps of relations."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

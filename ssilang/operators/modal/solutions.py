@@ -1,5 +1,7 @@
 """SOLUTION: modes as one object (MANU 'MODE', VIBR 'SOLU'), and the operators that read it."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """PASAPAS on modes with links: models MODAL and LIAISON, which DYNE steps."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

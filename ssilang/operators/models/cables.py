@@ -1,5 +1,7 @@
 """PREC: tensions of prestressing cables. IMPF: kept for old scripts."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.elements.catalog import ELEMENTS

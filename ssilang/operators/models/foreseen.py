@@ -3,6 +3,8 @@
 `ssilang check` asks here, so that it refuses what a run would refuse, at the same place.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from typing import Any
 

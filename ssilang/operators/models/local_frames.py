@@ -1,5 +1,7 @@
 """Frames of elements: RTEN VLOC CALP, FREN along lines, VSUR for normals and tangents."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

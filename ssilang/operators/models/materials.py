@@ -1,5 +1,7 @@
 """MATE and CARA: fields of parameters of a model."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
 

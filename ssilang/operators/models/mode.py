@@ -1,5 +1,7 @@
 """MODE: which element and which law stand on a mesh."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any

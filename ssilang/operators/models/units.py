@@ -1,5 +1,7 @@
 """Numbers of materials that look like another unit than the deck's, where OPTI 'UNIT' says it."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Zones and models: sets of them, sizes of elements (TAIL), ENLE CHAN 'CONS' EXTR LIST."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

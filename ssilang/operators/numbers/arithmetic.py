@@ -1,5 +1,7 @@
 """`+ - * / **` on every type that has them: dispatch by pairs of types."""
 
+from __future__ import annotations
+
 import operator as python
 from collections.abc import Callable
 from functools import partial

@@ -1,5 +1,7 @@
 """EGA NEG < > <EG >EG: comparisons give a LOGIQUE."""
 
+from __future__ import annotations
+
 import math
 import operator as python
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """ENTI FLOT VERI: conversions between integers, reals and words."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

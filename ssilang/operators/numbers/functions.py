@@ -1,5 +1,7 @@
 """Functions of one number on numbers, lists, curves and fields: ABS SIN EXP LOG ATG ..."""
 
+from __future__ import annotations
+
 import dataclasses
 from collections.abc import Callable
 from functools import partial

@@ -1,5 +1,7 @@
 """MASQ: ones where values meet a relation, zeros elsewhere; BORN: values cut at bounds."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

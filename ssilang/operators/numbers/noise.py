@@ -1,5 +1,7 @@
 """BRUI: random values."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

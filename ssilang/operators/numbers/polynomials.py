@@ -1,5 +1,7 @@
 """Roots of polynomials: RACP, DEG3 of the third degree."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray

@@ -1,5 +1,7 @@
 """TEMP DATE: time used, date and hour."""
 
+from __future__ import annotations
+
 import time
 from datetime import datetime
 from typing import Any

@@ -1,5 +1,7 @@
 """QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on, what procedures read and give."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from typing import Any, NoReturn
 

@@ -1,5 +1,7 @@
 """VIDE: empty objects, and whether an object is empty."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

@@ -1,5 +1,7 @@
 """TYPE EXIS OUBL DETR MENA NOMM OBJE METH HERI: objects and their names."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

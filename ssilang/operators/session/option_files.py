@@ -1,5 +1,7 @@
 """Options of OPTI that name files; reading another script in the middle of one (OPTI DONN)."""
 
+from __future__ import annotations
+
 import io
 from collections.abc import Callable
 from pathlib import Path

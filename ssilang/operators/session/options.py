@@ -1,5 +1,7 @@
 """OPTI, VALE, DENS: the settings of a calculation, several in one statement."""
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Callable
 from typing import Any

@@ -1,5 +1,7 @@
 """Calls of the user's procedures from a calculation (PERSO1)."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from ssilang.language.run.procedures import call_procedure

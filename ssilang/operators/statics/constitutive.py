@@ -1,5 +1,7 @@
 """COMP ECOU PLAS KTAN HOTA CRIT MOTA: constitutive laws at integration points."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from typing import Any
 

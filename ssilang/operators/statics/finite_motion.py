@@ -1,5 +1,7 @@
 """POLA PICA CAPI WORK FOFI TAGR: gradients and configurations of finite motions."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 from ssilang.kernel.elements.boundary import is_solid

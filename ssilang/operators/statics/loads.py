@@ -1,5 +1,7 @@
 """FORC MOME PRES FSUR CNEQ: nodal forces of loads."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import NoReturn
 

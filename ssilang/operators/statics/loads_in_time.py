@@ -1,5 +1,7 @@
 """CHAR TIRE, and loadings in EXTR DIME ENLE ET CHAN."""
 
+from __future__ import annotations
+
 from typing import Any, cast
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Contact, friction and sliding cables of PASAPAS's model: conditions, least values, limits."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 

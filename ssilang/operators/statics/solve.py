@@ -1,5 +1,7 @@
 """RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from typing import Any

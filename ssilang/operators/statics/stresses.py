@@ -1,5 +1,7 @@
 """SIGM EPSI BSIG ELAS EPTH THET: strains, stresses and the forces that balance them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 from ssilang.kernel.elements import families

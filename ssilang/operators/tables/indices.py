@@ -1,5 +1,7 @@
 """TABL INDE OTER ETG and tables in DIME, ENLE, COPI; tables of type VECTEUR in sums."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from ssilang.kernel.base.errors import NoResultError

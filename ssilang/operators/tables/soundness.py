@@ -1,5 +1,7 @@
 """Values that no calculation can use: numbers that are not finite, curves without content."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

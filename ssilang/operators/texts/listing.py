@@ -1,5 +1,7 @@
 """LIST: what objects hold, in readable lines."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from typing import Any
 

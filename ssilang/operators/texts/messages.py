@@ -1,5 +1,7 @@
 """MESS, ERRE, SAUT, TITR: what a script says to its reader."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,5 +1,7 @@
 """MOT, CHAI, and what other operators do with words: CHAN 'MAJU', EXTR, DIME, ET."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

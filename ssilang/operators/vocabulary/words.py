@@ -5,6 +5,8 @@ unknowns are; the vocabulary (`ssilang.language.vocabulary`) knows what each nam
 MODE, MATE, OPTI and the checker ask here.
 """
 
+from __future__ import annotations
+
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cache

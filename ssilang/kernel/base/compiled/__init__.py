@@ -6,6 +6,8 @@ starts take longer. So it is by itself with versions of Python, numba, llvmlite 
 not tried (`tried`), where numba keeps code as it does; SSILANG_PLAIN_NUMBA=0 tries them.
 """
 
+from __future__ import annotations
+
 import os
 
 from ssilang.kernel.base.compiled.tried import untried

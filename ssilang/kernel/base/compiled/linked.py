@@ -8,6 +8,8 @@ calls, and what is reached by its address (`apart`), is made as numba makes it, 
 
 # mypy: allow-untyped-calls
 
+from __future__ import annotations
+
 import gc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

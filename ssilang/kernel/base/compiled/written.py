@@ -7,6 +7,8 @@ something is compiled, and goes into the caller.
 
 # mypy: allow-untyped-calls
 
+from __future__ import annotations
+
 import functools
 import importlib
 from collections.abc import Callable

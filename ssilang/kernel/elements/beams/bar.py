@@ -1,5 +1,7 @@
 """Bars, lines that resist only lengthening, and hoops, points that stand for rings (CERC)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

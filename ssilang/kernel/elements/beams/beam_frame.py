@@ -1,5 +1,7 @@
 """Local axes and section constants of beams."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Nodal forces of pressures, surface tractions and body forces."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 
 import numpy as np

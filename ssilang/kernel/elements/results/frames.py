@@ -1,5 +1,7 @@
 """Local frames at the points of a field in cells, and tensors seen in them."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,6 +4,8 @@ The side of a shell that counts as upper stays the element's own: only the two a
 change.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Fields in cells carried from one support to another, and to and from nodes."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from typing import Literal
 

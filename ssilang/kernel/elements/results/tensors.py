@@ -1,5 +1,7 @@
 """Stress and strain fields of continuous elements as tensors: principal values, invariants."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,6 +4,8 @@ Bathe and Dvorkin (1985). The element's own frame has z along the mean normal an
 from node 1 to node 2; a small warp of the four nodes is neglected.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -7,6 +7,8 @@ incomplete cubic deflection (see `cubic_plate`). The element's own frame has x a
 node 1 to node 2 and z along the normal.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,5 +1,7 @@
 """What the shells share: nodes that move and turn, strains and stresses with fixed names."""
 
+from __future__ import annotations
+
 from typing import ClassVar
 
 from ssilang.kernel.elements.family import ElementFamily, Layout, node_major_layout

@@ -1,5 +1,7 @@
 """Elastic law of a thin shell's section: forces N11 N22 N12 and moments M11 M22 M12."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

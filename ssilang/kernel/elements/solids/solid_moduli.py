@@ -1,5 +1,7 @@
 """Elastic moduli of the continuous elements of a zone, from its material parameters."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

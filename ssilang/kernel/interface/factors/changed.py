@@ -7,6 +7,8 @@ With A the matrix of the factors and E the columns of the jumps whose points cha
 Columns of Z are kept as long as the factors are.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

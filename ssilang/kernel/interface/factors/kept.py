@@ -6,6 +6,8 @@ many jumps correct the solutions of these factors, not the factors: directly for
 changed (`Changes`), else by iterations (`Krylov`).
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -8,6 +8,8 @@ factors all the same. With A the matrix of the factors and dK what was added to 
 takes GMRES (Saad and Schultz 1986) a few turns, each a product with S and a solve with the factors.
 """
 
+from __future__ import annotations
+
 import math
 from typing import NamedTuple
 

@@ -1,5 +1,7 @@
 """LU factors of Newton's matrix `1 + S (c K - R)` of a condensed interface."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

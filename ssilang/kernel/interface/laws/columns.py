@@ -3,6 +3,8 @@
 Compiled code takes members of these enumerations for plain numbers.
 """
 
+from __future__ import annotations
+
 from enum import IntEnum
 
 

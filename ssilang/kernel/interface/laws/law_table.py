@@ -1,5 +1,7 @@
 """The laws of joints by name: parameters they read, what they refuse, the code they run under."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

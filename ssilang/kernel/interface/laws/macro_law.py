@@ -9,6 +9,8 @@ in closed form: a strip or rectangle, a disc, two springs. Nonlinear elastic, no
 point at s along the base opens by `v + theta s`; in 3D by `v + theta_1 s_2 - theta_2 s_1`.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -3,6 +3,8 @@
 A point at s opens by `v + theta s` in the plane, by `v + theta_1 s_2 - theta_2 s_1` in space.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Parameters of the joint laws: defaults, admissibility."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

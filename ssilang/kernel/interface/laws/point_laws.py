@@ -8,6 +8,8 @@ To add a law: write it, give it a code (`columns.LawCode`), a row in `law_table.
 `point_response`.
 """
 
+from __future__ import annotations
+
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled

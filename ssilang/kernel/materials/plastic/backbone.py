@@ -1,5 +1,7 @@
 """Shear stress over shear strain under a first loading: curves of G/Gmax, and the hyperbola."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

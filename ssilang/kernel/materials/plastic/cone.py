@@ -6,6 +6,8 @@ during the return, so that one scalar equation is left; where the deviator would
 return goes to the apex. (Simo and Hughes 1998; de Souza Neto, Peric and Owen 2008, chapter 8.)
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Drucker and Prager's cone for soils: perfect and associated, or hardening with its own flow."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

@@ -8,6 +8,8 @@ hyperbola. The surface being smooth, the return is the closest point by Newton o
 multiplier together, and its tangent is exact.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

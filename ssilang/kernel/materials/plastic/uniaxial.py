@@ -1,5 +1,7 @@
 """Laws of fibres: one stress along the fibre; shear stays elastic."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

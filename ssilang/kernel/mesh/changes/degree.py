@@ -1,5 +1,7 @@
 """Cells of one degree made of cells of the other: middles added or dropped."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

@@ -1,5 +1,7 @@
 """Merging of nodes that lie close to each other (ELIM), and cells that this degenerates (REGE)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

@@ -1,5 +1,7 @@
 """Moved copies of meshes, and nodes moved in place."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,5 +1,7 @@
 """Triangles between two lines, and cells joined to a point."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

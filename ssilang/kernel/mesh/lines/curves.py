@@ -1,5 +1,7 @@
 """Shapes of curves: circular arcs, parabolas, polynomial curves, cubics."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

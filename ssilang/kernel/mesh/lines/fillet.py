@@ -1,5 +1,7 @@
 """Circular arcs that round the corner between two lines."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Tangents, normals and binormals along lines."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,5 +1,7 @@
 """Meshes of curves: straight lines, polylines and any parametrised curve."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Shape of cells by coordinates (n_cells, n_nodes, dim) of their nodes: indicators, heights."""
 
+from __future__ import annotations
+
 import itertools
 from itertools import combinations
 from math import factorial

@@ -1,5 +1,7 @@
 """Signed distances of points to a line of segments (2D) or a surface of triangles (3D)."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

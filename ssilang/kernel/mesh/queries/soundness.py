@@ -1,5 +1,7 @@
 """What is wrong with a mesh: repeated cells, neighbours of other degrees, faces that do not fit."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

@@ -1,5 +1,7 @@
 """Simple surfaces and lines given by points: distance to them and projection on them."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Triangles refined, or inside plane lines of which some end inside or cut the domain in parts."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,5 +1,7 @@
 """A mesh as a surface (a line in the plane) of flat facets, for projections on it."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,5 +1,7 @@
 """Points put inside a plane contour so that its triangulation has a wanted size."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,5 +1,7 @@
 """Surfaces `P(u, v) = sum P_ij u^i v^j` meshed over a rectangle of their parameters."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

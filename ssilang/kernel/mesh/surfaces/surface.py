@@ -1,5 +1,7 @@
 """Surfaces inside closed contours, of triangles, paired to quadrangles, or whole polygons."""
 
+from __future__ import annotations
+
 from collections import deque
 
 import numpy as np

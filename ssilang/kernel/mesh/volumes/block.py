@@ -1,5 +1,7 @@
 """Bricks inside six faces meshed as grids (transfinite interpolation)."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -7,6 +7,8 @@ share what they have in common: four vectors of one sum, or four sums of one vec
 
 # mypy: allow-untyped-calls
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

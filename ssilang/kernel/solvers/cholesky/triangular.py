@@ -1,5 +1,7 @@
 """Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

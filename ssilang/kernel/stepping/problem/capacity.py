@@ -1,5 +1,7 @@
 """What presses on ground that yields, against what the ground bears."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Forces of the conditions at instants of a motion, from its balance."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,6 +4,8 @@ Bodies are looked at as they stand: translations along the axes of those that so
 and one motion for each load, that of its forces on the structure at rest.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property

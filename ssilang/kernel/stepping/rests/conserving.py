@@ -7,6 +7,8 @@ rounding whatever dt and the joints' stiffness. The matrix is that of the averag
 Unilateral relations push by mean reactions that give back all energy (`contact.conserving`).
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,5 +1,7 @@
 """Meshes of other cells, or given node by node: CHAN MANU."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 

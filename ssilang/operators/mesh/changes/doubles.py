@@ -1,5 +1,7 @@
 """Nodes that stand at one place: ELIM merges them, REGE clears cells of them, DEDO makes them."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.mesh.changes.cut_open import cut_open

@@ -1,5 +1,7 @@
 """Joint cells between meshes: RACC LIAI GENJ; TASS."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.mesh.combine import poi1

@@ -1,5 +1,7 @@
 """How cells are described: INVE ORIE VERS ORDO."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.mesh.boundary import (

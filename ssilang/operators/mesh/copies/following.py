@@ -1,5 +1,7 @@
 """DEDU: copies that follow some nodes, or go through the map between two meshes."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Moved copies of objects: PLUS MOIN TOUR SYME HOMO AFFI PROJ."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any

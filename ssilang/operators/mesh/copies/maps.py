@@ -1,5 +1,7 @@
 """Geometric maps as operators read them: rotation, symmetry, scaling, affinity, projection."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Nodes moved in place: DEPL."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 

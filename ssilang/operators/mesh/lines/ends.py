@@ -1,5 +1,7 @@
 """What operators that draw lines read: ends, numbers of elements, mesh sizes."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Polynomial curves: PARA CUBP CUBT COUR."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

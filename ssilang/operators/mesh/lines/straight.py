@@ -1,5 +1,7 @@
 """Straight and broken lines: DROI LIGN QUEL."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Mapping, Sequence
 

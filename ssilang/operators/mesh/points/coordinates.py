@@ -1,5 +1,7 @@
 """COOR: coordinates of points, of nodes and of integration points."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.kernel.mesh.boundary import chained

@@ -1,5 +1,7 @@
 """POIN: points picked from meshes and fields, or made from coordinates."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np

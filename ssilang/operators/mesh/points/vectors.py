@@ -1,5 +1,7 @@
 """Points as vectors: + - * /, PSCA, PVEC, PMIX, NORM."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What a mesh holds: NBEL NBNO MESU, REFE for its names; how points and meshes are listed."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS

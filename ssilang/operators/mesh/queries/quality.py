@@ -1,5 +1,7 @@
 """Shape of cells (INDI) and what is wrong with a mesh (VERM)."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

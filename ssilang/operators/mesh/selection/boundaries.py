@@ -1,5 +1,7 @@
 """Boundaries of meshes: CONT ENVE ARET."""
 
+from __future__ import annotations
+
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,

@@ -1,5 +1,7 @@
 """ELEM: cells picked from a mesh, or by the values of a field in cells."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

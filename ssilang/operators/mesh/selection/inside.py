@@ -1,5 +1,7 @@
 """What lies inside lines, surfaces and volumes: DEDA INCL."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import NDArray
 

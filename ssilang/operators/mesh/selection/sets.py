@@ -1,5 +1,7 @@
 """Meshes as sets: ET DIFF INTE UNIQ, and VISA for nodes at the same place."""
 
+from __future__ import annotations
+
 from collections.abc import Collection
 
 import numpy as np

@@ -1,5 +1,7 @@
 """PART and CCON: a mesh taken apart into a table of zones."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any

@@ -1,5 +1,7 @@
 """Surfaces inside contours: SURF DALL."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 
 import numpy as np

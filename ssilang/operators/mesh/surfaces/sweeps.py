@@ -1,5 +1,7 @@
 """Surfaces swept by lines: TRAN, ROTA, REGL, GENE."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Triangles inside lines and between points (TRIA RAFT COUT), Voronoi's partition (VORO)."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Reduced models under way: their steps, and how far two nested ones are apart."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 

@@ -4,6 +4,8 @@ The event is located to dt/2^DEEPEST; elsewhere the step asked for is kept. Load
 within a step.
 """
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

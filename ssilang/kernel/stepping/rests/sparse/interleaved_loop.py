@@ -22,6 +22,8 @@ its new velocities and right side, and goes forward for the next step before the
 read: the factor comes from memory once a step, not twice.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
