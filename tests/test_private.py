@@ -1,5 +1,7 @@
 """Kept code that another could have written is never read."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys

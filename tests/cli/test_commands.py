@@ -1,5 +1,7 @@
 """`ssilang FILE`, `run`, `check`, `help`: output, messages, exit codes."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 

@@ -1,5 +1,7 @@
 """`ssilang warm` compiles what decks need, and no run after it compiles that again."""
 
+from __future__ import annotations
+
 import os
 import re
 import subprocess

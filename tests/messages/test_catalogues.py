@@ -1,5 +1,7 @@
 """Every code has its sentences in both languages, every sentence its code."""
 
+from __future__ import annotations
+
 import ast
 import re
 import tomllib

@@ -1,5 +1,7 @@
 """The interactive session, fed with lines."""
 
+from __future__ import annotations
+
 import io
 
 import pytest

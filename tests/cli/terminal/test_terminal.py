@@ -1,5 +1,7 @@
 """The program on a real terminal: keys, Ctrl-C, completion, paging, the progress line."""
 
+from __future__ import annotations
+
 import sys
 
 import pytest

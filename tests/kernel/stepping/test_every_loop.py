@@ -4,6 +4,8 @@ Nothing is solved here: that balance, supports, Newmark's formulas, laws and ene
 step says that the step is right, whatever way led to it.
 """
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 import numpy as np

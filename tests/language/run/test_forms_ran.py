@@ -1,5 +1,7 @@
 """Which forms of operators a run has gone through."""
 
+from __future__ import annotations
+
 from typing import NoReturn
 
 import pytest

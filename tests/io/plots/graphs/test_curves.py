@@ -1,5 +1,7 @@
 """Drawings of curves: what stands on the axes."""
 
+from __future__ import annotations
+
 import dataclasses
 from pathlib import Path
 from typing import Any

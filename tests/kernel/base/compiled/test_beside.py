@@ -1,5 +1,7 @@
 """The process that compiles beside a run: who compiles what, how it ends, what it is told ahead."""
 
+from __future__ import annotations
+
 import importlib
 import inspect
 import os

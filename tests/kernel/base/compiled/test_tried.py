@@ -1,5 +1,7 @@
 """Ways into numba's insides are used with versions that were tried, and with no others."""
 
+from __future__ import annotations
+
 import os
 import subprocess
 import sys

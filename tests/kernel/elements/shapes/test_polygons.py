@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.polygons import (
     SIDES,
@@ -20,8 +20,7 @@ PLATE = (
 
 
 def found(script: str, *names: str) -> tuple:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return tuple(result.session.root.find(n) for n in names)
 
 

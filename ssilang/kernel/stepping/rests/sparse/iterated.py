@@ -210,11 +210,7 @@ class IteratedSolver:
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
-        from ssilang.kernel.solvers.multigrid.multigrid import (
-            MOST_TURNS,
-            conjugate_gradients,
-            minimal_residuals,
-        )
+        from ssilang.kernel.solvers.multigrid import multigrid
 
         s, joints = self.system, self.interface
         change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
