@@ -229,10 +229,12 @@ class IteratedSolver:
 
         cycle = s.factor.hierarchy.cycle
         if symmetric:
-            found = conjugate_gradients(multiply, cycle, rest, enough, MOST_TURNS)
+            found = multigrid.conjugate_gradients(
+                multiply, cycle, rest, enough, multigrid.MOST_TURNS
+            )
             self.turns += found.turns
         if not symmetric or not found.converged:
-            found = minimal_residuals(multiply, cycle, rest, enough, MOST_TURNS)
+            found = multigrid.minimal_residuals(multiply, cycle, rest, enough, multigrid.MOST_TURNS)
             self.turns += found.turns
         increment: FloatArray = s.T @ found.x
         return increment, found.residual < 0.5 * float(np.linalg.norm(rest))
