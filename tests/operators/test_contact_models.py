@@ -138,7 +138,7 @@ def test_adherence_is_refused_with_what_takes_its_place(tmp_path):
     result = failed(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "
         "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; C = MATE M 'MU' 0.3 'ADHE' 1. ;",
-        output_directory=tmp_path,
+        folder=tmp_path,
     )
     assert "ADHE is not built" in result.message
     assert "JOINT_SDM" in result.message

@@ -249,6 +249,6 @@ def test_yielding_bars_in_finite_displacements_are_refused(tmp_path):
         "T . 'CARACTERISTIQUES' = MATE M 'YOUN' 1. 'NU' 0. 'SIGY' 1. 'SECT' 1. ; "
         "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' (L POIN 1) ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
         "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;",
-        output_directory=tmp_path,
+        folder=tmp_path,
     )
     assert "built for plastic laws of continuous elements, not for BARR" in result.message

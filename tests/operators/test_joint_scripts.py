@@ -351,14 +351,14 @@ def test_surface_joints_have_no_anisotropy_and_moduli_must_be_positive(tmp_path)
     refused = failed(
         plane + "A = DROI 4 (0. 0.) (2. 0.) ; J = RACC 0.01 A (A PLUS (0. 0.)) ; "
         "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' ;",
-        output_directory=tmp_path / "1",
+        folder=tmp_path / "1",
     )
     assert "only JOI1" in refused.message
     refused = failed(
         plane + "L = MANU 'SEG2' (0. 0.) (0. 0.1) ; "
         "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
         "K = RIGI M (MATE M 'D11' 1. 'D22' 1. 'D21' 2. 'D33' 1.) ;",
-        output_directory=tmp_path / "2",
+        folder=tmp_path / "2",
     )
     assert "negative energy" in refused.message
 

@@ -210,7 +210,7 @@ class IteratedSolver:
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
-        from ssilang.kernel.solvers.multigrid import multigrid
+        from ssilang.kernel.solvers.multigrid import multigrid as krylov
 
         s, joints = self.system, self.interface
         change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
@@ -229,12 +229,10 @@ class IteratedSolver:
 
         cycle = s.factor.hierarchy.cycle
         if symmetric:
-            found = multigrid.conjugate_gradients(
-                multiply, cycle, rest, enough, multigrid.MOST_TURNS
-            )
+            found = krylov.conjugate_gradients(multiply, cycle, rest, enough, krylov.MOST_TURNS)
             self.turns += found.turns
         if not symmetric or not found.converged:
-            found = multigrid.minimal_residuals(multiply, cycle, rest, enough, multigrid.MOST_TURNS)
+            found = krylov.minimal_residuals(multiply, cycle, rest, enough, krylov.MOST_TURNS)
             self.turns += found.turns
         increment: FloatArray = s.T @ found.x
         return increment, found.residual < 0.5 * float(np.linalg.norm(rest))
