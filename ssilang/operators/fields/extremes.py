@@ -143,10 +143,7 @@ def _add_forms(operator: Operator, largest: bool) -> None:
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
-        main("value", "MCHAML", en="field in cells"),
-        _ABSOLUTE,
-        *_COMPONENTS,
-        gives="FLOTTANT",
+        main("value", "MCHAML", en="field in cells"), _ABSOLUTE, *_COMPONENTS, gives="FLOTTANT"
     )(partial(_of_cell_field, largest=largest))
 
 

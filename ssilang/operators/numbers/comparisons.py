@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.language.registry import SCALAR_RULES, arg, operator
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
+from ssilang.language.registry import SCALAR_RULES
 from ssilang.operators.dispatch import union
 from ssilang.operators.prelude import *
 
@@ -85,10 +84,7 @@ def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
 def _word_and_number(call: Call, sign: str, word: str) -> bool:
     """A word is no number: they differ, which is told since the word may be a name misspelt."""
     call.session.warn(
-        "operators.numbers.word-and-number",
-        call.span,
-        operator=sign,
-        word=word.rstrip(),
+        "operators.numbers.word-and-number", call.span, operator=sign, word=word.rstrip()
     )
     return False
 
