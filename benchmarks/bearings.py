@@ -9,8 +9,6 @@ What differs: APPUI_PENDULE is lifted by its bowl (u^2 / 2 R), singleFPBearing i
 forces with the bowl's slope; here the normal force is imposed, not the vertical displacement.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

@@ -11,8 +11,6 @@ printed only if all displacements of a corner of the block's top agree within 1e
 one at every step that the peer made. Memory is the largest resident size of the process.
 """
 
-from __future__ import annotations
-
 import json
 import resource
 import subprocess

@@ -6,8 +6,6 @@ Runs the deck `cases/footing/block_on_soil.ssi` in a process of its own and read
 its summary: unknowns, steps, the loop's speed for each of its three calculations, peak memory.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -3,8 +3,6 @@
 python benchmarks/club_b.py [steps]
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from pathlib import Path

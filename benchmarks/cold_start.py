@@ -6,8 +6,6 @@ Each run is a process of its own. The first writes the bytecode, as an installat
 file caches and is not counted.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import subprocess

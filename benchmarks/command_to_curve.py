@@ -10,8 +10,6 @@ compiled code kept from an earlier run. The two run in turn; medians are printed
 only if the curves agree within 1e-6 of the largest value. With many steps the peer runs once.
 """
 
-from __future__ import annotations
-
 import csv
 import importlib.util
 import os

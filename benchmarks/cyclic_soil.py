@@ -17,8 +17,6 @@ at a residual of 1e-10 of the forces. Processor time of the steps alone, two run
 faster counts.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 

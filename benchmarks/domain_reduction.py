@@ -10,8 +10,6 @@ largest of all nodes outside, and inside against the free field, over the peak o
 rest shows it where theory gives the free field.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from pathlib import Path

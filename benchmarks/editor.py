@@ -8,8 +8,6 @@ pipe to an editor adds is not counted. Problems are looked for when no key comes
 shown beside.
 """
 
-from __future__ import annotations
-
 import gc
 import re
 import statistics

@@ -9,8 +9,6 @@ tension, yield, the gap keeps what was pressed in). Here it is MACRO_SEMELLE wit
 pair, whose places are 64 too; where the ground is elastic it is the closed form.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

@@ -16,8 +16,6 @@ A defect: something of Python that comes out, an internal error, more than 20 s 
 outside of the script's own loops, a figure that is not finite without a word.
 """
 
-from __future__ import annotations
-
 import ast
 import gc
 import io

@@ -7,8 +7,6 @@ Prints how many runs succeeded, failed with a message, and each defect (an opera
 something of Python through) once, with the shortest script that shows it; exits 1 if any.
 """
 
-from __future__ import annotations
-
 import io
 import random
 import re

@@ -7,8 +7,6 @@ a result or a message within the time limit and the memory limit. Prints the out
 defect once, with a statement that shows it; exits 1 if there is any.
 """
 
-from __future__ import annotations
-
 import faulthandler
 import io
 import random

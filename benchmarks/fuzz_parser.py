@@ -6,8 +6,6 @@ Without files the decks of `cases/` and `stdlib/` are the seeds. Long seeds are 
 few statements. Prints how many inputs were parsed, refused, and the slowest; exits 1 on a failure.
 """
 
-from __future__ import annotations
-
 import random
 import resource
 import sys

@@ -9,8 +9,6 @@ names the entry. Prints defects, slow runs, and messages that do not name their 
 also what passed); exits 1 if there is a defect or a slow run.
 """
 
-from __future__ import annotations
-
 import io
 import signal
 import sys

@@ -11,8 +11,6 @@ Prints a table with the exponents of growth between neighbours and draws all of 
 picture's name the one of this folder is replaced.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

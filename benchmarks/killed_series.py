@@ -9,8 +9,6 @@ own: right values at the last step that the file tells of, wrong ones, or a read
 h5py comes with `pip install h5py`; without it, this project's writer is looked at alone.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import sys

@@ -11,8 +11,6 @@ scalar loops, one closure call a sign; ET, the copy of the list at each turn (qu
 items copy 400 MB); general operators, reading operands by type (about 7 microseconds a call).
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from pathlib import Path

@@ -7,8 +7,6 @@ Lists, messages, sums, unions, tables and strings written out in a script, 10 00
 program left out. Beside the seconds, the exponent of growth between the two lengths: 1 is linear.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 import time

@@ -12,8 +12,6 @@ the turns of conjugate gradients; the largest resident size after each; open poi
 the balance of energies over the work of the loads. OMP_NUM_THREADS says how many threads.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

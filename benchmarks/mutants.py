@@ -23,8 +23,6 @@ the first that ran and whatever it calls would be compiled anew; cosmic-ray chan
 one command of tests for all: neither draws by lines nor asks the room's tests first.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import compileall

@@ -1,7 +1,5 @@
 """The oscillator of club-b as a script, for the benchmarks."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 from pathlib import Path

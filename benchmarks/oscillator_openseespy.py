@@ -8,8 +8,6 @@ spring (OpenSees: Elastic and ENT materials in two zeroLength elements). The rat
 only if the two displacements agree within 1e-9 of the release at every step of one second.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

@@ -12,8 +12,6 @@ largest values that nobody asked for. Loops that give the largest values only wh
 there, nobody pays who does not ask, and reading them later steps again.
 """
 
-from __future__ import annotations
-
 import ctypes
 import statistics
 import sys

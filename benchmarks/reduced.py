@@ -9,8 +9,6 @@ first motion on the model, basis included; `next` another motion on the same mod
 kept, estimate of the error included; `march` the reduced steps alone.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable

@@ -7,8 +7,6 @@ the series, the histories and all numbers of the saved tables, to the last bit. 
 are equal, and how long the undisturbed runs take.
 """
 
-from __future__ import annotations
-
 import random
 import shutil
 import signal

@@ -10,8 +10,6 @@ its solvers and the fastest counts. Displacements of the roof and uplift of both
 within 1e-6 of their largest at all steps saved before a speed is printed.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

@@ -10,8 +10,6 @@ Motions must agree within 1e-6 before a speed is printed; the third speed is the
 loop on sparse matrices, that larger models take.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

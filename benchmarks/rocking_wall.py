@@ -12,8 +12,6 @@ runs `cases/published/rocking_wall.ssi`. Both model one wall, and differ in how 
 swings are more than 5 % apart.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import sys

@@ -9,8 +9,6 @@ with VTK and compared to the last bit. If h5py is installed, its own writer of t
 the same filters is timed too, flushed after each instant as a file must be that a kill may meet.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

@@ -8,8 +8,6 @@ with the start by projected forces and once more, from the same state, without i
 time and turns of Newton's method. Both must find the same jumps within 1e-8.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from typing import Any

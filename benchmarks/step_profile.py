@@ -7,8 +7,6 @@ backward solve alone, the factor's size, and the time in which this processor co
 bytes from memory of that size (a sum over an array).
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable

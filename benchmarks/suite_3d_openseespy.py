@@ -16,8 +16,6 @@ within 1e-6 of the largest one (whole), and the reduced motions with the whole o
 tolerance.
 """
 
-from __future__ import annotations
-
 import json
 import resource
 import subprocess

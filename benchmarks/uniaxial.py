@@ -13,8 +13,6 @@ Then a section of 400 fibres of steel and concrete, the same places and areas in
 normal force and a curvature that goes to and fro: moments, and processor time for each step.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable

@@ -12,8 +12,6 @@ factorisation included: ssilang over 1 000 steps, the peer, whose steps all cost
 fewer. The two run in turn; the median of three is kept (one above 10 000 unknowns).
 """
 
-from __future__ import annotations
-
 import statistics
 import sys
 import time

@@ -13,8 +13,6 @@ one at every step that both made. Times are processor times of the stepping loop
 and assembly included; a run of the same steps before loads the compiled code.
 """
 
-from __future__ import annotations
-
 import resource
 import sys
 import time

@@ -1,7 +1,5 @@
 """What was not tested and why, above the closing line: a count for each reason."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Generator, Iterable

@@ -1,7 +1,5 @@
 """PETSc for tests: two processes of the system's Python, where it and MPI are installed."""
 
-from __future__ import annotations
-
 import glob
 import os
 import shutil

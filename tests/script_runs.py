@@ -1,26 +1,30 @@
 """Running a script in a test and looking at what it made."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
-from ssilang.cli.run import RunResult, run_text
+from ssilang.cli.run import RunOptions, RunResult, run_text
+
+
+def ran(
+    script: str, output_directory: Path | None = None, options: RunOptions | None = None
+) -> RunResult:
+    """The end of a script that must succeed."""
+    result = run_text(script, output_directory, options)
+    assert result.exit_code == 0, result.message
+    return result
 
 
 def found(script: str, *names: str, folder: Path | None = None) -> Any:
     """The objects of these names, one alone for one name; the script must succeed."""
-    result = run_text(script, output_directory=folder)
-    assert result.exit_code == 0, result.message
-    values = tuple(result.session.root.find(n) for n in names)
+    root = ran(script, folder).session.root
+    values = tuple(root.find(n) for n in names)
     return values[0] if len(values) == 1 else values
 
 
 def printed(script: str, folder: Path | None = None) -> list[str]:
     """The lines that a script prints; it must succeed."""
-    result = run_text(script, output_directory=folder)
-    assert result.exit_code == 0, result.message
-    return result.output.rstrip("\n").split("\n")
+    return ran(script, folder).output.rstrip("\n").split("\n")
 
 
 def failed(script: str, folder: Path | None = None) -> RunResult:

@@ -1,7 +1,5 @@
 """The house rules: lint, format, types, import directions, circles, rooms, names, global state."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess
@@ -19,7 +17,7 @@ _SOURCES = ["ssilang", "tests", "benchmarks", "docs"]
 
 TYPED_NUMPY = "2.4."  # its stubs change with each version
 DOORS = 20  # files and rooms in a room
-CAPS = {"": 54_850, "kernel/stepping": 3_917, "kernel/solvers": 2_490, "kernel/interface": 2_385}
+CAPS = {"": 54_848, "kernel/stepping": 3_916, "kernel/solvers": 2_488, "kernel/interface": 2_384}
 """Lines of code in bodies that the package and some rooms may have: what comes pays with what goes.
 
 To aim at: 45 000 and 3 500 for stepping.

@@ -1,7 +1,5 @@
 """What is told of tests that were not run."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What a public project has beside its program: workflows, forms, images, recipes."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

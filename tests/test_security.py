@@ -1,7 +1,5 @@
 """SECURITY.md names all readers of what others may have written, with tests that there are."""
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

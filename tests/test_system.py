@@ -4,8 +4,6 @@ A child process gets a Python from which these names are gone, and in which a fi
 be neither replaced nor removed, as on Windows. Windows' own locks are played by those of POSIX.
 """
 
-from __future__ import annotations
-
 import ast
 import csv
 import os
@@ -23,8 +21,8 @@ import pytest
 import ssilang
 from ssilang import system
 from ssilang.io import atomic
+from ssilang.io.atomic import fault_on_windows
 from ssilang.io.errors import OutputError
-from ssilang.io.file_names import fault_on_windows
 from ssilang.io.run_output import RunOutput
 from ssilang.io.vtk.growing import GrowingFile
 from ssilang.messages.message import sentence
@@ -373,7 +371,7 @@ def test_a_drive_is_a_place_on_windows_alone(tmp_path: Path, monkeypatch) -> Non
             with pytest.raises(OutputError) as refused:
                 ask(name)
             assert "a drive of Windows" in sentence(refused.value.code, refused.value.data)
-    monkeypatch.setattr("ssilang.io.file_names.POSIX", False)
+    monkeypatch.setattr("ssilang.io.atomic.POSIX", False)
     output.target("c:/x/y.vtu")
 
 

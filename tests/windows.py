@@ -1,7 +1,5 @@
 """Whether the system has what scenes in space are drawn with; found apart from what is tested."""
 
-from __future__ import annotations
-
 import sys
 from ctypes import CDLL
 from functools import cache

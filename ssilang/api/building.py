@@ -38,8 +38,8 @@ from ssilang.kernel.statics.linear import product, solve
 from ssilang.kernel.stepping.node_track import NodeTrack
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import History, integrate
-from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.say.errors import SsiError
+from ssilang.language.search import SHORT_LIKE, nearest
 
 FIELDS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
 _MODES = {2: Mode.PLANE_STRAIN, 3: Mode.THREE_DIMENSIONAL}

@@ -15,7 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.near import SHORT_LIKE, nearest
+from ssilang.language.search import SHORT_LIKE, nearest
 
 if TYPE_CHECKING:
     import pandas

@@ -13,7 +13,7 @@ from ssilang.api.view import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering, field_to_vector
-from ssilang.language.near import SHORT_LIKE, nearest
+from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.values import LazyRows, Table
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import InstantField, RecordedFields

@@ -19,7 +19,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.near import SHORT_LIKE, nearest
+from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.values import (
     ListChpo,
     ListEnti,

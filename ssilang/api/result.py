@@ -22,11 +22,11 @@ from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text.source import Source
 from ssilang.language.values import Table, type_of
 from ssilang.operators.files.outputs import run_output

@@ -21,13 +21,13 @@ from ssilang import private
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.colour import coloured
 from ssilang.cli.terminal.loop_progress import follow_loops
-from ssilang.language.near import SHORT_LIKE, nearest
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
 from ssilang.language.say.visible import visible
+from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TextIO
 
 from ssilang.io.atomic import replacing
-from ssilang.language.near import nearest
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
+from ssilang.language.search import nearest
 from ssilang.messages.message import teller
 from ssilang.resources import resource
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -11,8 +12,8 @@ from pathlib import Path
 from typing import IO
 
 from ssilang.io.errors import OutputError
-from ssilang.system import replace, usual_rights
-from ssilang.system_reasons import system_reason
+from ssilang.messages.message import Sentence
+from ssilang.system import POSIX, replace, system_reason, usual_rights
 
 
 @contextmanager
@@ -83,3 +84,51 @@ def write_text(path: Path, text: str) -> None:
 def cannot_write(path: Path, error: OSError) -> OutputError:
     """The error of a place that cannot be written."""
     return OutputError("io.cannot-written", path=path, strerror=system_reason(error))
+
+
+_DRIVE = re.compile(r"[A-Za-z]:[/\\]")
+_DEVICE = re.compile(
+    r"(?i:con|prn|aux|nul|conin\$|conout\$|(?:com|lpt)[0-9\u00b9\u00b2\u00b3]) *(\.|\Z)"
+)
+_SIGN = re.compile(r'[<>:"|?*\x00-\x1f]')
+
+
+def portable(name: str) -> str:
+    """The name as all systems read it: folders are parted by /."""
+    return name.strip().replace("\\", "/")
+
+
+def names_foreign_drive(name: str) -> bool:
+    """Whether a name begins with a drive of Windows (`C:`) on a system that has none."""
+    return POSIX and _DRIVE.match(name.strip()) is not None
+
+
+def fault_on_windows(name: str) -> Sentence | None:
+    """Why Windows refuses a name or writes elsewhere: to a device, or beside the file."""
+    for part in os.path.splitdrive(portable(name))[1].split("/"):
+        if part in ("", ".", ".."):
+            continue
+        if _DEVICE.match(part):
+            return Sentence("io.reason-named-device", part=part)
+        if found := _SIGN.findall(part):
+            return Sentence("io.reason-sign", signs=sorted(set(found)))
+        if part[-1] in ". ":
+            return Sentence("io.reason-end", part=part)
+    return None
+
+
+def inside(folder: Path, name: str) -> Path | None:
+    """The file of this name below a folder; None for one elsewhere, a link that leads out, no file.
+
+    Pipes and devices, which would never end, are no files. A name with a root or a drive is refused
+    before the system is asked: that alone would tell another machine who asks.
+    """
+    if Path(name).anchor or "\\" in name or name.startswith("//"):
+        return None
+    path = folder / name
+    try:
+        true = path.resolve(strict=True)
+        sound = true.is_file() and true.is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError):  # gone, a name with a zero, a circle of links
+        return None
+    return path if sound else None

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
-from ssilang.system import GUARDED
-from ssilang.system_reasons import system_reason
+from ssilang.system import GUARDED, system_reason
 
 FORMAT = "ssilang-checkpoint"
 VERSION = 2

@@ -12,7 +12,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 _TITLE_WIDTH = 12
 _GAP = 3  # blank lines between two groups of columns

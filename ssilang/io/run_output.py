@@ -12,13 +12,11 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ssilang.io.atomic import write_text
+from ssilang.io.atomic import fault_on_windows, names_foreign_drive, portable, write_text
 from ssilang.io.errors import OutputError
-from ssilang.io.file_names import fault_on_windows, names_foreign_drive, portable
 from ssilang.io.plots.figure import Pictures
 from ssilang.messages.message import Sentence
-from ssilang.system import POSIX
-from ssilang.system_reasons import system_reason
+from ssilang.system import POSIX, system_reason
 
 if TYPE_CHECKING:
     from ssilang.io.vtk.series import Series

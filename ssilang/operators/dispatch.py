@@ -9,18 +9,8 @@ from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.filled import Filled
-from ssilang.language.registry import (
-    ANY,
-    arg,
-    flag,
-    operator,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListMots, ListObje, Mot, type_of
 from ssilang.messages.message import Teller
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span

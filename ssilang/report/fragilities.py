@@ -14,13 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.atomic import write_text
+from ssilang.io.atomic import inside, write_text
 from ssilang.io.errors import InputError
-from ssilang.io.file_names import inside
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
-from ssilang.language.near import SHORT_LIKE, nearest
+from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report import records
 from ssilang.report.charts import Chart, Line, charts_html

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
-from ssilang.io.file_names import inside
 from ssilang.io.recording import CONTENTS, FOLDER
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.say.errors import SsiError

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.file_names import inside
+from ssilang.io.atomic import inside
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 
 FRAMES = 60

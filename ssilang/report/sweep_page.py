@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from ssilang.io.file_names import inside
+from ssilang.io.atomic import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.fragilities import (

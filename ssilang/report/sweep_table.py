@@ -9,8 +9,8 @@ from itertools import takewhile
 from pathlib import Path
 from urllib.parse import quote
 
+from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError
-from ssilang.io.file_names import inside
 from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES
 

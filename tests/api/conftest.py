@@ -1,7 +1,5 @@
 """One small run for all tests: a mass of 1 kg on a bar of 100 N/m, let go at 0.1 m."""
 
-from __future__ import annotations
-
 import pytest
 
 import ssilang

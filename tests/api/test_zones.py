@@ -1,7 +1,5 @@
 """Fields and meshes in Python with two zones, two kinds of cells and nodes in no order."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

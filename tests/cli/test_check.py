@@ -1,7 +1,5 @@
 """Checking without running: what it finds, and that it raises no false alarm."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 

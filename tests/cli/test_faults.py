@@ -1,7 +1,5 @@
 """Streams that are closed or full, folders that go away, signals, names that cannot be."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -11,9 +9,9 @@ import sys
 import time
 
 import pytest
+from script_runs import failed
 
 from ssilang.cli import signals
-from ssilang.cli.run import run_text
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="shells and signals of one system")
 needs_full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
@@ -105,8 +103,7 @@ def test_a_word_that_fills_the_memory_is_told(shell, tmp_path):
     "statement", ["OPTI SORT '{}' ; SORT 'CHAI' 'x' ;", "T = LIRE 'CSV' '{}' ;", "X = 1 + {} ;"]
 )
 def test_names_that_no_file_can_have_are_refused_in_words(name, statement, tmp_path):
-    result = run_text(statement.format(name), tmp_path)
-    assert result.exit_code == 1
+    result = failed(statement.format(name), tmp_path)
     assert "internal" not in [e.code for e in result.errors]
 
 

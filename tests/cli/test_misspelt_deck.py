@@ -1,7 +1,5 @@
 """`ssilang check` finds slips of the fingers in a whole deck, each at its place, and no other."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """`--resume`: processes that were killed, checkpoints that belong elsewhere."""
 
-from __future__ import annotations
-
 import os
 import random
 import shutil

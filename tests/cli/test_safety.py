@@ -1,11 +1,10 @@
 """A deck reads and writes below its folder and the output folder, and nowhere else."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
@@ -106,8 +105,6 @@ def test_no_operator_talks_to_the_system(outside, word):
 
 
 def test_warnings_of_libraries_stay_out_of_a_run_from_python(tmp_path, recwarn):
-    from ssilang.cli.run import run_text
 
-    result = run_text("X = (PROG 1. 0.) / (PROG 0. 0.) ;", tmp_path)
-    assert result.exit_code == 0, result.message
+    ran("X = (PROG 1. 0.) / (PROG 0. 0.) ;", tmp_path)
     assert not recwarn.list

@@ -1,7 +1,5 @@
 """`ssilang new` and `ssilang completion`: what one meets before the first deck."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """summary.json and the files of a run, fine or failed."""
 
-from __future__ import annotations
-
 import io
 import json
 import os

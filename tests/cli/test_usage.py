@@ -1,7 +1,5 @@
 """Help and refusals of the command line, in both languages."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import subprocess

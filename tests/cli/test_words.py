@@ -1,7 +1,5 @@
 """`ssilang help` of words, in both languages."""
 
-from __future__ import annotations
-
 import pytest
 
 

@@ -1,7 +1,5 @@
 """Figures of the decks against the reference solutions, not against the decks' own formulas."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

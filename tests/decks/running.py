@@ -1,7 +1,5 @@
 """Runs decks of `cases/`, as they are or changed."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from typing import Any

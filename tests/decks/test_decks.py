@@ -1,7 +1,5 @@
 """Every deck of `cases/` runs and passes; spoilt, it says so and the run fails."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -7,8 +7,6 @@ wording, write the messages anew with `SSILANG_UPDATE=1 python -m pytest tests/d
 read every line of the difference.
 """
 
-from __future__ import annotations
-
 import io
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the tests of the manual share."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from pathlib import Path

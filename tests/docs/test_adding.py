@@ -1,7 +1,5 @@
 """The pages on adding things: their diffs apply to the program, and their scripts then say so."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """docs/differences.md: each claim runs here, or names the test that runs it."""
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

@@ -1,14 +1,11 @@
 """The figures of the page of questions: its deck runs with some of the rows of its tables."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path
 
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 _DOCS = Path(__file__).resolve().parents[2] / "docs"
 _PAGE = (_DOCS / "faq.md").read_text(encoding="utf-8")
@@ -25,8 +22,7 @@ def found(**changed: str) -> list[float]:
     deck = _DECK
     for name, value in changed.items():
         deck = re.sub(rf"{name} = \S+ ;", f"{name} = {value} ;", deck, count=1)
-    result = run_text(deck)
-    assert result.exit_code == 0, result.message
+    result = ran(deck)
     return [result.session.root.find(n) for n in ("LIFT", "ACCE", "ERR1")]
 
 

@@ -1,7 +1,5 @@
 """French pages against the English ones: the same scripts, headings and figures."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The page of meshes: its Python runs and prints what it says, its table is that of the code."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 from pathlib import Path

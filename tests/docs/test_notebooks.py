@@ -1,7 +1,5 @@
 """The notebooks of the manual: a study in Python runs; `tests/jupyter` runs that in Gibiane."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

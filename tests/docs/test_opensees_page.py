@@ -1,7 +1,5 @@
 """The model of the page for users of OpenSees: the same answer from both programs."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

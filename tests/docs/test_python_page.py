@@ -1,7 +1,5 @@
 """The Python shown in the manual runs, in order, and prints what the page says."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The scripts of the page on many runs: records are read, decks run, and a suite's fragility."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

@@ -1,7 +1,5 @@
 """The site is made in a small form: strict, so that every link and anchor leads somewhere."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import sys

@@ -1,7 +1,5 @@
 """The extension of VS Code: its colours on all decks, and that it can be packaged."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Columns to CSV and back."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

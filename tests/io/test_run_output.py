@@ -1,7 +1,5 @@
 """Where a run may read and write, and the list of its files."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

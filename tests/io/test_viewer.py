@@ -1,7 +1,5 @@
 """ssilang view: what is drawn of results, meshes and pictures; what is refused; the window."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -12,9 +10,9 @@ import meshio
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
+from script_runs import ran
 
 from ssilang.cli.main import main
-from ssilang.cli.run import run_text
 from ssilang.io.errors import InputError
 from ssilang.io.viewer import Series, Wish, chosen_file, draw
 from tests.windows import needs_window
@@ -33,8 +31,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a series of three instants in one file, and one with a list of files."""
     root = tmp_path_factory.mktemp("results")
     for name, form in (("one", "'VTKHDF'"), ("many", "")):
-        made = run_text(BEAM.replace("FORM", form), root / name)
-        assert made.exit_code == 0, made.message
+        ran(BEAM.replace("FORM", form), root / name)
     return root
 
 

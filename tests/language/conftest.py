@@ -1,13 +1,11 @@
 """Running small scripts: their variables, their output, their first error."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
-from script_runs import failed
+from script_runs import failed, ran
 
-from ssilang.cli.run import RunResult, run_text
+from ssilang.cli.run import RunResult
 from ssilang.language.values import Table, type_of
 
 
@@ -40,9 +38,7 @@ def run(tmp_path):
     """Run a text that must succeed."""
 
     def action(text: str) -> Script:
-        result = run_text(text, output_directory=tmp_path / "out")
-        assert result.exit_code == 0, result.message
-        return Script(result)
+        return Script(ran(text, output_directory=tmp_path / "out"))
 
     return action
 

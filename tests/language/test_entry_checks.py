@@ -1,14 +1,13 @@
 """Tables given to procedures: what cannot be used is refused, what nobody reads is a warning."""
 
-from __future__ import annotations
-
 import io
 
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import RunOptions, make_session, phrase_values, run_text
-from ssilang.language.near import meant, slips
 from ssilang.language.say.diagnostics import sentence
+from ssilang.language.search import meant, slips
 from ssilang.language.text.source import Source
 
 OSCILLATOR = """
@@ -28,8 +27,7 @@ DYNAMIC, PASAPAS = (OSCILLATOR, "T2 = DYNAMIC T1 ;"), (BLOCK, "PASAPAS T1 ;")
 
 def warnings(text: str, language: str = "en") -> list[str]:
     """Sentences and hints about entries, of a run that goes well."""
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     found = [w for w in result.session.warnings if w.code.startswith("entry")]
     return [" = ".join(sentence(w, language)) for w in found]
 
@@ -45,8 +43,7 @@ def warnings(text: str, language: str = "en") -> list[str]:
 )  # fmt: skip
 def test_a_word_for_a_logical_is_told_and_taken_as_it(deck, entry, word):
     script, call = deck
-    result = run_text(script + entry + call)
-    assert result.exit_code == 0, result.message
+    result = ran(script + entry + call)
     (told,) = [w for w in result.session.warnings if w.code == "word-of-truth"]
     assert told.data["word"] == word
     plain = run_text(script + entry.replace("MOT 'FAUX'", "FAUX").replace("'FAUX'", "FAUX") + call)
@@ -121,8 +118,7 @@ def test_warnings_speak_french():
     ],
 )
 def test_values_that_cannot_be_used_are_refused_with_those_that_can(entry, words):
-    result = run_text(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;")
-    assert result.exit_code == 1
+    result = failed(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;")
     for word in words:
         assert word in result.message
 
@@ -158,8 +154,7 @@ def test_swapped_letters_count_once():
 def test_entries_without_effect_are_told_once_and_those_that_ask_for_nothing_are_not():
     more = "T1 . 'SUBSTEPPING' = 3 ; T1 . 'NMAXSUBSTEPS' = 5 ; T1 . 'ACCELERATION' = FAUX ;"
     more += "T1 . 'HYPOTHESE_DEFORMATIONS' = 'LINEAIRE' ;"  # what PASAPAS does anyway
-    result = run_text(BLOCK + more + "PASAPAS T1 ;")
-    assert result.exit_code == 0, result.message
+    result = ran(BLOCK + more + "PASAPAS T1 ;")
     (said,) = [w for w in result.session.warnings if w.code == "entries-without-effect"]
     told, _ = sentence(said, "en")
     assert "'SUBSTEPPING' and 'NMAXSUBSTEPS' without effect" in told
@@ -171,8 +166,7 @@ def test_entries_without_effect_are_told_once_and_those_that_ask_for_nothing_are
 
 def test_an_entry_without_effect_here_that_the_script_reads_itself_is_no_warning():
     more = "T1 . 'PRECISION' = 1.E-3 ; SI ((T1 . 'PRECISION') > 1.) ; FINSI ;"
-    result = run_text(BLOCK + more + "PASAPAS T1 ;")
-    assert result.exit_code == 0, result.message
+    result = ran(BLOCK + more + "PASAPAS T1 ;")
     assert not [w for w in result.session.warnings if w.code == "entries-without-effect"]
 
 

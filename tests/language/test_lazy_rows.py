@@ -1,7 +1,5 @@
 """Tables whose entries are made when they are asked for act as one that has them all."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,10 +1,8 @@
 """Near names: fewest slips, a swap being one."""
 
-from __future__ import annotations
-
 import pytest
 
-from ssilang.language.near import likeness, nearest, nearest_names, slips
+from ssilang.language.search import likeness, nearest, nearest_names, slips
 
 
 @pytest.mark.parametrize(

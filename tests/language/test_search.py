@@ -1,7 +1,5 @@
 """Search: names, summaries, texts, whatever the accents and the form of the word."""
 
-from __future__ import annotations
-
 from ssilang.language.search import Item, fold, search
 
 _ITEMS = [

@@ -1,12 +1,9 @@
 """Type words are compared on their eight letters."""
 
-from __future__ import annotations
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 
 def test_a_longer_type_word_of_a_parameter_is_cut() -> None:
     script = "DEBP F L1*'LISTREELS' N1/ENTIERS ; N2 = DIME L1 ; FINP N2 ; X = F (PROG 1. 2.) ;"
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     assert result.session.root.find("X") == 2

@@ -1,7 +1,5 @@
 """What a run prints speaks one language: that of the run."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 import ssilang.operators.files.saving  # how tables are encoded
 from ssilang.cli.run import RunOptions, run_text
@@ -128,8 +129,7 @@ def ended(monkeypatch):
 def test_decks_that_were_ended_go_on_to_the_same_results(name, tmp_path, ended):
     deck, rng = DECKS[name], np.random.default_rng(len(name))
     truth_folder = tmp_path / "truth"
-    truth = run_text(deck, truth_folder)
-    assert truth.exit_code == 0, truth.message
+    truth = ran(deck, truth_folder)
     whole = content(truth, truth_folder)
     calls = 2 if name in ("two calculations", "layers") else 1
     for how in (KeyboardInterrupt, Killed):
@@ -139,8 +139,7 @@ def test_decks_that_were_ended_go_on_to_the_same_results(name, tmp_path, ended):
             assert run_text(deck, folder).exit_code == 1
         assert (folder / "checkpoints" / f"{calls}.state").is_file()
         ended(0, 0, None)
-        again = run_text(deck, options=RunOptions(folder, resume=True))
-        assert again.exit_code == 0, again.message
+        again = ran(deck, options=RunOptions(folder, resume=True))
         codes = [w.code for w in again.session.warnings]
         assert codes.count("operators.dynamics.resumed") == 1
         assert codes.count("operators.dynamics.given") == calls - 1

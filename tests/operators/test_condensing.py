@@ -1,8 +1,7 @@
 """CMCT: the matrix first, its relations second, and told when they are swapped."""
 
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 START = (
     "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
@@ -12,8 +11,7 @@ START = (
 
 def test_the_relation_leaves_one_unknown():
     """2 u + 3 v = 0: with v = -2 u / 3 the stiffness is 4 + 5 x 4 / 9."""
-    result = run_text(START + "D = MAXI (EXTR (CMCT K C) 'DIAG') ;")
-    assert result.exit_code == 0, result.message
+    result = ran(START + "D = MAXI (EXTR (CMCT K C) 'DIAG') ;")
     one, other = 4 + 5 * 4 / 9, 5 + 4 * 9 / 4
     found = result.session.root.find("D")
     assert found == pytest.approx(one) or found == pytest.approx(other)
@@ -24,6 +22,5 @@ def test_the_relation_leaves_one_unknown():
     [("C K", "the matrix stands first, its relations second"), ("K K", "no relations to condense")],
 )
 def test_matrices_without_relations_are_refused(operands, said):
-    result = run_text(START + f"D = CMCT {operands} ;")
-    assert result.exit_code == 1
+    result = failed(START + f"D = CMCT {operands} ;")
     assert said in result.message

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
@@ -38,8 +39,7 @@ def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, w
     text = BLOCK.replace("1.E-3 3.", "1.E-3 0.1") + (
         f"T . 'VITEUNIL' = {entry} ; " if entry else ""
     )
-    result = run_text(text + END)
-    assert result.exit_code == 0, result.message
+    result = ran(text + END)
     said = " ".join(sentence(w, "en")[0] for w in result.session.warnings)
     assert ("'VITEUNIL' has no effect" in said) is warned
 

@@ -1,8 +1,7 @@
 """Contact between sides: patch tests of all formulations, openings, sliding, refusals."""
 
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed
 
 PLANE = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
@@ -123,11 +122,10 @@ def test_contour_drawn_in_both_senses_is_filled(found):
 
 
 def test_adherence_is_refused_with_what_takes_its_place(tmp_path):
-    result = run_text(
+    result = failed(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "
         "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; C = MATE M 'MU' 0.3 'ADHE' 1. ;",
-        output_directory=tmp_path,
+        folder=tmp_path,
     )
-    assert result.exit_code == 1
     assert "ADHE is not built" in result.message
     assert "JOINT_SDM" in result.message

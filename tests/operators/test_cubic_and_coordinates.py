@@ -1,15 +1,13 @@
 """DEG3; POINTCYL and POINTSPH of the library."""
 
-from __future__ import annotations
-
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
 
 def values(text, folder, *names):
-    result = run_text(text, output_directory=folder)
-    assert result.exit_code == 0, result.message
+    result = ran(text, output_directory=folder)
     return [result.session.root.find(n) for n in names]
 
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 FREE_MASS = """OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; T1 = TABL ;
 T1 . 'RIGI' = (APPU 'DEPL' 1.E-9 P) ; T1 . 'MASS' = MASS 'DEPL' 1. P ;
@@ -15,10 +14,9 @@ T2 = DYNAMIC T1 ;"""
 
 @pytest.mark.parametrize(("word", "last"), [("'DEPL'", 3.0), ("'VITE'", 3.0), ("", 3.0)])
 def test_quantity_of_the_steps_is_drawn_in_time(word, last):
-    result = run_text(
+    result = ran(
         f"{FREE_MASS} E = EVOL 'TEMP' T2 {word} 'UX' P ; LT = EXTR E 'ABSC' ; LU = EXTR E 'ORDO' ;"
     )
-    assert result.exit_code == 0, result.message
     t, u = (result.session.root.find(n).values for n in ("LT", "LU"))
     assert t == pytest.approx(np.linspace(0.0, 1.0, 11))
     assert u[-1] == pytest.approx(last, rel=1e-8)

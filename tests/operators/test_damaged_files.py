@@ -1,7 +1,5 @@
 """Damaged decks and input files end with a message; a sample of `benchmarks/fuzz_decks.py`."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json

@@ -1,10 +1,8 @@
 """Supports on lines made twice."""
 
-from __future__ import annotations
-
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
 
 HEAD = """OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; DENS 0.5 ;
@@ -19,8 +17,7 @@ SOLVE = "U = RESO (RI ET (BLOQ 'DEPL' BAS)) (FORC 'FX' 1. P3) ;"
 
 
 def warnings(text: str) -> list[str]:
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     return [sentence(w, "en")[0] for w in result.session.warnings]
 
 

@@ -1,13 +1,12 @@
 """DESS: what a statement makes of its words and table."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import RunResult, run_text
+from ssilang.cli.run import RunResult
 
 CURVES = (
     "E1 = EVOL 'BLEU' 'MANU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
@@ -16,9 +15,7 @@ CURVES = (
 
 
 def run(text: str, folder: Path) -> RunResult:
-    result = run_text(CURVES + text, folder)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(CURVES + text, folder)
 
 
 def words(folder: Path, number: int = 1) -> list[str]:
@@ -106,8 +103,7 @@ PORTION = "T = TABL ; T . '{0}' = TABL ; T . '{0}' . 1 = {1} ; "
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
-    result = run_text(CURVES + text, tmp_path)
-    assert result.exit_code == 1
+    result = failed(CURVES + text, tmp_path)
     assert said in result.message
     assert list(tmp_path.iterdir()) == []
 

@@ -1,13 +1,12 @@
 """TRAC, DEFO, VECT, ANNO: what statements draw."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 from pathlib import Path
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
@@ -25,9 +24,7 @@ PLATE = (
 
 
 def run(text: str, folder: Path | None = None) -> RunResult:
-    result = run_text(PLATE + text, folder)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(PLATE + text, folder)
 
 
 STATEMENTS = [
@@ -123,8 +120,7 @@ SOLID = (
 )
 @needs_window
 def test_views_in_space(text: str, tmp_path: Path) -> None:
-    result = run_text(SOLID + text, tmp_path)
-    assert result.exit_code == 0, result.message
+    ran(SOLID + text, tmp_path)
     assert len(list(tmp_path.iterdir())) == 1
 
 
@@ -141,11 +137,10 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
         raise NoGraphicsError("io.no-drawing-in-space", reason="none")
 
     monkeypatch.setattr("ssilang.operators.drawing.scenes.draw_scene", taken)
-    result = run_text(
+    ran(
         f"{SOLID} TRAC X V (0. -19.6 0.) {DIRE} ; TRAC V (3. 0.4 4.) 'DIRE' 'COUP' (0. 0.4 0.) "
         f"(1. 0.4 0.) (0. 0.4 1.) ; OPTI OEIL (0. 0.4 9.) ; TRAC V {LYING} ;"
     )
-    assert result.exit_code == 0, result.message
     first, second, third = (v.axes for v in views)
     np.testing.assert_allclose(first, [(1, 0, 0), (0, 0, 1), (0, -1, 0)], atol=1e-12)
     np.testing.assert_allclose(second, [(0, -1, 0), (0.8, 0, -0.6), (0.6, 0, 0.8)], atol=1e-12)
@@ -161,8 +156,7 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
     ],
 )
 def test_what_cannot_turn_is_said(text: str, said: str, tmp_path: Path) -> None:
-    result = run_text(text, tmp_path)
-    assert result.exit_code == 1
+    result = failed(text, tmp_path)
     assert said in result.message
 
 
@@ -201,8 +195,7 @@ def test_components_of_arrows(words: str, columns: str) -> None:
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
-    result = run_text(PLATE + text, tmp_path)
-    assert result.exit_code == 1
+    result = failed(PLATE + text, tmp_path)
     assert said in result.message
     assert list(tmp_path.iterdir()) == []
 

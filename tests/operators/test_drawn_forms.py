@@ -4,8 +4,6 @@ A file `drawn_SEED.forms` holds a short script a form and, behind `---`, what it
 1e-4; `~`: what stands last), or behind `--!` a word of the refusal.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 from references.small_motions import HOPPER, OSCILLATOR
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(text, output_directory=tmp_path)
 
 
 def table(result, name="T2"):
@@ -19,9 +17,7 @@ def table(result, name="T2"):
 
 
 def fails(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 1
-    return result.message
+    return failed(text, folder=tmp_path).message
 
 
 def test_free_oscillation_and_the_default_cadence(tmp_path):

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 BAR = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = 0. 0. ; B = 8. 0. ; L = DROI 8 A B ;
@@ -15,9 +14,7 @@ T = VIBR 'SIMU' 0.1 2 K M ; F = FORC 'FX' 4. (L POIN 'PROC' (5. 0.)) ;
 
 
 def run(script, tmp_path):
-    result = run_text(script, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root
+    return ran(script, output_directory=tmp_path).session.root
 
 
 def test_pseudo_mode_completes_a_slow_answer_to_the_static_one(tmp_path):
@@ -124,8 +121,7 @@ def test_lists_instead_of_fields(tmp_path):
 )
 def test_faulty_links_are_named(change, sentence, tmp_path):
     script = LINKED + change + " R = DYNE 'DE_VOGELAERE' T TL TI 3 0.01 ;"
-    result = run_text(script, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(script, folder=tmp_path)
     assert sentence in result.message
 
 
@@ -185,8 +181,7 @@ def test_sliding_disc_slows_down_by_its_friction(tmp_path):
 @pytest.mark.parametrize("change", ["L1 . 'RAYON_SUPPORT' = 0. ;", "OUBL L1 'RAYON_SUPPORT' ;"])
 def test_disc_on_a_plane_wants_its_radius(change, tmp_path):
     script = WHEEL + change + "R = DYNE 'DE_VOGELAERE' T TL C TI TS 3 1.E-4 ;"
-    result = run_text(script, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(script, folder=tmp_path)
     assert "RAYON_SUPPORT" in result.message
 
 

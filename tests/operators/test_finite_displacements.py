@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 STRING = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P1 = 0. 0. ; P2 = 2. 0. ; S = DROI 1 P1 P2 ;
@@ -19,9 +18,7 @@ T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;
 
 
 def run(script):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root
+    return ran(script).session.root
 
 
 def energy(u):
@@ -89,14 +86,13 @@ def test_pressure_in_a_ring_of_bars_goes_on_with_its_sides(sign):
 
 
 def test_plates_are_refused_by_name():
-    result = run_text(
+    result = failed(
         "OPTI DIME 3 ELEM QUA4 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;"
         "M = MODE S MECANIQUE COQ4 ; A = MATE M 'YOUN' 1.E4 'NU' 0. 'EPAI' 0.1 ;"
         "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;"
         "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' L ;"
         "T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;"
     )
-    assert result.exit_code == 1
     assert "finite displacements are not built for COQ4" in result.message
 
 
@@ -117,7 +113,7 @@ YIELDING = (
 
 @pytest.mark.parametrize("word", ["TOTAL", "FIN_PAS", "MI_PAS"])
 def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp_path, word):
-    result = run_text(
+    result = ran(
         YIELDING + f"T . 'LAGRANGIEN' = '{word}' ; "
         "PASAPAS T ; TS = T . 'CONTRAINTES' ; TV = T . 'VARIABLES_INTERNES' ; "
         "X1 = MAXI (EXCO 'SMXX' (TS . 1)) ; Y1 = MAXI (EXCO 'SMYY' (TS . 1)) ; "
@@ -126,7 +122,6 @@ def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp
         "P1 = MAXI (EXCO 'EPSE' (TV . 1)) ; P7 = MINI (EXCO 'EPSE' (TV . 7)) ;",
         output_directory=tmp_path,
     )
-    assert result.exit_code == 0, result.message
     find = result.session.root.find
     x, y, z = find("X1"), find("Y1"), find("Z1")
     home, strain = np.array([x, y, z]), np.log(1.004)
@@ -192,8 +187,7 @@ def test_a_bar_that_flows_carries_its_strength_on_its_present_section(tmp_path, 
     """Cauchy's stress is SIGY, the section that of the volume J = exp((1 - 2 nu) SIGY / E)."""
     chosen = f"T . 'LAGRANGIEN' = '{word}' ; PASAPAS T" if word else "PASAPAS T"
     text = BARS[name] + f"LAST = {last} ; " + PULLED.replace("PASAPAS T", chosen)
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, output_directory=tmp_path)
     find, way = result.session.root.find, np.sign(last - 1.0)
     near = 1e-7 if word else 1e-3  # elastic strains, 0.8 SIGY / E
     assert find("S") == pytest.approx(way * 200.0, rel=near)
@@ -207,8 +201,7 @@ def test_total_carries_strength_times_stretch_and_says_that_strains_are_too_larg
     """Nominal force `F11 S11` with S11 = SIGY, the sides being free."""
     pulled = PULLED.replace("PASAPAS T", "T . 'LAGRANGIEN' = 'TOTAL' ; PASAPAS T")
     text = BARS["CUB8"] + "LAST = 1.08 ; " + pulled
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, output_directory=tmp_path)
     assert result.session.root.find("F") == pytest.approx(1.08 * 200.0, rel=1e-6)
     (told,) = [
         w for w in result.session.warnings if w.code == "operators.statics.small-strains-left"
@@ -218,9 +211,8 @@ def test_total_carries_strength_times_stretch_and_says_that_strains_are_too_larg
 
 def test_elastic_bodies_in_large_strains_say_which_law_they_have(tmp_path):
     text = BARS["CUB8"] + "LAST = 1.2 ; " + PULLED.split("E = MAXI")[0]
-    result = run_text(text.replace(" 'PLASTIQUE' 'PARFAIT'", "").replace(" 'SIGY' 200.", ""),
+    result = ran(text.replace(" 'PLASTIQUE' 'PARFAIT'", "").replace(" 'SIGY' 200.", ""),
                       output_directory=tmp_path)  # fmt: skip
-    assert result.exit_code == 0, result.message
     assert [w.code for w in result.session.warnings] == ["operators.statics.elastic-strains-large"]
 
 
@@ -230,8 +222,7 @@ def test_a_word_that_lagrangien_does_not_have_is_refused(tmp_path):
         + "LAST = 1.2 ; "
         + PULLED.replace("PASAPAS T", "T . 'LAGRANGIEN' = 'EULER' ; PASAPAS T")
     )
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(text, folder=tmp_path)
     assert "'MI_PAS' | 'FIN_PAS' | 'TOTAL'" in result.message
 
 
@@ -245,21 +236,19 @@ def test_a_yielding_body_goes_on_from_where_it_was(tmp_path):
     whole = once.replace("LT = PROG 0. 1. ;", "LT = PROG 0. 0.5 1. ;").replace(" . 7))", " . 8))")
     found = []
     for number, text in enumerate((whole, twice)):
-        result = run_text(text, output_directory=tmp_path / str(number))
-        assert result.exit_code == 0, result.message
+        result = ran(text, output_directory=tmp_path / str(number))
         found.append(result.session.root.find("E"))
     assert found[1] == pytest.approx(found[0], rel=1e-9)
 
 
 def test_yielding_bars_in_finite_displacements_are_refused(tmp_path):
-    result = run_text(
+    result = failed(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
         "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ; T = TABL ; "
         "T . 'MODELE' = M ; "
         "T . 'CARACTERISTIQUES' = MATE M 'YOUN' 1. 'NU' 0. 'SIGY' 1. 'SECT' 1. ; "
         "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' (L POIN 1) ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
         "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;",
-        output_directory=tmp_path,
+        folder=tmp_path,
     )
-    assert result.exit_code == 1
     assert "built for plastic laws of continuous elements, not for BARR" in result.message

@@ -1,7 +1,5 @@
 """Histories that DYNAMIC records at a few nodes against fields of whole bodies."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 RADIUS, YOUNG = 100.0, 20000.0
 RING = (
@@ -17,9 +16,7 @@ RING = (
 
 
 def found(script, name):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find(name)
+    return ran(script).session.root.find(name)
 
 
 @pytest.mark.parametrize("harmonic", [2, 3, 5])

@@ -1,16 +1,13 @@
 """INFO, NOTI, AIDE, SOUC."""
 
-from __future__ import annotations
-
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 
 
 def run(text, folder):
-    result = run_text(text, output_directory=folder)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(text, output_directory=folder)
 
 
 def test_info_prints_the_page_in_the_language_of_the_session(tmp_path):
@@ -26,8 +23,7 @@ def test_info_of_a_procedure(tmp_path):
 
 
 def test_info_of_nothing_known_says_so(tmp_path):
-    result = run_text("INFO ZZZZ ;", output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed("INFO ZZZZ ;", folder=tmp_path)
     assert "no help about ZZZZ" in result.message
 
 
@@ -108,8 +104,7 @@ SLAVES = (
     ],
 )
 def test_assi_runs_a_phrase_for_all_objects_of_a_table(phrase, values, tmp_path):
-    result = run_text(SLAVES + phrase, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(SLAVES + phrase, output_directory=tmp_path)
     found = result.session.root.find("X")
     assert found.subtype == "ESCLAVE"
     assert {i: v for i, v in found.items() if i != "SOUSTYPE"} == values
@@ -132,6 +127,5 @@ def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
     ],
 )  # fmt: skip
 def test_assi_for_all_tells_what_is_in_its_way(phrase, said, tmp_path):
-    result = run_text(SLAVES + phrase, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(SLAVES + phrase, folder=tmp_path)
     assert said in result.message

@@ -1,7 +1,5 @@
 """Laws that operators obey for all operands: linearity, symmetry, inverses, idempotence."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np

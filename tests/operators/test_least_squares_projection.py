@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 PLANE = (
     "OPTI DIME 2 MODE {mode} ELEM {kind} ; L = DROI {n} (0. 0.) (2. 0.) ; S = L TRAN {m} (0. 1.) ; "
@@ -14,8 +13,7 @@ PLANE = (
 
 
 def projected(text, kind="QUA4", mode="PLAN DEFO", n=8, m=4):
-    result = run_text(PLANE.format(kind=kind, mode=mode, n=n, m=m) + text)
-    assert result.exit_code == 0, result.message
+    result = ran(PLANE.format(kind=kind, mode=mode, n=n, m=m) + text)
     (block,) = result.session.root.find("P").blocks
     return block.cells.coordinates[0], block.components["SCAL"][0]
 
@@ -64,8 +62,7 @@ def test_the_integral_of_a_rough_field_is_kept_as_points_grow():
 )
 def test_projections_that_make_no_sense_are_refused(text, said):
     start = PLANE.format(kind="QUA4", mode="PLAN DEFO", n=2, m=1)
-    result = run_text(start + "C = CHAN 'CHAM' (NOMC 'SCAL' X) M1 ; " + text)
-    assert result.exit_code == 1
+    result = failed(start + "C = CHAN 'CHAM' (NOMC 'SCAL' X) M1 ; " + text)
     assert said in result.message
 
 
@@ -88,8 +85,7 @@ def test_points_outside_are_told_and_raise_the_flag(place, count, code, toleranc
     )
     words = place.replace("M2 'MINI'", "M2 C 'MINI'")
     call = f"PROI {words} {tolerance}" if "MINI" in words else f"PROI ({words}) C {tolerance}"
-    result = run_text(text + f"P = {call} ; Z = SOUC ;")
-    assert result.exit_code == 0, result.message
+    result = ran(text + f"P = {call} ; Z = SOUC ;")
     assert result.session.root.find("Z") is told
     found = [(w.code.rpartition(".")[2], w.data["count"]) for w in result.session.warnings]
     assert found == ([(code, count)] if told else [])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.operators.lists import progressions
@@ -13,9 +14,7 @@ WORDS = st.lists(st.text("ABCab", min_size=1, max_size=4), min_size=1, max_size=
 
 
 def value(script):
-    result = run_text(f"X = {script} ;")
-    assert result.exit_code == 0, result.message
-    return result.session.root.find("X")
+    return ran(f"X = {script} ;").session.root.find("X")
 
 
 def items(script):
@@ -217,12 +216,11 @@ def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):
 
 
 def test_each_operand_loses_its_doubles():
-    result = run_text(
+    result = ran(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; "
         "A B C = UNIQ (PROG 0.3 (0.1 + 0.2) 1. 1.05 1.) (LECT 3 3 1) (L ET (INVE L)) ; "
         "E = UNIQ 0.1 (PROG 1. 2. 1.05) ;"
     )
-    assert result.exit_code == 0, result.message
     a, b, c, e = map(result.session.root.find, "ABCE")
     assert a.values.tolist() == [0.3, 1.0, 1.05]  # 0.1 + 0.2 is 0.3 but for rounding
     assert (b.values.tolist(), c.n_cells) == ([3, 1], 2)
@@ -263,7 +261,6 @@ def test_type_of_the_objects_of_a_list(found):
 
 @pytest.mark.parametrize(("count", "reals", "integers"), [(0, [2.0], [3]), (1, [2.0, 2.5], [3, 5])])
 def test_no_steps_leave_the_first_value(count, reals, integers):
-    result = run_text(f"A = PROG 2. 'PAS' 0.5 'NPAS' {count} ; B = LECT 3 'PAS' 2 'NPAS' {count} ;")
-    assert result.exit_code == 0, result.message
+    result = ran(f"A = PROG 2. 'PAS' 0.5 'NPAS' {count} ; B = LECT 3 'PAS' 2 'NPAS' {count} ;")
     assert result.session.root.find("A").values.tolist() == reals
     assert result.session.root.find("B").values.tolist() == integers

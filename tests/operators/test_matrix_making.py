@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 
 PLANE = "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P0 = 0. 0. ; P1 = 1. 0. ;\n"
 
 
 def matrix(script):
-    result = run_text(PLANE + script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find("R")
+    return ran(PLANE + script).session.root.find("R")
 
 
 def dense(made):
@@ -49,8 +47,7 @@ def test_one_list_serves_all_nodes_of_a_cell_or_each_has_its_own():
 
 
 def test_wrong_number_of_terms_is_said():
-    result = run_text(PLANE + "R = MANU 'RIGI' P0 (MOTS 'UX' 'UY') (PROG 1. 2.) ;")
-    assert result.exit_code == 1
+    result = failed(PLANE + "R = MANU 'RIGI' P0 (MOTS 'UX' 'UY') (PROG 1. 2.) ;")
     assert "4 or 3 terms" in result.message
 
 
@@ -82,33 +79,29 @@ ORDERS = [
 @pytest.mark.parametrize("order", ORDERS)
 def test_a_copied_condition_stands_beside_its_model(order):
     """Lists of old and new names come by pairs or, as in the notice's example, old names first."""
-    result = run_text(
+    result = ran(
         COPIED.replace(ORDERS[0], order) + "F = MANU 'CHPO' P 2 'FX' 8. 'FY' 32. 'NATURE' "
         "'DISCRET' ; U = RESO (K ET R ET S) F ; "
         "MESS (EXTR U 'UX' Q) ' ' (EXTR U 'UY' Q) ' ' (EXTR U 'UX' P) ;"
     )
-    assert result.exit_code == 0, result.message
     assert [float(v) for v in result.output.split()] == pytest.approx([1.0, 2.0, 1.0])
 
 
 def test_imaginary_names_of_a_matrix():
-    result = run_text(
+    result = ran(
         COPIED.split("R =")[0] + "I = CHAN 'INCO' K 'COMP' 'SYME' ; LIST (EXTR I 'COMP') ;"
         "LIST (EXTR I 'COMP' 'DUAL') ;"
     )
-    assert result.exit_code == 0, result.message
     assert {"IUX", "IUY", "IFX", "IFY"} <= set(result.output.split())
-    result = run_text(COPIED.split("S =")[0] + "I = CHAN 'INCO' (K ET R) 'COMP' ;")
-    assert result.exit_code == 1
+    result = failed(COPIED.split("S =")[0] + "I = CHAN 'INCO' (K ET R) 'COMP' ;")
     assert "conditions" in result.message
 
 
 def test_impedances_above_resonance_are_no_springs_below_zero():
-    result = run_text(
+    result = ran(
         "OPTI DIME 2 ; P = 0. 0. ; K = MANU 'RIGI' P (MOTS 'UX') (PROG 4.) ;"
         "Z = (IMPE K 'RAIDEUR') ET (IMPE K 'MASSE' 2.) ET (IMPE K 'AMOR' 0.1) ;"
         "U = RESO Z (MANU 'CHPO' P 'FX' 1.2 'NATURE' 'DISCRET') ; X = EXTR U 'UX' P ;"
     )
-    assert result.exit_code == 0, result.message
     assert result.session.root.find("X") == pytest.approx(1.2 * -12.0 / (12.0**2 + 0.4**2))
     assert not result.session.warnings

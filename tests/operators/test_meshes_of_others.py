@@ -1,7 +1,5 @@
 """LIRE 'MESH' and SORT 'MESH': files of meshio's own writers, of Gmsh, by hand, and our own."""
 
-from __future__ import annotations
-
 import importlib
 import sys
 from pathlib import Path

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.node_algebra import applied
@@ -21,8 +22,7 @@ FREQUENCIES = np.sqrt(np.linalg.eigvalsh(K) / 0.5) / (2.0 * np.pi)
 
 
 def objects(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     found = [result.session.root.find(n) for n in names]
     return found[0] if len(found) == 1 else found
 
@@ -58,8 +58,7 @@ def test_matrices_may_come_in_any_order_and_ends_of_an_interval_be_kept():
 
 @pytest.mark.parametrize(("ends", "told"), [("3. 10.", True), ("0. 10.", False), ("-1. 0.", True)])
 def test_an_interval_without_a_mode_is_told(ends, told):
-    result = run_text(f"{TWO_MASSES} T = VIBR 'INTE' {ends} K1 M1 ; N = DIME (T . 'MODES') ;")
-    assert result.exit_code == 0, result.message
+    result = ran(f"{TWO_MASSES} T = VIBR 'INTE' {ends} K1 M1 ; N = DIME (T . 'MODES') ;")
     assert (
         any(w.code == "operators.modal.no-frequency-between" for w in result.session.warnings)
         is told
@@ -291,8 +290,7 @@ def test_static_shapes_alone_condense_the_stiffness_on_their_unknowns():
     ],
 )
 def test_static_shapes_without_what_their_matrices_need_are_refused(last, said):
-    result = run_text(BAND + last)
-    assert result.exit_code == 1
+    result = failed(BAND + last)
     assert said in result.message
 
 

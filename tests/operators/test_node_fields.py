@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -224,8 +224,7 @@ def test_values_without_a_power_become_zero_and_are_told(power, wanted):
     text = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; "
     text += f"U = (MANU CHPO L 1 UX (PROG -1. 0. 4.)) ** {power} ; X = EXTR U 'VALE' L ; "
     text += f"S = L TRAN 1 (0. 1.) ; M = ((MANU CHML S 'A' 3.) - 4.) ** {power} ; Y = MAXI M ;"
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     find = result.session.root.find
     assert sorted(find("X").values) == pytest.approx(sorted(wanted))
     assert find("Y") == pytest.approx(wanted[0])

@@ -1,7 +1,5 @@
 """Operands and keywords in odd orders mean what they mean in the usual one."""
 
-from __future__ import annotations
-
 import pytest
 
 _CURVES = "E = EVOL 'MANU' 't' (PROG 0. 1.) 'u' (PROG -5. 5.) ; F = E ET E ; "

@@ -1,10 +1,9 @@
 """Options that name files: the listing, further scripts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import RunOptions, run_file, run_text
 
@@ -21,14 +20,12 @@ def test_what_was_listed_can_be_read(tmp_path: Path) -> None:
         "OPTI IMPR 'v.txt' ; MESS 'FORMAT' '(F6.2)' 2.5 ; OPTI IMPR 6 ; "
         "OPTI ACQU 'v.txt' ; ACQU X*FLOTTANT ;"
     )
-    result = run_text(script, tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(script, tmp_path)
     assert result.session.root.find("X") == 2.5
 
 
 def test_a_file_name_may_begin_like_a_format_word(tmp_path: Path) -> None:
-    result = run_text("OPTI SORT 'FORMES.txt' ; SORT 'CHAI' 'x' ;", tmp_path)
-    assert result.exit_code == 0, result.message
+    ran("OPTI SORT 'FORMES.txt' ; SORT 'CHAI' 'x' ;", tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["FORMES.txt"]
 
 

@@ -1,21 +1,16 @@
 """ORDO with its keywords first, of tables and of meshes."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 LISTS = "L = PROG 3. -1. 2. ; E = LECT 30 10 20 ; C = PROG 5. 1. 2. 1. 5. 3. 2. 2. 9. ; "
 
 
 def found(text: str, name: str):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find(name)
+    return ran(text).session.root.find(name)
 
 
 @pytest.mark.parametrize(

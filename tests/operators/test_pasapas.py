@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
 
 BAR = """
@@ -22,9 +22,7 @@ T . 'TEMPS_CALCULES' = PROG 0.25 'PAS' 0.25 1. ;
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 def test_results_by_number_with_the_initial_state_first(tmp_path):
@@ -139,8 +137,7 @@ def test_unilateral_support_opens_and_closes(tmp_path):
     "entry", ["T . 'UPDATE_LAGRANGIAN' = VRAI ;", "T . 'BLOCAGES_THERMIQUES' = 1 ;"]
 )
 def test_what_is_not_built_is_refused_by_name(entry, tmp_path):
-    result = run_text(BAR + entry + "PASAPAS T ;", output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(BAR + entry + "PASAPAS T ;", folder=tmp_path)
     assert entry.split("'")[1] in result.message
 
 
@@ -157,8 +154,7 @@ def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
     PASAPAS T ;
     """
     for stiffness, warned in (("1.E19", True), ("1.E10", False)):
-        result = run_text(text.replace("KN0", stiffness), output_directory=tmp_path)
-        assert result.exit_code == 0, result.message
+        result = ran(text.replace("KN0", stiffness), output_directory=tmp_path)
         assert any("units" in sentence(w, "en")[1] for w in result.session.warnings) is warned
 
 
@@ -255,8 +251,7 @@ def test_body_without_support_or_load_stays_at_rest(tmp_path):
 
 def test_load_on_a_body_without_support_is_refused(tmp_path):
     text = LOOSE.replace("F = FORC (1000. 0.) R", "F = FORC (0. 10.) (P2 ET P3)") + "PASAPAS T ;"
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(text, folder=tmp_path)
     assert "free motion" in result.message
 
 

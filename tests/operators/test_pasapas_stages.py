@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 LAYERS = """
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
@@ -25,9 +24,7 @@ ELASTIC, PLASTIC = "'ELASTIQUE'", "'ELASTIQUE' 'PLASTIQUE' 'PARFAIT'"
 def run(text, tmp_path, law=ELASTIC):
     if law == ELASTIC:
         text = text.replace("'SIGY' 1.E9", "")
-    result = run_text(text.replace("{law}", law), output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text.replace("{law}", law), output_directory=tmp_path).session.root.find
 
 
 def stress(table, number):
@@ -120,8 +117,7 @@ def test_characteristics_in_time_act_on_what_is_added(tmp_path):
 def test_a_load_of_models_that_holds_fields_is_refused():
     text = LAYERS.replace("{law}", ELASTIC).replace("'SIGY' 1.E9", "")
     text += "T . 'CHARGEMENT' = CHAR 'MODE' F1 E1 ; PASAPAS T ;"
-    result = run_text(text)
-    assert result.exit_code == 1
+    result = failed(text)
     assert "the load MODE gives no MMODEL" in result.message
 
 
@@ -143,8 +139,7 @@ def test_a_footing_built_on_settled_soil_stands_on_its_joint(tmp_path):
     T . 'TEMPS_CALCULES' = PROG 1. 1.5 2. ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 3 ;
     W = (EXTR U 'UY' (LB POIN 1)) - (EXTR U 'UY' (LA POIN 1)) ;
     """
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, output_directory=tmp_path)
     assert not result.session.warnings
     find = result.session.root.find
     assert stress(find("T"), 3) == pytest.approx([-2000.0, -1000.0], rel=1e-6)

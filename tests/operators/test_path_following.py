@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
@@ -36,14 +36,11 @@ def truss_load(v):
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(text, output_directory=tmp_path)
 
 
 def refused(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(text, folder=tmp_path)
     assert "defect of ssilang" not in result.message
     return result.message
 

@@ -1,7 +1,5 @@
 """LIRE and ACQU: values, procedures and meshes from files beside the script."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What operators refuse, why, where and in which words: scripts of `test_refusals.toml`."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is written and read again is what it was: mixed, unsorted, single and empty."""
 
-from __future__ import annotations
-
 import importlib.util
 import itertools
 import re

@@ -1,8 +1,7 @@
 """SOLUTION: modes by hand, joined, read, as a table, with stresses."""
 
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 MODES = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (4. 0.) ;
@@ -13,9 +12,7 @@ V = NOMC 'UX' (COOR 1 L) ; S = (MANU 'MODE' 'NUME' 7 1.5 2. 0.1 0.2 U) ET (MANU 
 
 
 def run(script, tmp_path):
-    result = run_text(script, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root
+    return ran(script, output_directory=tmp_path).session.root
 
 
 def test_modes_by_hand_are_read_by_place_and_number(tmp_path):
@@ -72,6 +69,5 @@ def test_a_solution_of_vibr_is_the_table_of_vibr(tmp_path):
     ],
 )
 def test_what_a_solution_lacks_is_told(said, sentence, tmp_path):
-    result = run_text(MODES + f"X = {said} ;", output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(MODES + f"X = {said} ;", folder=tmp_path)
     assert sentence in result.message

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 BAR = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
@@ -16,8 +15,7 @@ K1 = K0 ET BX ET BY ; F1 = FORC 'FX' 4. PB ;
 
 
 def objects(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     found = [result.session.root.find(n) for n in names]
     return found[0] if len(found) == 1 else found
 
@@ -62,8 +60,7 @@ def test_stop_is_reached_or_not():
 
 def test_free_body_is_named_and_may_be_asked_for():
     free = BAR + "K2 = K0 ET BY ;"
-    result = run_text(free + "U = RESO K2 F1 ;")
-    assert result.exit_code == 1
+    result = failed(free + "U = RESO K2 F1 ;")
     assert "translation along X" in result.message
     assert "UX at node" in result.message
     u, count, pins = objects(free + "U N1 M1 = RESO K2 F1 'ENSE' ;", "U", "N1", "M1")
@@ -78,14 +75,12 @@ def test_free_body_is_named_and_may_be_asked_for():
 
 def test_loads_on_free_motions_are_left_out_when_told():
     free = BAR + "K2 = K0 ET BY ; U = RESO K2 F1 'NOID' ; W = RESO K2 F1 'SOUC' ;"
-    result = run_text(free)
-    assert result.exit_code == 0, result.message
+    result = ran(free)
     assert len(result.session.warnings) == 1
 
 
 def test_force_on_an_unknown_that_the_matrix_lacks_is_refused():
-    result = run_text(BAR + "U = RESO K1 (F1 ET (MOME 'MZ' 1. PB)) ;")
-    assert result.exit_code == 1
+    result = failed(BAR + "U = RESO K1 (F1 ET (MOME 'MZ' 1. PB)) ;")
     assert "MZ at node" in result.message
 
 

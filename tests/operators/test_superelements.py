@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 BODY = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; P3 = 5. 0. ; "
@@ -18,16 +17,13 @@ BODY = (
 
 
 def found(script, *names):
-    result = run_text(BODY + script)
-    assert result.exit_code == 0, result.message
+    result = ran(BODY + script)
     values = tuple(result.session.root.find(n) for n in names)
     return values[0] if len(names) == 1 else values
 
 
 def refused(script):
-    result = run_text(BODY + script)
-    assert result.exit_code == 1
-    return result.message
+    return failed(BODY + script).message
 
 
 @pytest.mark.parametrize("nomu", ["", "'NOMU'"])

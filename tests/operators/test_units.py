@@ -4,8 +4,6 @@ The expected numbers are those of tables of materials: steel is 210 GPa and 7850
 the units of a deck.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import re
@@ -14,6 +12,7 @@ from xml.etree import ElementTree
 
 import meshio
 import pytest
+from script_runs import ran
 
 from ssilang.cli.check import check_source
 from ssilang.cli.run import RunOptions, RunResult, run_source, run_text
@@ -38,8 +37,7 @@ CLAY = {"SI": ("5.E6", "1700."), "KN-M": ("5.E3", "1.7"), "MN-M": ("5.", "1.7E-3
 def warned(system: str, given: str, model: str = BODY) -> list[dict[str, object]]:
     """Data of the warnings of a MATE in a system ('' for none)."""
     option = f"OPTI 'UNIT' '{system}' ; " if system else ""
-    made = run_text(f"{model}{option}A = MATE MO {given} ; LIST (TYPE A) ;")
-    assert made.exit_code == 0, made.message
+    made = ran(f"{model}{option}A = MATE MO {given} ; LIST (TYPE A) ;")
     known = {f"operators.models.{w}" for w in ("unusual-value", "unusual-ratio", "no-stiffness")}
     assert {w.code for w in made.session.warnings} <= known
     return [w.data for w in made.session.warnings if w.code == "operators.models.unusual-value"]
@@ -178,11 +176,10 @@ def test_a_statement_in_a_loop_is_told_once_and_procedures_of_the_library_never(
 
 
 def test_the_option_is_read_back_and_holds_from_its_place_on() -> None:
-    made = run_text(
+    made = ran(
         f"{BODY}A = MATE MO 'YOUN' 30. 'NU' 0.2 ; OPTI UNIT SI ; U = VALE 'UNIT' ; "
         "OPTI 'UNIT' 'mn-m' ; B = MATE MO 'YOUN' 30. 'NU' 0.2 ; V = VALE 'UNIT' ; LIST (A ET B) ;"
     )
-    assert made.exit_code == 0, made.message
     assert made.session.warnings == []
     assert [made.session.root.find(n) for n in "UV"] == ["SI", "MN-M"]
     assert run_text("U = VALE 'UNIT' ;").errors[0].code == "operators.session.option-not-set"
@@ -211,9 +208,7 @@ E = EVOL 'TEMP' R 'VITE' 'UX' P1 ; D = EVOL 'TEMP' R 'DEPL' 'UX' P1 ;
 def moved(folder: Path, system: str, more: str) -> RunResult:
     option = f"OPTI 'UNIT' '{system}' ;" if system else ""
     options = RunOptions(output_directory=folder, summary=True)
-    made = run_text(MOTION.replace("{option}", option) + more, options=options)
-    assert made.exit_code == 0, made.message
-    return made
+    return ran(MOTION.replace("{option}", option) + more, options=options)
 
 
 def texts(folder: Path, number: int = 1) -> set[str]:
@@ -261,15 +256,13 @@ def test_forces_of_results_keep_their_unit_and_velocities_are_no_lengths() -> No
 
 
 def test_axes_of_pictures_in_the_plane_say_the_unit_of_length(tmp_path: Path) -> None:
-    made = run_text(f"{BODY}OPTI 'UNIT' 'N-MM' 'TRAC' 'SVG' ; TRAC S ;", tmp_path)
-    assert made.exit_code == 0, made.message
+    ran(f"{BODY}OPTI 'UNIT' 'N-MM' 'TRAC' 'SVG' ; TRAC S ;", tmp_path)
     assert {"x (mm)", "y (mm)"} <= texts(tmp_path)
 
 
 def test_vtk_files_hold_the_units_with_their_sizes(tmp_path: Path) -> None:
     text = "OPTI SORT 's' ; SORT 'VTK ' S ; OPTI SORT 't' ; SORT 'VTK ' S 'TEMP' 1. 'NOUV' ;"
-    made = run_text(f"{BODY}OPTI 'UNIT' 'N-MM' ; {text}", tmp_path)
-    assert made.exit_code == 0, made.message
+    ran(f"{BODY}OPTI 'UNIT' 'N-MM' ; {text}", tmp_path)
     held = meshio.read(tmp_path / "s.vtu").field_data
     sizes = {name: float(value[0]) for name, value in held.items() if ": " in name}
     assert sizes == pytest.approx(
@@ -315,8 +308,7 @@ def test_check_knows_the_words_and_finds_a_slip() -> None:
 
 
 def test_units_are_saved_and_others_are_told(tmp_path: Path) -> None:
-    saved = run_text("OPTI 'UNIT' 'N-MM' ; X = 1 ; OPTI SAUV 'x' ; SAUV X ;", tmp_path)
-    assert saved.exit_code == 0, saved.message
+    ran("OPTI 'UNIT' 'N-MM' ; X = 1 ; OPTI SAUV 'x' ; SAUV X ;", tmp_path)
     again = run_text("OPTI REST 'x' ; REST ; U = VALE 'UNIT' ; LIST X ;", tmp_path)
     assert (again.exit_code, again.session.warnings) == (0, []), again.message
     assert again.session.root.find("U") == "N-MM"

@@ -4,8 +4,6 @@ Fields stand on points in no order and on cells of two kinds in two zones; `x` a
 coordinates of where a value stands. Curves are two, of other lengths, and go back in places.
 """
 
-from __future__ import annotations
-
 import io
 import math
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.operators.fields.cell_extraction import _variables
@@ -45,8 +46,7 @@ def test_what_variable_components_depend_on_is_told():
         "MA = MATE MO 'YOUN' E 'NU' F 'RHO' 3. ; "
         "LIST (EXTR MA 'DEVA') ; LIST (EXTR MA 'COVA') ; "
     )
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     lines = result.output.split("\n")
     assert lines[1].split() == ["T", "DOSE"]
     assert lines[3].split() == ["YOUN", "NU"]
@@ -55,9 +55,8 @@ def test_what_variable_components_depend_on_is_told():
 
 
 def test_a_cloud_depends_on_its_columns_and_on_the_abscissas_of_its_curves():
-    result = run_text(
+    result = ran(
         "F = EVOL 'MANU' 'DOSE' (PROG 0. 1.) 'NU' (PROG 0.2 0.3) ; "
         "N = NUAG 'COMP' 'P' 1. 2. 'COMP' 'NU' F F ; "
     )
-    assert result.exit_code == 0, result.message
     assert _variables(result.session.root.find("N")) == ["P", "DOSE"]

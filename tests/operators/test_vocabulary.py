@@ -6,6 +6,7 @@ import math
 import re
 
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
@@ -115,8 +116,7 @@ def test_one_meaning_has_one_unit_in_each_zone():
 
 @pytest.mark.parametrize("key", EXAMPLES)
 def test_examples_run(key, tmp_path):
-    done = run_text(EXAMPLES[key], output_directory=tmp_path)
-    assert done.exit_code == 0, done.message
+    ran(EXAMPLES[key], output_directory=tmp_path)
 
 
 @pytest.mark.parametrize("kind", ["law", "element"])
@@ -212,16 +212,14 @@ _BAR = (
      ("'YOUN' 1. 'NU' 0. 'RHO' -2500.", "RHO")],
 )  # fmt: skip
 def test_mate_refuses_numbers_out_of_their_range(given, name, tmp_path):
-    done = run_text(_BAR.format(given), output_directory=tmp_path)
-    assert done.exit_code == 1
+    done = failed(_BAR.format(given), folder=tmp_path)
     assert f"parameter {name} = " in done.message
     assert "is out of its range" in done.message
 
 
 @pytest.mark.parametrize("given", ["'YOUN' 0. 'NU' 0.5", "'YOUN' 2.E11 'NU' 0. 'ALPH' -1.E-6"])
 def test_mate_takes_numbers_in_their_range(given, tmp_path):
-    done = run_text(_BAR.format(given), output_directory=tmp_path)
-    assert done.exit_code == 0, done.message
+    ran(_BAR.format(given), output_directory=tmp_path)
 
 
 def test_a_field_out_of_range_is_refused_too(tmp_path):

@@ -1,7 +1,5 @@
 """Largest values of a motion over all its steps, and structures that leave the ground."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

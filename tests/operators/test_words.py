@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
@@ -156,9 +157,7 @@ def test_inherited_method_runs_on_the_heir(found):
 
 def test_numbers_behind_list_choose_what_is_printed():
     def printed(text):
-        result = run_text(text)
-        assert result.exit_code == 0, result.message
-        return result.output.rstrip("\n").split("\n")
+        return ran(text).output.rstrip("\n").split("\n")
 
     assert [len(r.split()) for r in printed("LIST (PROG 1. PAS 1. 7.) 3 ;")[1:]] == [3, 3, 1]
     assert [len(r.split()) for r in printed("LIST (LECT 1 PAS 1 25) 12 ;")[1:]] == [12, 12, 1]

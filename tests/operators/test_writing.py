@@ -1,14 +1,13 @@
 """SORT: VTK, CSV, text, AVS, figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import RunResult, run_text
+from ssilang.cli.run import RunResult
 from ssilang.io.vtk.series import read_pvd
 
 PLATE = (
@@ -20,9 +19,7 @@ PLATE = (
 
 
 def run(text: str, folder: Path) -> RunResult:
-    result = run_text(PLATE + text, folder)
-    assert result.exit_code == 0, result.message
-    return result
+    return ran(PLATE + text, folder)
 
 
 def names(folder: Path) -> list[str]:
@@ -156,8 +153,7 @@ def test_figures_go_to_the_session(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
-    result = run_text(PLATE + text, tmp_path / "out")
-    assert result.exit_code == 1
+    result = failed(PLATE + text, tmp_path / "out")
     assert said.lower() in result.message.lower()
     assert not (tmp_path / "out").exists()
 
@@ -205,16 +201,14 @@ def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("word", ["FORM", "BINA", "SUIT", "NPVD"])
 def test_words_of_files_are_refused_for_one_file(tmp_path: Path, word: str) -> None:
-    result = run_text(PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path)
-    assert result.exit_code == 1
+    result = failed(PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path)
     assert f"'{word}' is for .vtu files" in result.message
     assert names(tmp_path) == []
 
 
 def test_another_mesh_in_one_file_is_refused(tmp_path: Path) -> None:
     text = "SORT 'VTK ' S 'VTKHDF' 'TEMP' 1. ; SORT 'VTK ' L 'VTKHDF' 'TEMP' 2. ;"
-    result = run_text(PLATE + text, tmp_path)
-    assert result.exit_code == 1
+    result = failed(PLATE + text, tmp_path)
     assert "out.vtkhdf has one mesh for all its steps" in result.message
     assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
 

@@ -4,8 +4,6 @@ A plate of quadrangles, one of triangles of another matter that yields, and bars
 any order; fields and matrices of the whole are those of the parts, forces and numbers add up.
 """
 
-from __future__ import annotations
-
 import io
 import itertools
 

@@ -1,7 +1,5 @@
 """Small mechanical systems put together by hand: masses, springs, supports, joints."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart

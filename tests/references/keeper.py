@@ -1,7 +1,5 @@
 """A keeper of calculations that ends them at a step, and gives their state to another."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 
 import numpy as np

@@ -5,8 +5,6 @@ G. Masing, Eigenspannungen und Verfestigung beim Messing, Proc. 2nd Int. Congr. 
 the first loading, goes on along that one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

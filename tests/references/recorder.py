@@ -1,7 +1,5 @@
 """An observer that keeps all instants as arrays."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """A block of plane quads on a layer of soil, on joints, shaken by inertia forces."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel import elements

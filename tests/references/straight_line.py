@@ -1,7 +1,5 @@
 """A straight line between two nodes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.mesh.lines.lines import end_sizes, mesh_curve

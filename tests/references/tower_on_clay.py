@@ -1,7 +1,5 @@
 """An elastic tower that rocks on joints on a box of clay that yields, shaken and pushed over."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from references.recorder import Recorder

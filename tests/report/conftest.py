@@ -1,7 +1,5 @@
 """Runs that several tests of reports look at, each made once."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -3,8 +3,6 @@
 No two values are alike, nothing is in order, and there are two of everything.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import re

@@ -1,7 +1,5 @@
 """What a run with --report leaves and what its page holds; folders that hold no run."""
 
-from __future__ import annotations
-
 import json
 import re
 from html.parser import HTMLParser

@@ -1,7 +1,5 @@
 """Runs with --report that were ended and gone on with."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

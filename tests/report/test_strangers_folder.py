@@ -1,7 +1,5 @@
 """Reports of folders that somebody else has written: nothing of the reader's, and no traceback."""
 
-from __future__ import annotations
-
 import copy
 import json
 import math
@@ -14,7 +12,7 @@ import pytest
 
 from ssilang.cli.main import main
 from ssilang.cli.run import write_report
-from ssilang.io.file_names import inside
+from ssilang.io.atomic import inside
 from ssilang.report.page import page_of
 from ssilang.report.results import read_results
 from tests.report.test_report_file import Sections, page

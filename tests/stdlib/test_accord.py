@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.modal.oscillator import spectrum
 
 
 def found(text, *names):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     got = [result.session.root.find(name) for name in names]
     return [*got, [w.code for w in result.session.warnings]]
 

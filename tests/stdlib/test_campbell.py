@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -16,8 +17,7 @@ DISC = (
 
 
 def rows(script):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     table = result.session.root.find("T")
     return [table.get(i) for i in (1, 2, 3, 4)]
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 # two layers 0.1 and 0.2 thick on a plate 2 x 1, a common middle at z = 0
 LAYERS = (
@@ -25,8 +24,7 @@ CALL = "V = COQ2MAS M A T ; X = MESU V ; "
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     values = tuple(result.session.root.find(n) for n in names)
     return values[0] if len(values) == 1 else values
 
@@ -130,6 +128,5 @@ def test_other_cells_than_those_of_flat_shells_are_refused():
         "M = MODE S MECANIQUE ELASTIQUE COQ8 ; A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' 1. ; "
         "V = COQ2MAS M A ; "
     )
-    result = run_text(script)
-    assert result.exit_code == 1
+    result = failed(script)
     assert "TRI3 or QUA4" in result.message

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
 
 SOIL = "NU1 = 0.3 ; G1 = 2.E8 ; E1 = 2. * (1. + NU1) * G1 ; RO1 = 2000. ; "
@@ -30,8 +30,7 @@ RUN = (
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return tuple(result.session.root.find(n) for n in names)
 
 
@@ -151,8 +150,7 @@ def test_refusals():
         ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
         ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "the entry 1 is missing"),
     ):
-        result = run_text(start + f"T2 = {call} ;")
-        assert result.exit_code == 1
+        result = failed(start + f"T2 = {call} ;")
         assert text in result.message
 
 
@@ -160,12 +158,11 @@ def test_refusals():
 def test_a_layer_whose_nodes_are_too_far_apart_is_told(cells, too_coarse):
     """At the cut-off of 4 Hz and 31.62 m/s, 8 heights a wavelength are 0.988 m."""
     soil = PLANE.format(mode="PLAN DEFO").replace("TRAN 4", f"TRAN {cells}")
-    result = run_text(
+    result = ran(
         soil + SOIL.replace("2.E8", "2.E6") + SIGNAL + LAYER
         + "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 4. ;"
         + "T3 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 4. ;"
     )  # fmt: skip
-    assert result.exit_code == 0, result.message
     told = [w for w in result.session.warnings if w.code.endswith("layer-too-coarse")]
     assert len(told) == too_coarse
     if too_coarse:

@@ -1,8 +1,7 @@
 """DESTRA: the curves of TRACHIS drawn, or their extremes written."""
 
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 _TABLE = (
     "OPTI DIME 2 ELEM SEG2 ; L1 = DROI 4 (0. 0.) (1. 0.) ; X1 = COOR 1 L1 ; T2 = TABL ; "
@@ -24,15 +23,13 @@ _TABLE = (
     ],
 )
 def test_curves_are_drawn(call, tmp_path):
-    result = run_text(_TABLE + call, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    ran(_TABLE + call, output_directory=tmp_path)
     (picture,) = tmp_path.rglob("*.svg")
     assert picture.stat().st_size > 5000
 
 
 def test_extremes_are_written_a_line_a_curve(tmp_path):
-    result = run_text(_TABLE + "DESTRA T1 'TABMIMA' ;", output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(_TABLE + "DESTRA T1 'TABMIMA' ;", output_directory=tmp_path)
     head, *rows = result.output.strip().split("\n")
     assert head.split() == ["Chill", "minimum", "maximum"]
     assert [[float(v) for v in row.split()[-2:]] for row in rows] == [[1.0, 2.0], [0.0, 3.0]]
@@ -41,6 +38,5 @@ def test_extremes_are_written_a_line_a_curve(tmp_path):
 
 def test_what_is_not_there_is_named():
     for call, words in (("'CHOI' 9", "no curve 9"), ("'NONSENSE'", "NONSENSE is no option")):
-        result = run_text(_TABLE + f"DESTRA T1 {call} ;")
-        assert result.exit_code == 1
+        result = failed(_TABLE + f"DESTRA T1 {call} ;")
         assert words in result.message

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, refused
+from script_runs import found, ran, refused
 
 from ssilang.cli.run import run_text
 from tests.windows import needs_window
@@ -122,8 +122,7 @@ def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
         "OPTI DIME 3 ELEM CUB8 ; V = (((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 1. 0.)) VOLU 1 "
         "TRAN (0. 0. 1.) ; @VIS3D V (0. 0. 0.) (0. 0. 1.) (0. -9. 4.) 3 60. ;"
     )
-    result = run_text(script, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    ran(script, output_directory=tmp_path)
     assert len(list(tmp_path.rglob("*.png"))) == 2
 
 

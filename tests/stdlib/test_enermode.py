@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.operators.drawing import curves as drawing
 
 MASS = """
@@ -40,8 +40,7 @@ def drawn(monkeypatch):
 
     def run(script, folder):
         pictures.clear()
-        result = run_text(script, output_directory=folder)
-        assert result.exit_code == 0, result.message
+        result = ran(script, output_directory=folder)
         found = [(c.parts[0].abscissas, np.array([p.ordinates for p in c.parts])) for c in pictures]
         return result.session.root, found
 
@@ -101,6 +100,5 @@ def test_missing_works_and_other_tables_are_refused(tmp_path):
         ("R = DYNE 'DE_VOGELAERE' B1 50 0.01 ; ENERMODE B1 R ;", "TRAVAIL_EXTERIEUR"),
         ("ENERMODE (TABL 'LIAISON') B1 ;", "no modal basis"),
     ):
-        result = run_text(MASS + rest, output_directory=tmp_path)
-        assert result.exit_code == 1
+        result = failed(MASS + rest, folder=tmp_path)
         assert said in result.message

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import pyvista
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.operators.drawing import curves, scenes
@@ -168,8 +169,7 @@ O . 'MAILLAGE' = S ; LD = COTE 2 S ;
 def test_modes_go_to_paraview_one_a_time(tmp_path):
     text = MODES + "O . 'FICHIER_VTK' = 'shapes' ; EXPLORER T (MOTS 'VTK') O ; "
     text += "OPTI 'SORT' 'kept' ; EXPLORER T (MOTS 'VTK') O ; SORT 'CHAI' 'a' ; "
-    result = run_text(text, tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, tmp_path)
     collection = (tmp_path / "shapes.pvd").read_text()
     steps = [s.split('"') for s in collection.split("<DataSet ")[1:]]
     assert len(steps) == 2
@@ -194,8 +194,7 @@ def test_modes_are_drawn_with_arrows_a_second_mesh_and_words_for_trac(monkeypatc
         "O . 'LEGENDES' = MOTS 'first' 'second' ; O . 'OPTIONS_TRAC' = 'CACH NCLK' ; "
         "EXPLORER T (MOTS 'DEFO') O ;"
     )
-    result = run_text(text, tmp_path)
-    assert result.exit_code == 0, result.message
+    ran(text, tmp_path)
     assert [len(layers) for layers, _, _ in found] == [2, 2]
     assert [layers[1].scale for layers, _, _ in found] == [0.0, 0.0]
     (moved, _), (_, options, *_), _ = found[0]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -22,8 +23,7 @@ def field(result, name, component, mesh="M"):
 
 
 def solved(script):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     mesh = result.session.root.find("M")
     return result, mesh.nodes.coordinates[mesh.sorted_node_ids]
 

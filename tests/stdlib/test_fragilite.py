@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.records.fragility import of_cloud, of_exceedances
@@ -16,8 +17,7 @@ SUITE = (
 
 
 def found(text):
-    result = run_text(text + "R = @FRAGILITE T ;")
-    assert result.exit_code == 0, result.message
+    result = ran(text + "R = @FRAGILITE T ;")
     table = result.session.root.find("R")
     values = [table.get("MEDIANE"), table.get("DISPERSION"), *table.get("ECARTS").values]
     return values, table, [w.code for w in result.session.warnings]

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from script_runs import refused
-
-from ssilang.cli.run import run_text
+from script_runs import ran, refused
 
 _TRIANGLE = (
     "OPTI DIME 2 MODE PLAN CONT ELEM TRI3 ; PA = 0. 0. ; PB = 3. 0. ; PC = 0. 6. ; "
@@ -18,8 +16,7 @@ _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return tuple(result.session.root.find(n) for n in names)
 
 

@@ -1,9 +1,8 @@
 """MAILLER: where its parts lie, what they share, what it refuses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -14,8 +13,7 @@ BOX = "'SOL' 24. 8. 'SEMELLE' 4. 1. 'STRUCTURE' 2. 6. 'TAILLE' 0.5 2."
 
 def mailler(call: str, options: str = "OPTI DIME 2 ELEM QUA4 ;") -> Table:
     """The table of a call of MAILLER."""
-    result = run_text(f"{options} {call if 'T1 =' in call else 'T1 = MAILLER ' + call + ' ;'}")
-    assert result.exit_code == 0, result.message
+    result = ran(f"{options} {call if 'T1 =' in call else 'T1 = MAILLER ' + call + ' ;'}")
     return result.session.root.find("T1")
 
 
@@ -105,8 +103,7 @@ def test_joint_normal_points_from_the_soil_to_the_structure():
     U1 = MANU 'CHPO' (T1 . 'FACE_SEMELLE') 1 'UY' -1.E-3 ;
     U2 = MANU 'CHPO' (T1 . 'FACE_SOL') 1 'UY' 0. ;
     S1 = SIGM MJ MA (U1 ET U2) ; SMAX = MAXI (EXCO 'SMN' S1) ;"""
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     # a footing that sinks presses: negative traction KN w
     assert result.session.root.find("SMAX") == pytest.approx(-1e6, rel=1e-12)
 
@@ -179,8 +176,7 @@ def test_footing_without_soil_stands_on_a_fixed_line():
 
 
 def test_element_option_of_the_deck_is_left_as_it_was():
-    result = run_text(f"OPTI DIME 2 ELEM TRI6 ; T1 = MAILLER {BOX} ; E1 = VALE 'ELEM' ;")
-    assert result.exit_code == 0, result.message
+    result = ran(f"OPTI DIME 2 ELEM TRI6 ; T1 = MAILLER {BOX} ; E1 = VALE 'ELEM' ;")
     assert str(result.session.root.find("E1")).rstrip() == "TRI6"
 
 
@@ -204,8 +200,7 @@ def test_element_option_of_the_deck_is_left_as_it_was():
     ],
 )
 def test_what_makes_no_sense_is_refused_with_its_reason(call, said):
-    result = run_text(f"OPTI DIME 2 ELEM QUA4 ; T1 = MAILLER {call} ;")
-    assert result.exit_code == 1
+    result = failed(f"OPTI DIME 2 ELEM QUA4 ; T1 = MAILLER {call} ;")
     assert said in result.message
 
 

@@ -1,8 +1,7 @@
 """ORDOVIBC: complex modes in order, and followed from one basis to the next."""
 
 import numpy as np
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 SCRIPT = (
     "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; K1 = APPU 'UX' 4. P1 ; K2 = APPU 'UX' 9. P2 ; "
@@ -16,8 +15,7 @@ SCRIPT = (
 
 
 def test_modes_increase_then_keep_their_shape():
-    result = run_text(SCRIPT)
-    assert result.exit_code == 0, result.message
+    result = ran(SCRIPT)
     find = result.session.root.find
     w = np.sqrt(np.array([4.0, 9.0]) - 0.05**2) / (2 * np.pi)
     np.testing.assert_allclose(find("L1").values, [-w[1], -w[0], w[0], w[1]], rtol=1e-9)
@@ -40,8 +38,7 @@ def test_modes_of_a_projected_problem_stand_on_the_body():
         "N1 = NBNO (T . 'MODES' . 'MAILLAGE') ; C = EXTR (A1 . 'DEFORMEE_MODALE_REELLE_P') 'COMP' ;"
         "RECOVIBC T B ; X2 = XTX (T . 'MODES' . 1 . 'DEFORMEE_MODALE_REELLE') ;"
     )
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     find = result.session.root.find
     assert find("E") <= 1e-12
     assert find("X") > 0.1
@@ -51,8 +48,7 @@ def test_modes_of_a_projected_problem_stand_on_the_body():
 
 def test_complex_modes_without_masses_are_told_and_drawn(tmp_path):
     shown = "RECOVIBC T B ; POSTVIBR T (MOTS 'TABL' 'LIST' 'DEFO') ; L = T . 'LISTE_FREQUENCES' ;"
-    result = run_text(SCRIPT + shown, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(SCRIPT + shown, output_directory=tmp_path)
     find = result.session.root.find
     np.testing.assert_array_equal(find("L").values, find("L1").values)
     assert f"{find('L1').values[0]:.5E}" in result.output

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 BEAM = (
     "OPTI DIME 3 ELEM SEG2 ; L = DROI 4 (1. 0. 0.) (1. 2. 0.) ; "
@@ -15,8 +14,7 @@ RECTANGLE = "'SECT' 0.06 'INRY' 4.5E-4 'INRZ' 2.E-4 'TORS' 1.E-3 'VECT' (0. 0. 1
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     values = tuple(result.session.root.find(n) for n in names)
     return values[0] if len(values) == 1 else values
 
@@ -149,6 +147,5 @@ def test_fibres_and_points_become_bricks_and_lines():
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_refused(call, said):
-    result = run_text(BEAM.format("POUT", RECTANGLE) + call)
-    assert result.exit_code == 1
+    result = failed(BEAM.format("POUT", RECTANGLE) + call)
     assert said in result.message

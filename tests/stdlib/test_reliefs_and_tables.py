@@ -1,16 +1,13 @@
 """TABLO2D TABLO3D MONTAGNE @AFEVOZT FILC INT_COMP @SOLVMEC."""
 
 import pytest
-from script_runs import found, refused
+from script_runs import found, ran, refused
 
-from ssilang.cli.run import run_text
 from tests.windows import needs_window
 
 
 def drawn(script, folder):
-    result = run_text(script, output_directory=folder)
-    assert result.exit_code == 0, result.message
-    return result, sorted(folder.rglob("*.png"))
+    return ran(script, output_directory=folder), sorted(folder.rglob("*.png"))
 
 
 _STATE = "OPTI DIME 2 MODE PLAN CONT ELEM SEG3 ; "

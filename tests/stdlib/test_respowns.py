@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 MODULATION = (
     "M1 = EVOL 'MANU' 'TEMP' (PROG 0. 2. 8. 10.) 'MODU' (PROG 0. 1. 1. 0.) ;"
@@ -14,8 +13,7 @@ MODULATION = (
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return [result.session.root.find(n) for n in names]
 
 
@@ -44,6 +42,5 @@ def test_words_stand_in_any_order():
     [("(PROG 0.2 25.) LT", "limits"), ("LB LT 'ONDE' 0.1", "wavelets"), ("LB LT 1.2", "damping")],
 )
 def test_mistakes_are_named(tail, said):
-    result = run_text(MODULATION + f"A = PRNS S0 MM {tail} ;")
-    assert result.exit_code == 1
+    result = failed(MODULATION + f"A = PRNS S0 MM {tail} ;")
     assert said in result.message

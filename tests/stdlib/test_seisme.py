@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -10,8 +11,7 @@ G = 9.81
 
 def figures(times, values, more=""):
     listed = [" ".join(f"{x:.17e}" for x in v) for v in (times, values)]
-    result = run_text(f"T = @SEISME (EVOL 'MANU' (PROG {listed[0]}) (PROG {listed[1]})) {more};")
-    assert result.exit_code == 0, result.message
+    result = ran(f"T = @SEISME (EVOL 'MANU' (PROG {listed[0]}) (PROG {listed[1]})) {more};")
     return result.session.root.find("T"), [w.code for w in result.session.warnings]
 
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 TABLE = (
     "SP0 = EVOL 'MANU' 'FREQ' (PROG 0.1 0.5 1. 2.5 5. 33. 50.) 'ACCE' "
@@ -15,8 +14,7 @@ TABLE = (
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return tuple(result.session.root.find(n) for n in names)
 
 
@@ -57,6 +55,5 @@ def test_white_noise_has_unit_deviation_and_a_flat_spectrum():
 
 
 def test_unknown_kind_is_refused():
-    result = run_text("T = TABL ; E = SIGNSYNT 'AUTRE' T ;")
-    assert result.exit_code == 1
+    result = failed("T = TABL ; E = SIGNSYNT 'AUTRE' T ;")
     assert "FABR or BLANC" in result.message

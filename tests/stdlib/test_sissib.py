@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 
@@ -102,8 +103,7 @@ _READ = "".join(
 
 
 def read(text, *names):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     root = result.session.root
     return [np.array([root.find(f"{n}{i}") for i in (1, 2, 3)]) for n in names]
 
@@ -122,8 +122,7 @@ def test_directions_add_their_squares():
         "Y = R . 'Y' . 'DEPLACEMENTS' ; Z = R . 'REPONSE_TOTALE' . 'DEPLACEMENTS' ;"
         "D = MAXI (ABS ((Z * Z) - (X * X) - (Y * Y))) ;"
     )
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     assert result.session.root.find("D") < 1e-12
 
 
@@ -218,8 +217,7 @@ def components(field):
 
 @pytest.mark.parametrize("rule", ["SRSS", "CQC", "DIX_POUR_CENT"])
 def test_envelopes_of_frames_hold_the_largest_forces(rule):
-    result = run_text(FRAME.format(modes=4, rule=rule))
-    assert result.exit_code == 0, result.message
+    result = ran(FRAME.format(modes=4, rule=rule))
     products = components(result.session.root.find("C"))
     largest = components(result.session.root.find("Q"))
     names = ["EFFX", "EFFY", "EFFZ", "MOMX", "MOMY", "MOMZ"]
@@ -241,12 +239,10 @@ def test_products_of_two_forces_are_sums_over_modes_and_directions():
         " SI ((&I + &J) EGA 2) ; W = Y ; SINON ; W = W + Y ; FINS ; FIN J ; FIN I ;"
         "Z = EXCO 'C35' C 'C' ; D = MAXI (ABS (Z - W)) ; N = MAXI (ABS W) ;"
     )
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     assert result.session.root.find("D") < 1e-9 * result.session.root.find("N")
 
 
 def test_walls_are_refused_by_name():
-    result = run_text(FRAME.format(modes=2, rule="SRSS").replace("'POTEAU'", "'VOILE'"))
-    assert result.exit_code == 1
+    result = failed(FRAME.format(modes=2, rule="SRSS").replace("'POTEAU'", "'VOILE'"))
     assert "VOILE" in result.message

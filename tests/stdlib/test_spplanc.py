@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
@@ -85,8 +85,7 @@ T2 = SPPLANC T1 ; A = T2 . 'SIGM' ; B = T2 . 'FPIC' ; C = T2 . 'SPPL' ;
 
 @pytest.mark.parametrize(("kind", "power"), [("DEPL", 0), ("VITE", 1), ("ACCE", 2)])
 def test_the_table_gives_the_spectrum(kind, power):
-    result = run_text(SCRIPT.format(kind=kind, envelope="PLATLIN", start=2.0))
-    assert result.exit_code == 0, result.message
+    result = ran(SCRIPT.format(kind=kind, envelope="PLATLIN", start=2.0))
     f = np.array([1.0, 4.0])
     deviations, factors = floor_spectrum(TWO, POWER, ENVELOPE, f, 0.02)
     scale = (2.0 * np.pi * f) ** power
@@ -103,6 +102,5 @@ def test_the_table_gives_the_spectrum(kind, power):
      ("ACCE", "PLATLIN", 9.0, "DUREE")],
 )  # fmt: skip
 def test_mistakes_are_named(kind, envelope, start, said):
-    result = run_text(SCRIPT.format(kind=kind, envelope=envelope, start=start))
-    assert result.exit_code == 1
+    result = failed(SCRIPT.format(kind=kind, envelope=envelope, start=start))
     assert said in result.message

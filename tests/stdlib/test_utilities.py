@@ -1,15 +1,11 @@
 """CONVT @PALETTE CHPR0 @EXCEL1 PECHE @MESU @STBL @GLOBAL."""
 
 import pytest
-from script_runs import refused
-
-from ssilang.cli.run import run_text
+from script_runs import ran, refused
 
 
 def found(script, name):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find(name)
+    return ran(script).session.root.find(name)
 
 
 @pytest.mark.parametrize(
@@ -54,11 +50,10 @@ def test_field_values_follow_the_mesh():
 
 
 def test_curve_goes_to_a_file_of_two_columns(tmp_path):
-    result = run_text(
+    result = ran(
         "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 4.) ; @EXCEL1 E 'curve.csv' ; MESS 'after' ;",
         output_directory=tmp_path,
     )
-    assert result.exit_code == 0, result.message
     assert result.output.split()[-1] == "after"
     lines = next(tmp_path.rglob("curve.csv")).read_text().split("\n")
     rows = [[float(v) for v in line.split(";")] for line in lines if line.strip()]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from ssilang.language.near import VERY_LIKE, nearest
 from ssilang.language.say.errors import SsiError
+from ssilang.language.search import VERY_LIKE, nearest
 from ssilang.language.text import tree
 
 _NAME = re.compile(r"[@&!]?[^\W\d]\w*")

@@ -19,7 +19,7 @@ from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.not_built import put_off
-from ssilang.language.run.phrase_errors import name_as_word, no_result, unended
+from ssilang.language.run.phrases import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree

@@ -9,7 +9,6 @@ from functools import cache, lru_cache
 from ssilang.cli.checking.usage import statements_of
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language import vocabulary
-from ssilang.language.near import VERY_LIKE, nearest, slips
 from ssilang.language.registry import (
     OPERATORS,
     Argument,
@@ -22,6 +21,7 @@ from ssilang.language.registry import (
     keywords_of,
 )
 from ssilang.language.say.errors import SsiError
+from ssilang.language.search import VERY_LIKE, nearest, slips
 from ssilang.language.text import tree
 
 _OWN = frozenset({"component"})  # scripts may have names of their own

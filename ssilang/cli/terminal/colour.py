@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import pydoc
 import re
+import shutil
+import sys
 from typing import TextIO
 
 _RED, _YELLOW, _BLUE, _CYAN, _END = "\x1b[1;31m", "\x1b[1;33m", "\x1b[1;34m", "\x1b[36m", "\x1b[0m"
@@ -25,3 +28,12 @@ def _line(text: str, number: int) -> str:
     if re.match(r"\s*(-->|\|\s*\^)", text):
         return f"{_BLUE}{text}{_END}"
     return f"{_CYAN}{text}{_END}" if text.startswith("  = ") else text
+
+
+def show(text: str, out: TextIO) -> None:
+    """Write a text with a pager if it is longer than the terminal that `out` is."""
+    tall = text.count("\n") + 2 > shutil.get_terminal_size().lines
+    if tall and out is sys.stdout and out.isatty() and sys.stdin.isatty():
+        pydoc.pager(text)
+    else:
+        out.write(text + "\n")

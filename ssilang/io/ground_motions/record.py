@@ -11,7 +11,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 G = 9.81
 """Standard gravity as the rest of the house takes it (m/s2)."""

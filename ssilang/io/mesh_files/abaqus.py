@@ -17,7 +17,7 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 # family of elements (letters before the number of nodes) and that number -> cell type
 _SOLIDS = {4: "TET4", 5: "PYR5", 6: "PRI6", 8: "CUB8", 10: "TE10", 15: "PR15", 20: "CU20"}

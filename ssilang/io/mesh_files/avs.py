@@ -21,7 +21,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 _KINDS = {
     "POI1": "pt", "SEG2": "line", "SEG3": "line", "TRI3": "tri", "TRI6": "tri", "QUA4": "quad",

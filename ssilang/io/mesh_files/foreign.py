@@ -22,7 +22,7 @@ from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 _TYPES = {
     "vertex": "POI1", "line": "SEG2", "line3": "SEG3", "triangle": "TRI3", "triangle6": "TRI6",

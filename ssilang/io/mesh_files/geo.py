@@ -14,7 +14,7 @@ from ssilang.io.errors import InputError
 from ssilang.io.mesh_files import gmsh_alone
 from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.foreign import read_foreign
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 FREE = "SSILANG_ALLOW_GEO"
 """In the environment (`--allow-geo` puts it there): scripts run where no guard is to be had."""

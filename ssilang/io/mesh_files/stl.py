@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 
 def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:

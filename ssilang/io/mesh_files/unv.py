@@ -13,7 +13,7 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
 _CELLS: dict[int, str] = {

@@ -24,9 +24,12 @@ from ssilang.kernel.elements.shells.mindlin import Mindlin
 from ssilang.kernel.elements.shells.plate import Plate
 from ssilang.kernel.elements.shells.solid_shell import SolidShell
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
-from ssilang.kernel.elements.solids.hooke import inverted, moduli_from_field
 from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid
-from ssilang.kernel.elements.solids.solid_moduli import solid_compliance
+from ssilang.kernel.elements.solids.solid_moduli import (
+    inverted,
+    moduli_from_field,
+    solid_compliance,
+)
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField

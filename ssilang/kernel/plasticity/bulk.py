@@ -284,7 +284,7 @@ def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> Zo
     plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
     if not plain or points.count < least:
         return None
-    from ssilang.kernel.plasticity.solving.passes import zone_pass
+    from ssilang.kernel.plasticity.zone_points import zone_pass
 
     return zone_pass(points, places)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
@@ -14,10 +15,14 @@ from ssilang.kernel.elements.zone_fields import (
 )
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
 from ssilang.kernel.plasticity.layered_points import layered_points
 from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, law_parameters
+from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
+from ssilang.kernel.plasticity.solving.cones import ConePass
+from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
 
 
 def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
@@ -59,3 +64,14 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         zone, law_at(law, parameters), family.layout(zone), B, weights, section, components, held,
         parameters,
     )  # fmt: skip
+
+
+def zone_pass(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | None:
+    """The compiled passes of a zone, None where its law or stresses have none."""
+    if points.held:
+        return None
+    if points.law.parts is not None:
+        nested = nested_of(points.law.parts, points.parameters)
+        return NestedPass(cells_of(points, places), nested)
+    cone = cone_rows(points.law, points.parameters)
+    return None if cone is None else ConePass(cells_of(points, places), cone)

@@ -15,7 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.modal.oscillator import Oscillators, rested
-from ssilang.kernel.records.integration import brought_to_rest
+from ssilang.kernel.records.filters import brought_to_rest
 from ssilang.kernel.records.signals import constant_step
 
 _DAMPING = 0.1

@@ -16,7 +16,7 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
-from ssilang.kernel.elements.solids.hooke import moduli_from_field
+from ssilang.kernel.elements.solids.solid_moduli import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint

@@ -46,7 +46,7 @@ from ssilang.kernel.statics.linear_motion import (
     singular,
     tied,
 )
-from ssilang.kernel.waves.histories import refuse_layer_at_rest
+from ssilang.kernel.waves.matched_layer import refuse_layer_at_rest
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
 FEW = 8  # unilateral conditions, a solve for each: more of them want a factor

@@ -12,7 +12,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
 from ssilang.kernel.modal.reduced import reduced_problem
 from ssilang.kernel.solvers.inertia import count_negative
 from ssilang.kernel.statics.linear import SolveOptions, linear_system
-from ssilang.kernel.waves.histories import HISTORIES
+from ssilang.kernel.waves.matched_layer import HISTORIES
 
 
 def free_motion_fields(

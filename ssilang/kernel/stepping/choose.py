@@ -148,7 +148,7 @@ def _by(way: str) -> Callable[[Case], Loop]:
 
 
 def _dense(case: Case) -> Loop:
-    from ssilang.kernel.stepping.rests.dense.arrays import DenseLoop
+    from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
 
     return DenseLoop(case.problem, case.motion, case.effective)
 

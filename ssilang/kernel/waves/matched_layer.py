@@ -26,7 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.base.errors import KernelError, MaterialError, MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import node_major_layout, per_cell
 from ssilang.kernel.elements.solids.kinematics import SOLID_KINEMATICS
@@ -39,8 +39,45 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.kernel.waves.histories import HISTORIES
 from ssilang.kernel.waves.resolution import longest_sides, pressure_speed
+
+HISTORIES = ("HXX", "HYY", "HXY")
+"""Their inertia is negative."""
+
+
+def has_histories(matrix: Matrix | None) -> bool:
+    """Whether a matrix has such unknowns."""
+    blocks = () if matrix is None else matrix.blocks
+    return any(HISTORIES[0] in b.unknowns for b in blocks)
+
+
+def refuse_parts_of_layer(
+    stiffness: Matrix | None, mass: Matrix | None, damping: Matrix | None
+) -> None:
+    """Refuse a motion with some of a layer's matrices only.
+
+    Raises
+    ------
+    KernelError
+        Naming what is missing.
+    """
+    given = {"RIGI": stiffness, "MASS": mass, "AMOR": damping}
+    missing = [name for name, matrix in given.items() if not has_histories(matrix)]
+    if 0 < len(missing) < len(given):
+        raise KernelError("kernel.waves.part-of-matched-layer", missing=missing)
+
+
+def refuse_layer_at_rest(matrix: Matrix) -> None:
+    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's).
+
+    Raises
+    ------
+    KernelError
+    """
+    kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
+    if kinds == {"RIGIDITE"}:
+        raise KernelError("kernel.waves.matched-layer-at-rest")
+
 
 ORDER = 2
 """Of the stretching's growth with the depth in the layer."""

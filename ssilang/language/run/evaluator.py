@@ -12,14 +12,14 @@ from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
 from ssilang.language.run.not_built import put_off
-from ssilang.language.run.phrase_errors import (
+from ssilang.language.run.phrases import (
+    PhraseRunner,
     name_as_word,
     no_result,
     tell_held_word,
     tell_line_begun,
     tell_quoted_operator,
 )
-from ssilang.language.run.phrases import PhraseRunner
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ssilang.messages.message import Said, Severity, find
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span

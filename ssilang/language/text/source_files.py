@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
-from ssilang.system_reasons import system_reason
+from ssilang.system import system_reason
 
 
 def read_source(path: Path) -> Source:

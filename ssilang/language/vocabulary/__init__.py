@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ssilang.language.near import LIKE, nearest_names
+from ssilang.language.search import LIKE, nearest_names
 from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word, read_range
 from ssilang.remembered import remembered
 

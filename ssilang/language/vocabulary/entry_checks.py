@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.near import meant as near_word
 from ssilang.language.say.errors import SsiError
+from ssilang.language.search import meant as near_word
 from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
 from ssilang.language.vocabulary.entries import (
     NUMBER,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from ssilang.language.near import meant as near_word
+from ssilang.language.search import meant as near_word
 from ssilang.language.vocabulary.entries import BOTH, READ, REFUSED, WRITTEN, Declaration
 
 if TYPE_CHECKING:

@@ -7,16 +7,10 @@ import dataclasses
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.records.filters import without_trend
-from ssilang.kernel.records.integration import brought_to_rest, integrated
+from ssilang.kernel.records.filters import brought_to_rest, integrated, without_trend
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import arg, choice, key, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE, between
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, between
 from ssilang.operators.curves.words import (
     COLOUR,
     LIMITS,
@@ -27,6 +21,7 @@ from ssilang.operators.curves.words import (
     warn_of_points,
     warn_of_sampling,
 )
+from ssilang.operators.prelude import *
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 

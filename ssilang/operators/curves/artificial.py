@@ -6,28 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
     Resolution,
     modulated_response_spectrum,
 )
-from ssilang.language.registry import ANY, arg, flag, key, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import (
-    ANY_NUMBER,
-    BELOW_CRITICAL,
-    NOT_NEGATIVE,
-    POSITIVE,
-    RISING,
-    between,
-)
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator
+from ssilang.operators.prelude import *
 
 _SERIES = ("ACCE", "VITE", "DEPL")
 _SEED = key(

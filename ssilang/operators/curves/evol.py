@@ -8,37 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_algebra import component
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.filled import Filled
-from ssilang.language.registry import (
-    Entry,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    select,
-)
-from ssilang.language.run.call import Call, Operand
-from ssilang.language.values import (
-    LazyRows,
-    LazyTable,
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListReel,
-    Table,
-)
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE, POSITIVE
+from ssilang.language.values import LazyRows, LazyTable
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
@@ -48,7 +21,7 @@ from ssilang.operators.curves.instants import (
     value_in_time,
 )
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 

@@ -8,17 +8,12 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Chosen, arg, by, choice, flag, main, opt, said, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel, Mot
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
+from ssilang.operators.prelude import *
 
 
 def numbered(call: Call, curve: Curve, place: int | None) -> CurvePart:

@@ -6,12 +6,8 @@ from dataclasses import astuple
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
-from ssilang.language.registry import arg, flag, key, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
+from ssilang.operators.prelude import *
 
 _POINTS = 121
 _INTENSITIES = arg("intensities", "LISTREEL", en="intensities", range=POSITIVE)

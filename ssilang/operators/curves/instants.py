@@ -8,13 +8,9 @@ from typing import TYPE_CHECKING, TypeVar, overload
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering
-from ssilang.language.near import nearest
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
+from ssilang.language.search import nearest
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.node_track import NodeTrack

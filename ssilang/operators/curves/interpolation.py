@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
     crossings,
@@ -18,35 +17,15 @@ from ssilang.kernel.curves.algebra import (
     spline,
 )
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import (
-    Chosen,
-    Like,
-    arg,
-    choice,
-    either,
-    flag,
-    group,
-    key,
-    main,
-    operator,
-    opt,
-    said,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
+from ssilang.language.registry import either
 from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG
-from ssilang.operators.fields.cloud_functions import interpolate_cloud
+from ssilang.operators.fields.clouds import interpolate_cloud
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.numbers.functions import mapped
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _WHERE = "where the function is wanted"
 _NUMBER = arg("value", "FLOTTANT", en=_WHERE, range=ANY_NUMBER)

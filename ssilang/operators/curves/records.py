@@ -7,11 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import ComplexArray, FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.records.directions import turned
+from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched
 from ssilang.kernel.records.signals import (
@@ -21,10 +17,9 @@ from ssilang.kernel.records.signals import (
     scales,
     settled,
     transform,
+    turned,
 )
-from ssilang.language.registry import arg, by, choice, flag, key, operator
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER, BELOW_CRITICAL, NOT_NEGATIVE, POSITIVE
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import (
     COLOUR,
@@ -36,7 +31,7 @@ from ssilang.operators.curves.words import (
     warn_of_sampling,
 )
 from ssilang.operators.mesh.copies.images import tour
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @filt.form(

@@ -6,15 +6,11 @@ import dataclasses
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.registry import arg, choice, flag, key, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, RISING, between
+from ssilang.language.vocabulary.terms import RISING, between
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
+from ssilang.operators.prelude import *
 
 
 @operator(

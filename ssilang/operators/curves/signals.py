@@ -9,8 +9,6 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.records.signals import (
     constant_step,
     fourier,
@@ -19,10 +17,7 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.registry import ANY, Chosen, arg, choice, flag, key, operator, opt, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.curves.words import (
     COLOUR,
     CURVE,
@@ -34,6 +29,7 @@ from ssilang.operators.curves.words import (
     warn_of_points,
     warn_of_sampling,
 )
+from ssilang.operators.prelude import *
 
 
 def spectrum(

@@ -7,24 +7,13 @@ from collections.abc import Iterable
 import numpy as np
 
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
-from ssilang.kernel.records.directions import rotated_spectra
 from ssilang.kernel.records.floors import Storey, floor_spectrum
-from ssilang.language.registry import arg, choice, flag, key, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import (
-    ANY_NUMBER,
-    BELOW_CRITICAL,
-    NOT_NEGATIVE,
-    POSITIVE,
-    RISING,
-    between,
-)
+from ssilang.kernel.records.signals import rotated_spectra
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
 from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
 from ssilang.operators.mesh.selection.boundaries import enve
+from ssilang.operators.prelude import *
 
 _TIMES = key(
     "times",

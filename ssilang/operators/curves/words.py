@@ -7,13 +7,7 @@ import re
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import arg, choice, key
-from ssilang.language.run.call import Call, Operand
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.operators.prelude import *
 
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")

@@ -7,26 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.curves.curve import Curve
-from ssilang.language.registry import (
-    Chosen,
-    Entry,
-    Keyword,
-    Select,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    select,
-    words_in,
-)
-from ssilang.language.run.call import Call, Operand
-from ssilang.language.values import ListEnti, Table, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.registry import Keyword, Select, words_in
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -34,7 +15,7 @@ from ssilang.operators.drawing.pictures import (
     save_picture,
 )
 from ssilang.operators.files.outputs import run_output
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.io.recording import Recording

@@ -2,34 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
+from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
 from ssilang.kernel.fields.arrows import (
     arrows_at_nodes,
     arrows_in_cells,
     principal_strokes,
 )
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart, automatic_scale
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    arg,
-    choice,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import ANY_NUMBER
-from ssilang.operators.dispatch import EXTR, union
-from ssilang.operators.workspace import workspace
+from ssilang.operators.dispatch import COUL, EXTR, union
+from ssilang.operators.prelude import *
 
 
 @union(("DEFORME", "DEFORME"))
@@ -233,3 +219,48 @@ def _tag(
     colour = index_of(found["colour"]) if "colour" in found else 0
     place = found.get("place", "NE").strip().upper()
     return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))
+
+
+@COUL.form(
+    main("value", "EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured"),
+    opt(
+        "given",
+        "LISTMOTS",
+        "ENTIER",
+        "MOT",
+        en="colour, its number, or one for each part",
+        kind="colour",
+        range=ANY_NUMBER,
+    ),
+    gives=Like("value"),
+)
+def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
+    if given is None:
+        colours = [workspace(call.session).colour] * len(value.parts)
+    elif isinstance(given, ListMots):
+        colours = [index_of(str(v)) for v in given.values]
+        if len(colours) < len(value.parts):
+            raise call.error(
+                "operators.drawing.colour-count",
+                given,
+                n_colours=len(colours),
+                n_parts=len(value.parts),
+            )
+    else:
+        colours = [_colour(call, given)] * len(value.parts)
+    parts = tuple(_coloured(p, c) for p, c in zip(value.parts, colours, strict=False))
+    return replace(value, parts=parts)
+
+
+def _coloured(part: Any, colour: int) -> Any:
+    is_curve = isinstance(part, CurvePart)
+    return part.coloured(colour) if is_curve else replace(part, colour=colour)
+
+
+def _colour(call: Call, given: str | int) -> int:
+    """Index of a colour given by name, or by its number from 1 (negative: the default)."""
+    if isinstance(given, str):
+        return index_of(given)
+    if given > len(NAMES):
+        raise call.error("operators.drawing.colour-number", given, count=len(NAMES), given=given)
+    return max(given - 1, 0)

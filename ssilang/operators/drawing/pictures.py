@@ -6,12 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ssilang.language.near import nearest
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import type_of
+from ssilang.language.search import nearest
 from ssilang.operators.files.outputs import run_output
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

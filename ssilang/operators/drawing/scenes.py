@@ -18,29 +18,11 @@ from ssilang.io.plots.palette import index_of
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.matrices.support import support_mesh
+from ssilang.kernel.matrices.location import support_mesh
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    Chosen,
-    Entry,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    select,
-    words_in,
-)
-from ssilang.language.run.call import Call, Operand
-from ssilang.language.run.session import Session
-from ssilang.language.values import type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
     picture_formats,
@@ -49,7 +31,7 @@ from ssilang.operators.drawing.pictures import (
     save_picture,
 )
 from ssilang.operators.files.outputs import run_output
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.operators.prelude import *
 
 
 @dataclass

@@ -17,10 +17,9 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.language.values import Table
 from ssilang.messages.message import Sentence
 from ssilang.operators.files.outputs import digests_of_read, run_output
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 from ssilang.threads import blas
 

@@ -10,11 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
 from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.checkpoints import (
@@ -38,6 +34,7 @@ from ssilang.operators.dynamics.reports import (
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
+from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries

@@ -6,10 +6,7 @@ from typing import cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import (
@@ -22,11 +19,8 @@ from ssilang.kernel.interface.interface import (
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
-from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel, Table
+from ssilang.operators.prelude import *
 
 
 @operator(

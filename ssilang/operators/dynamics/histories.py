@@ -15,13 +15,12 @@ import numpy as np
 
 from ssilang.io.atomic import write_text
 from ssilang.io.parquet_tables import write_parquet
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.values import LazyRows, LazyTable, ListReel, Mot, Table, promises
+from ssilang.kernel.base.arrays import BoolArray
+from ssilang.language.values import LazyRows, LazyTable, promises
 from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.dynamics.motion_observers import restricted
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.force_track import ForceTrack

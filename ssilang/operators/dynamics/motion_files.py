@@ -8,21 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.parquet_tables import is_there
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.elements.families import stress
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.values import ListMots, Table
 from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 from ssilang.operators.dynamics.motion_observers import VtkObserver
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.files.writing_vtk import cell_labels
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import units_in_si, workspace
+from ssilang.operators.workspace import units_in_si
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.force_track import ForceTrack

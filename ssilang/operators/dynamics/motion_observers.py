@@ -9,10 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.io.vtk.labels import Labels

@@ -9,12 +9,8 @@ import numpy as np
 
 from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.language.run.session import Session
-from ssilang.language.values import Table
 from ssilang.operators.files.outputs import run_output
+from ssilang.operators.prelude import *
 from ssilang.operators.workspace import units_in_si
 
 MOST_FIELDS, MOST_MODES = 6, 12

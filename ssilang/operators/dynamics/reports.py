@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.language.run.session import Session
-from ssilang.language.values import LazyTable, ListReel, Mot, promises
+from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem

@@ -7,16 +7,11 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.shear_history import largest_shear_strain
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import arg, operator
-from ssilang.language.values import ListChpo, Table
 from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.node_track import NodeTrack

@@ -8,13 +8,9 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.io.recording import thinned_drawing
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListReel, Table
 from ssilang.messages.message import Teller, teller
 from ssilang.operators.files.outputs import run_output
+from ssilang.operators.prelude import *
 
 QUANTITIES = (
     "PART", "PRESSION", "TAUX", "OUVERTURE", "MOMENT", "ROTATION", "ENFONCEMENT", "RENVERSEMENT",

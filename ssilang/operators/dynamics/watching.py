@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.stepping.track import Rows, Track
-from ssilang.language.values import LazyTable, ListReel, Mot, Table, promises
+from ssilang.language.values import LazyTable, promises
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.interface.interface import Interface

@@ -7,36 +7,21 @@ from typing import Any, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
-from ssilang.kernel.elements.solids.hooke import hooke_block
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields.cell_curves import through
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
-from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.fields.cell_algebra import through
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.fields.node_field import Nature
 from ssilang.kernel.materials.parameters import geometric_names, material_names
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.plasticity.points import variable_names
-from ssilang.language.registry import (
-    arg,
-    choice,
-    each,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    said,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
+from ssilang.language.registry import each
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import on_zones
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")

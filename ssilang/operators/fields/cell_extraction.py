@@ -8,23 +8,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import (
-    ANY,
-    Chosen,
-    arg,
-    by,
-    main,
-    opt,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing, union
+from ssilang.operators.prelude import *
 
 
 def _mesh_of(field: CellField) -> Mesh:

@@ -7,26 +7,22 @@ from dataclasses import replace
 from functools import partial, reduce
 from typing import cast
 
-from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
 from ssilang.kernel.elements.results.supports import (
     cells_of_mesh,
     cells_of_nodal,
+    field_on_mesh,
+    field_on_model,
+    model_on_mesh,
     moved,
     nodal_of_cells,
     point_coordinates,
     values_at_points,
 )
 from ssilang.kernel.fields.cell_algebra import united
-from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import When, arg, choice, flag, main, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.language.registry import When
 from ssilang.operators.dispatch import CHAN, COOR, REDU
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 

@@ -6,30 +6,11 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    Chosen,
-    Like,
-    arg,
-    by,
-    flag,
-    key,
-    main,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, ListReel, Mot
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
+from ssilang.operators.prelude import *
 
 _FIELDS = ("CHPOINT", "MCHAML")
 _LAGRANGE = frozenset({"LX", "FLX"})

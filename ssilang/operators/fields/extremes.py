@@ -7,16 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_algebra import component_names
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Operator, arg, by, choice, flag, main, many, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
+from ssilang.language.registry import Operator
 from ssilang.operators.dispatch import MAXI, MINI
+from ssilang.operators.prelude import *
 
 Numbers = ListReel | ListEnti
 

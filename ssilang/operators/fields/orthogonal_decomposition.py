@@ -7,23 +7,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.fields.proper_orthogonal import as_fields, modes, stacked
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import (
-    arg,
-    by,
-    choice,
-    flag,
-    operator,
-    opt,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _METHOD = choice("method", ("SNAPSHOTS", "CLASSIQUE"), en="for few fields, or for few unknowns")
 

@@ -5,13 +5,8 @@ from __future__ import annotations
 from typing import NoReturn, cast
 
 from ssilang.kernel.elements.results.projection import Lost, by_least_squares, on_mesh, on_model
-from ssilang.kernel.fields.cell_field import CellField, Support
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import arg, choice, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.operators.prelude import *
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes")
 

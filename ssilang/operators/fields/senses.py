@@ -5,12 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.fields.cell_algebra import added, component_names
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.measure import signed_area
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 
 
 @operator("SENS", arg("contours", "TABLE", en="closed contours by number"), family="fields")

@@ -6,21 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    by,
-    many,
-    operator,
-    opt,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of the surface (3D)")
 

@@ -7,24 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError, NoResultError
+from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.curves.algebra import combined
-from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.families import elastic_stress
-from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
+from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import Nature, NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import When, arg, main, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.kernel.fields.node_field import Nature
+from ssilang.language.registry import When
 from ssilang.operators.dispatch import INVE, PSCA, PVEC, worded_union
 from ssilang.operators.numbers.arithmetic import _ARRAY, RULES, SIGNS, rule, rule_with_call
+from ssilang.operators.prelude import *
 
 _NATURES: dict[str, Nature] = {"INDE": "", "DIFF": "DIFFUS", "DISC": "DISCRET"}
 

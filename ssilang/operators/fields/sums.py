@@ -6,16 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import arg, flag, main, many, operator, opt, shared
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.fields.signs import paired_names
+from ssilang.operators.prelude import *
 
 # ---- measures -----------------------------------------------------------------------------------
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
@@ -41,13 +39,10 @@ from ssilang.kernel.elements.solids.gradients import (
 )
 from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import arg, by, choice, flag, main, many, operator, opt
-from ssilang.language.run.call import Call
+from ssilang.kernel.fields.cell_field import Support
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL, on_zones, state_and_rest
 
 _SKINS = ("SUPE", "MOYE", "INFE")

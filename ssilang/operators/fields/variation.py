@@ -7,16 +7,11 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.algebra import interpolated
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import arg, choice, operator, opt, said
-from ssilang.language.run.call import Call
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.operators.prelude import *
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 

@@ -9,10 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ssilang.io.errors import InputError
-from ssilang.language.registry import flag, many, operator
-from ssilang.language.run.call import Call, name_of
-from ssilang.language.values import ListEnti, ListReel, Mot
+from ssilang.language.run.call import name_of
 from ssilang.operators.files.outputs import input_path, option_name, run_output
+from ssilang.operators.prelude import *
 
 _ITEM = re.compile(r"'([^']*(?:''[^']*)*)'|([^\s,;]+)")
 

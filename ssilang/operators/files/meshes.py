@@ -10,21 +10,16 @@ import numpy as np
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part
 from ssilang.io.mesh_files.reading import ENDINGS, Asked, read_mesh_file
 from ssilang.io.mesh_files.writing import WRITTEN, write_mesh_file
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.orientation import orient
-from ssilang.language.near import nearest
-from ssilang.language.registry import arg, flag, lead, main, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.language.search import nearest
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE, warn_flat, warn_repeated_cells, warn_without_cells
 from ssilang.operators.files.writing import SORT, target_path
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"}
 """What Abaqus calls plane solids, by the mode; CPE in all others."""

@@ -5,12 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ssilang.io.file_names import fault_on_windows, portable
+from ssilang.io.atomic import fault_on_windows, portable
 from ssilang.io.run_output import RunOutput
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.say.errors import SsiError
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def run_output(session: Session) -> RunOutput:

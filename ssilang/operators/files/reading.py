@@ -7,21 +7,13 @@ import numpy as np
 from ssilang.io.csv_tables import as_columns, read_csv
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.queries.soundness import repeated_cells
-from ssilang.language.registry import arg, choice, key, lead, opt, said, shared
-from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition
-from ssilang.language.values import ListReel, Mot, Procedure, Table
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.files.outputs import file_to_read, input_path, option_name, run_output
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 LIRE = shared("LIRE", "files")
 

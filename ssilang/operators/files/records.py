@@ -11,13 +11,9 @@ from ssilang.io.ground_motions.esm import read_esm
 from ssilang.io.ground_motions.peer import read_peer
 from ssilang.io.ground_motions.record import GroundMotion
 from ssilang.io.ground_motions.titled import read_titled
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import Entry, arg, flag, key, lead, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, NOT_ZERO
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _ENTRIES: tuple[Entry, ...] = (
     lead("file", "MOT", en="file"),

@@ -15,36 +15,19 @@ import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.language.registry import ANY, arg, flag, key, many, operator
-from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.scopes import PREDEFINED, Frame
-from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.printer import print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Script
-from ssilang.language.values import (
-    Annule,
-    LazyRows,
-    LazyTable,
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    Objet,
-    Procedure,
-    Table,
-    Texte,
-)
+from ssilang.language.values import Annule, LazyRows, LazyTable, Objet, Texte
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
+from ssilang.operators.prelude import *
 from ssilang.operators.session.configurations import Configuration
-from ssilang.operators.workspace import Workspace, workspace
 
 # ---- how objects of the language are taken apart
 

@@ -7,27 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.io.csv_tables import Column, csv_lines
-from ssilang.kernel.curves.curve import Curve
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    key,
-    lead,
-    many,
-    opt,
-    said,
-    select,
-    shared,
-)
-from ssilang.language.run.call import Call
 from ssilang.language.run.session import Check
-from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import CARRIED, NOT_NEGATIVE
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.files.outputs import option_name, output_path, run_output
+from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text
-from ssilang.operators.workspace import workspace
 
 SORT = shared("SORT", "files", full_name="SORTIR")
 

@@ -14,22 +14,15 @@ from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.stl import stl_lines
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import arg, choice, flag, key, lead, main, named, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.registry import named
 from ssilang.operators.files.meshes import PLANE, mesh_table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.files.saving import check_settings
 from ssilang.operators.files.writing import SORT, target_path
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @SORT.form(

@@ -13,18 +13,10 @@ from ssilang.io.run_output import RunOutput
 from ssilang.io.vtk.labels import Labels, labels_of
 from ssilang.io.vtk.series import Part, Series, SeriesWriter, strip_extension
 from ssilang.io.vtk.vtu import Encoding
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.changes.local_refinement import parted
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import arg, choice, flag, key, many, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.files.writing import SORT, target_path
+from ssilang.operators.prelude import *
 from ssilang.operators.workspace import units_in_si
 
 _ENCODINGS = ("FORM", "BINA", "ZIP")

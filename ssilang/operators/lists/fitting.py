@@ -6,14 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields import node_algebra
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import arg, flag, key, many, operator
-from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import call_procedure
-from ssilang.language.values import ListReel, Procedure, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.operators.prelude import *
 
 _ROUNDS = 200
 """Steps of LEVM, taken and refused."""

@@ -6,23 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    Like,
-    arg,
-    choice,
-    flag,
-    main,
-    operator,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items
+from ssilang.operators.prelude import *
 
 DANS = shared("DANS", "lists")
 _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in any order")

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.operators.prelude import *
 
 _FIXED = 1.0 / 3.0  # T0: asymptotes x T0 and x / T0
 _MOVING = 0.7  # S0: they come nearer by it where a variable swings, else go off by 1/sqrt(S0)

@@ -7,35 +7,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import (
-    ANY,
-    Argument,
-    Like,
-    arg,
-    flag,
-    key,
-    main,
-    operator,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import (
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, POSITIVE
+from ssilang.language.registry import Argument
 from ssilang.operators.curves.instants import refused_place
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
+from ssilang.operators.prelude import *
 
 AnyList = ListReel | ListEnti | ListMots | ListChpo | ListObje
 LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS", "LISTCHPO", "LISTOBJE")

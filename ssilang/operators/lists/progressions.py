@@ -8,21 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import KernelError
-from ssilang.language.registry import Entry, arg, key, many, operator, opt, select
-from ssilang.language.run.call import Call, Operand
-from ssilang.language.values import (
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    Table,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
+from ssilang.operators.prelude import *
 
 _REAL = ("ENTIER", "FLOTTANT")
 LONGEST = 20_000_000

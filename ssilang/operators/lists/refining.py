@@ -6,14 +6,10 @@ import math
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.language.registry import arg, shared
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.lists.progressions import check_length
-from ssilang.operators.mesh.changes.refining import refined
+from ssilang.operators.mesh.changes.cells import refined
+from ssilang.operators.prelude import *
 
 RAFF = shared("RAFF", "lists", full_name="RAFFINER")
 _LIST = arg("value", "LISTREEL", en="list", range=ANY_NUMBER)

@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.language.registry import Chosen, arg, choice, key, operator, opt, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.operators.prelude import *
 
 
 @operator(

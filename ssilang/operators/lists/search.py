@@ -9,27 +9,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.mesh.combine import without_duplicates
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import (
-    ANY,
-    Chosen,
-    Like,
-    arg,
-    choice,
-    flag,
-    key,
-    lead,
-    main,
-    many,
-    operator,
-    opt,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, NOT_NEGATIVE
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
+from ssilang.operators.prelude import *
 
 _PRECISION = 2.2e-16
 Sortable = ListReel | ListEnti | ListMots

@@ -7,33 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.condensation import dependence
-from ssilang.kernel.matrices.matrix import Matrix, dual_of
+from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    by,
-    choice,
-    flag,
-    main,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule, rule_with_call
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import flaw_of
 
 

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import (
     cable_stiffness,
     field_diagonal,
@@ -15,26 +14,12 @@ from ssilang.kernel.matrices.build import (
     sum_of_outer_products,
 )
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
-from ssilang.kernel.matrices.matrix import Matrix, dual_of
+from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    Keyword,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    said,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO, POSITIVE
+from ssilang.language.registry import Keyword
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 

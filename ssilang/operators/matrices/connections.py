@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
 _KEY = "connections"

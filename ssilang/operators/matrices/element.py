@@ -9,28 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
-from ssilang.kernel.elements.solids.hooke import hooke_block
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Argument, arg, by, choice, flag, key, many, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.registry import Argument
 from ssilang.messages.message import Refusal, find
 from ssilang.operators.models.contact import model_relations
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 UNKNOWNS = ("UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT", "P", "PI", "T", "ALFA", "BETA")
 

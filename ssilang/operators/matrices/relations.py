@@ -4,20 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import Term
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, choice, each, flag, key, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, Procedure
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.registry import each
 from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
-from ssilang.operators.mesh.changes.refining import tie_relations
-from ssilang.operators.workspace import workspace
+from ssilang.operators.mesh.changes.cells import tie_relations
+from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}
 

@@ -4,16 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.materials.model import Mode, Model
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import choice, flag, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import NOT_ZERO
+from ssilang.kernel.materials.model import Mode
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
+from ssilang.operators.prelude import *
 
 _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s", usual=NOT_ZERO)
 

@@ -6,9 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (
     SuperElement,
@@ -18,12 +16,9 @@ from ssilang.kernel.matrices.superelement import (
     inner_displacement,
     shape_fields,
 )
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, by, choice, flag, main, operator, opt, said, shared
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing
+from ssilang.operators.prelude import *
 
 SUPE = shared("SUPE", "matrix", full_name="SUPER")
 _ELEMENT = arg("element", "SUPERELE", en="super-element")

@@ -7,31 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
-from ssilang.kernel.matrices.matrix import Matrix, Relations
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import (
-    Argument,
-    Entry,
-    When,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, NOT_ZERO
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.kernel.matrices.matrix import Relations
+from ssilang.language.registry import Argument, When
+from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}
 IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")

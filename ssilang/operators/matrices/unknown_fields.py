@@ -7,16 +7,11 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.fields import node_algebra
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import numbering_of
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Chosen, arg, flag, operator, opt, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.numbers.noise import session_generator
+from ssilang.operators.prelude import *
 
 
 @operator(

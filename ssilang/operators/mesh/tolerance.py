@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.language.registry import When, opt
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.language.registry import When
+from ssilang.operators.prelude import *
 
 DISTANCE = opt(
     "distance",

@@ -6,9 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     Path,
@@ -20,25 +17,9 @@ from ssilang.kernel.mesh.generators.sweep import (
     translation,
 )
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    flag,
-    key,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO, POSITIVE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -49,7 +30,7 @@ from ssilang.operators.mesh.lines.ends import (
     cuts_of,
 )
 from ssilang.operators.mesh.surfaces.sweeps import LAYERS, generator_path, turning
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:

@@ -7,15 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal.basis import (
     projected_matrix,
     projected_relations,
@@ -25,25 +17,10 @@ from ssilang.kernel.modal.basis import (
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
-from ssilang.language.registry import (
-    Chosen,
-    Like,
-    arg,
-    either,
-    flag,
-    group,
-    key,
-    main,
-    many,
-    operator,
-    opt,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.registry import either
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @dataclass(frozen=True)

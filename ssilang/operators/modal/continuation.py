@@ -8,9 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -19,11 +16,9 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -32,9 +27,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.continuation.expansion import Names
     from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
 
-from ssilang.kernel.fields.node_field import NodeValues
 from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.language.values import ListChpo
 from ssilang.operators.session.user_procedures import call_user
 
 

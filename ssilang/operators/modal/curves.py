@@ -7,13 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListEnti, ListReel, Table
 from ssilang.operators.curves.evol import (
     COUNT,
     KINDS,
@@ -27,7 +22,7 @@ from ssilang.operators.curves.evol import (
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def _basis(call: Call, shapes_wanted: int | None = None) -> list[Shape]:

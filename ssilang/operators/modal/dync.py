@@ -7,13 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.dyne import (
     TABLES,
     System,
@@ -22,6 +16,7 @@ from ssilang.operators.modal.dyne import (
     tables_by_role,
 )
 from ssilang.operators.modal.dyne_links import links_of
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:

@@ -8,13 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.explicit import (
     SCHEMES,
     VARIABLES,
@@ -27,15 +21,11 @@ from ssilang.kernel.modal.explicit import (
 from ssilang.kernel.modal.links import STATES
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
-from ssilang.language.registry import arg, choice, many, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.dyne_links import Basis, ReadLink, link_results, links_of
 from ssilang.operators.modal.dyne_models import links_table, modal_table, wanted_of
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import workspace
 
 BASES = ("BASE_MODALE", "BASE_DE_MODES", "ENSEMBLE_DE_BASES")
 _ROLES = {

@@ -7,18 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.links import Link, LinkArrays, Points, link_arrays, segments_of
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.basis import Shape
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import workspace
 
 LINKS = "TLIAI.LIAISON_A.I"
 """Where the entries of a link are declared, for DYNE and DYNC alike."""

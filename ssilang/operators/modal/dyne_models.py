@@ -5,11 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.shape_models import is_shape, shape_points
-from ssilang.language.values import Mot, Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 _LONG = {

@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.impedance import factors, impedance
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
-from ssilang.language.registry import arg, choice, key, many, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined
+from ssilang.operators.prelude import *
 
 _KINDS = {"RIGI": "RAIDEUR", "MASS": "MASSE", "AMOR": "AMORTISSEMENT"}
 

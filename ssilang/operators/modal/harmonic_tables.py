@@ -8,10 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.values import ListMots, ListReel, Mot, Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 

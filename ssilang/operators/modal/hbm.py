@@ -6,14 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel, Mot, Table
 from ssilang.operators.modal.harmonic_tables import (
     Asked,
     asked_results,
@@ -21,6 +16,7 @@ from ssilang.operators.modal.harmonic_tables import (
     curve,
     joined,
 )
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 MATRICES = {

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.build import nodal_diagonal
-from ssilang.kernel.matrices.matrix import Matrix, dual_of
+from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.language.registry import arg, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
 from ssilang.operators.matrices.element import amor, mass, rigi
 from ssilang.operators.modal.basis import Shape, shapes_of
+from ssilang.operators.prelude import *
 
 
 def _diagonal(modes: list[Shape], values: list[float], kind: str) -> Matrix:

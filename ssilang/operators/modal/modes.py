@@ -14,17 +14,12 @@ from ssilang.kernel.matrices.assembly import (
     negative_mass,
     numbering_of,
 )
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import support_mesh
-from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.modal.complex_modes import ComplexMode, complex_modes
 from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
-from ssilang.language.registry import Chosen, arg, by, flag, key, many, operator, opt, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE, POSITIVE
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
-from ssilang.operators.workspace import solver_of, workspace
+from ssilang.operators.prelude import *
+from ssilang.operators.workspace import solver_of
 
 _FREQUENCY = arg("frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", unit="Hz")
 _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of modes")

@@ -8,21 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined
 from ssilang.kernel.stepping.problem.loading import terms_of
-from ssilang.language.registry import Chosen, arg, choice, main, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import MadeFields
 from ssilang.operators.modal.basis import BASIS, Shape, basis_shapes, shapes_in
+from ssilang.operators.prelude import *
 
 QUANTITIES = ("DEPL", "VITE", "ACCE", "CONT", "REAC")
 _INDEX = {

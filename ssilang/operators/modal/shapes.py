@@ -8,17 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.imposed import geometric_gaps
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.linear import product
-from ssilang.language.registry import Like, arg, choice, flag, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Mot, Table
 from ssilang.operators.modal.basis import Shape, shapes_in
 from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.prelude import *
 
 # --- unit size -------------------------------------------------------------------------------
 

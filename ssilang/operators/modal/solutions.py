@@ -6,36 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Curve, Load, LoadPart
+from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements import families
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    key,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
 from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.modal.matrices import modal_stiffness
 from ssilang.operators.modal.modes import Solution, directions
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import tire
 from ssilang.operators.tables.indices import copied
-from ssilang.operators.workspace import workspace
 
 # SEIS SIGS: seismic loads on modal bases, stresses of modes.
 

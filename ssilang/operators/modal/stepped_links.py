@@ -5,14 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.modal.explicit import ModalSteps
 from ssilang.kernel.modal.shape_models import is_shape
-from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.modal.dyne import results_of_models
 from ssilang.operators.modal.dyne_models import is_link
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 

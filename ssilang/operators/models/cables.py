@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
-from ssilang.language.registry import arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 _ENTRIES = {

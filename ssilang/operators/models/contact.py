@@ -5,14 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.catalog import ElementKind, register_element
-from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.run.call import Call
-from ssilang.operators.workspace import Workspace
+from ssilang.kernel.materials.model import Mode
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.contact.unilateral import ContactRelations, Rubbing
-    from ssilang.kernel.fields.cell_field import CellField
 
 METHODS = ("MESC", "SYME", "FAIB", "MORT")
 COULOMB = ("FROTTANT", "COULOMB")

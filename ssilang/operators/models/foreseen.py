@@ -10,17 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.behaviours import UNIAXIAL_LAWS, normalised
-from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
 from ssilang.operators.models.materials import (
     Values,
     check_plastic,
@@ -31,6 +28,7 @@ from ssilang.operators.models.materials import (
 )
 from ssilang.operators.models.mode import OF_JOINTS, Wish, read_word
 from ssilang.operators.models.units import warn_of_units
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary.words import known_parameters, sample
 
 _OTHERS = frozenset({"IMPEDANCE", "MODAL", "STATIQUE", "SECTION"})

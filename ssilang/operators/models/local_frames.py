@@ -6,8 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
@@ -32,18 +30,13 @@ from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, sk
 from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.lines.frenet import frenet_frames
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Chosen, arg, choice, flag, many, operator, opt, select
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import on_zones, state_and_rest
-from ssilang.operators.workspace import workspace
 
 Frames = Callable[[Zone, Support], FloatArray]
 Surface = Callable[[Zone, Support], SurfaceAxes]

@@ -9,25 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.zone_fields import INSTEAD, zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
 from ssilang.kernel.materials.axes import Directions, axis_parameters
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
-from ssilang.kernel.materials.plastic.backbone import break_points, hyperbola
+from ssilang.kernel.materials.plastic.backbone import break_points, hardening_of, hyperbola
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
-from ssilang.kernel.materials.plastic.tension_curve import hardening_of
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.near import nearest_names
-from ssilang.language.registry import Chosen, HelpTable, arg, each, many, operator, select
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.registry import HelpTable, each
+from ssilang.language.search import nearest_names
 from ssilang.operators.models.units import warn_of_units
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
 
 Known = Callable[[Zone], tuple[str, ...]]

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
@@ -29,32 +28,17 @@ from ssilang.kernel.materials.behaviours import (
     full_word,
     normalised,
 )
-from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.modal import shape_models
 from ssilang.language.cast3m import IN_SCOPE
-from ssilang.language.near import nearest
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    flag,
-    key,
-    many,
-    opt,
-    select,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots
-from ssilang.language.vocabulary.terms import POSITIVE
+from ssilang.language.search import nearest
 from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
-from ssilang.operators.workspace import Workspace, workspace
 
 register_family("joint", JointFamily())
 

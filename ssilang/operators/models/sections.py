@@ -6,15 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import When, arg, by, flag, many, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
-from ssilang.operators.workspace import workspace
+from ssilang.language.registry import When
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.moment_curvature import BentSection

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.elements.catalog import LOCKING
-from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.language.run.call import Call
+from ssilang.kernel.materials.model import Mode
 from ssilang.language.vocabulary import Quantity
 from ssilang.language.vocabulary.terms import Range
 from ssilang.language.vocabulary.unit_systems import UnitSystem, likely_units
+from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
-from ssilang.operators.workspace import workspace
 
 Given = tuple[NDArray[Any], Any]
 _CODE = "operators.models.unusual-value"

@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
@@ -17,30 +15,13 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.combine import cell_keys
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.quality import smallest_lengths
 from ssilang.kernel.plasticity.points import variable_names
-from ssilang.language.registry import (
-    Chosen,
-    Entry,
-    arg,
-    by,
-    choice,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListMots, Table
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIFF, ENLE, EXTR, INTE, listing
+from ssilang.operators.prelude import *
 
 _WORD = arg("word", "MOT", en="word to remove")
 

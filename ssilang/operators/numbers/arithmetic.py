@@ -12,12 +12,10 @@ import numpy as np
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.language.filled import Filled
-from ssilang.language.registry import ANY, SCALAR_RULES, arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
+from ssilang.language.registry import SCALAR_RULES
 from ssilang.language.text.source import Span
-from ssilang.language.values import ListEnti, ListReel, Table, type_of
 from ssilang.messages.message import Said, Sentence
+from ssilang.operators.prelude import *
 
 Rule = Callable[[Any, Any], Any]
 

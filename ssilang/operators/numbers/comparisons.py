@@ -10,13 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import SCALAR_RULES, arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListEnti, ListMots, ListReel, type_of
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import workspace
+from ssilang.language.registry import SCALAR_RULES
+from ssilang.operators.dispatch import union
+from ssilang.operators.prelude import *
 
 _NUMBERS = (int, float)
 
@@ -125,3 +121,49 @@ for _sign in _ORDERS:
     operator(_sign, _FIRST, _SECOND, gives="LOGIQUE", family="comparisons")(
         partial(_compare_numbers, _sign)
     )
+
+
+def _both(a: Any, b: Any) -> bool:
+    if type(a) is not bool or type(b) is not bool:
+        raise TypeError("not LOGIQUE")
+    return a and b
+
+
+def _either(a: Any, b: Any) -> bool:
+    if type(a) is not bool or type(b) is not bool:
+        raise TypeError("not LOGIQUE")
+    return a or b
+
+
+SCALAR_RULES["ET"] = _both
+SCALAR_RULES["OU"] = _either
+union(("LOGIQUE", "LOGIQUE"))(_both)
+
+
+@operator(
+    "OU",
+    arg("first", "LOGIQUE", en="logical value"),
+    arg("second", "LOGIQUE", en="another one"),
+    family="comparisons",
+)
+def ou(first: bool, second: bool) -> bool:
+    """Disjunction."""
+    return first or second
+
+
+@operator("NON", arg("value", "LOGIQUE", en="logical value"), family="comparisons")
+def non(value: bool) -> bool:
+    """Negation."""
+    return not value
+
+
+@operator(
+    "MULT",
+    arg("first", "ENTIER", en="integer", range=ANY_NUMBER),
+    arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
+    family="comparisons",
+    full_name="MULTIPLE",
+)
+def mult(first: int, second: int) -> bool:
+    """Divisibility."""
+    return first == 0 if second == 0 else first % second == 0

@@ -8,15 +8,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.fields import node_algebra
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    arg,
-    choice,
-    operator,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import CARRIED
+from ssilang.operators.prelude import *
 
 
 def nearest(x: Any) -> Any:

@@ -9,15 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import Like, arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED
+from ssilang.operators.prelude import *
 
 Function = Callable[[Any], Any]
 OPERANDS = ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL", "EVOLUTIO", "CHPOINT", "MCHAML")

@@ -7,29 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    Chosen,
-    Entry,
-    Like,
-    arg,
-    by,
-    each,
-    either,
-    flag,
-    group,
-    main,
-    opt,
-    select,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, POSITIVE
+from ssilang.language.registry import each, either
 from ssilang.operators.numbers.functions import mapped
+from ssilang.operators.prelude import *
 
 _TESTS: dict[str, Callable[[Any, Any], Any]] = {
     "SUPERIEUR": np.greater, "EGSUPE": np.greater_equal, "EGALE": np.equal,

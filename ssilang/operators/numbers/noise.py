@@ -8,19 +8,7 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    arg,
-    choice,
-    key,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def session_generator(call: Call, skip: int | None) -> np.random.Generator:

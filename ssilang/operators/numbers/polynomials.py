@@ -4,19 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import ComplexArray, FloatArray
-from ssilang.language.registry import (
-    arg,
-    flag,
-    many,
-    operator,
-    opt,
-    said,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.kernel.base.arrays import ComplexArray
+from ssilang.operators.prelude import *
 
 RACP = shared("RACP", "numbers", full_name="RACPOL")
 _POLYNOMIAL = (

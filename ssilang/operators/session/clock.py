@@ -6,11 +6,7 @@ import time
 from datetime import datetime
 from typing import Any
 
-from ssilang.language.registry import choice, flag, key, many, operator, opt, said, shared
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
+from ssilang.operators.prelude import *
 
 _MONTHS = (
     "janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août", "septembre",

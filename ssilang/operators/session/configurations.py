@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.results.following_axes import following_axes
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import by, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,29 +7,11 @@ from typing import Any
 
 from ssilang.io.plots.labels import Annotation
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.kernel.curves.curve import Curve, Load
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.deformed import Arrows, Deformed
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import ANY, arg, flag, many, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.values import (
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    Table,
-    is_empty,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import ANY_NUMBER, between
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.language.values import is_empty
+from ssilang.language.vocabulary.terms import between
+from ssilang.operators.prelude import *
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {
     "MAILLAGE": lambda ws, sub: Mesh(ws.nodes, ()),

@@ -7,38 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.language.registry import (
-    ANY,
-    arg,
-    find_operator,
-    flag,
-    lead,
-    many,
-    named,
-    operator,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call, Operand
+from ssilang.language.registry import find_operator, named
 from ssilang.language.run.procedures import BoundMethod, call_procedure
-from ssilang.language.run.session import Session
-from ssilang.language.values import (
-    ANNULE,
-    ListEnti,
-    ListMots,
-    Mot,
-    Objet,
-    Procedure,
-    Table,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
+from ssilang.language.values import ANNULE, Objet
 from ssilang.operators.files.outputs import forbidden_path, run_output
 from ssilang.operators.lists.search import equal_items
+from ssilang.operators.prelude import *
 
 
 @operator("TYPE", arg("value", "*", "TEXTE", en="any object"), family="objects", terminal=True)

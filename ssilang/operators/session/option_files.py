@@ -7,14 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from ssilang.language.registry import arg
-from ssilang.language.run.call import Call
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.values import Mot
-from ssilang.language.vocabulary.terms import POSITIVE
 from ssilang.operators.files.outputs import input_path, output_path, run_output
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 # compared in full: a file may be called 'formes.txt'
 _FORMATS = ("FORMAT", "FORM", "BINA", "BINAIRE", "XDR", "SUITE", "SUIT", "TAILLE", "FORMATTE")

@@ -13,16 +13,13 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
-from ssilang.language.near import nearest, nearest_names
-from ssilang.language.registry import ANY, arg, each, flag, lead, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListMots, Mot, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, between
+from ssilang.language.registry import each
+from ssilang.language.search import nearest, nearest_names
+from ssilang.language.vocabulary.terms import between
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
+from ssilang.operators.prelude import *
 from ssilang.operators.session.option_files import UNIT, include, read_file_option
-from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE, Workspace, workspace
+from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE
 
 Reader = Callable[[Call, str], None]
 READERS: dict[str, Reader] = {}

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.procedures import call_procedure
-from ssilang.language.values import Procedure
+from ssilang.operators.prelude import *
 
 
 class StopCalculation(Exception):

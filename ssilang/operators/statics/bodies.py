@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:

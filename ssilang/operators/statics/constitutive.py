@@ -7,23 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.solids.hooke import hooke_block
+from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
-from ssilang.language.registry import arg, flag, key, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL
 
 

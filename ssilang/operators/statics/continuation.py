@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
-from ssilang.language.values import ListMots, ListReel, Mot, Table
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.pasapas import _inputs, _path_run, start_of
 from ssilang.operators.statics.pasapas_results import ResultTables
@@ -24,8 +21,6 @@ if TYPE_CHECKING:
     from ssilang.kernel.plasticity.arc_length import ArcTrace
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
 from ssilang.operators.modal.continuation import continue_harmonics
 
 REFUSED = {

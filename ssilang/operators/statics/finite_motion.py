@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import total
@@ -25,12 +24,8 @@ from ssilang.kernel.elements.solids.finite_motion import (
 )
 from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import arg, choice, many, operator
-from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import joined, present
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import (
     MODEL,
     Fields,

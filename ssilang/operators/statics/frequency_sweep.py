@@ -6,20 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
+from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.tables.entries import Entries
 
@@ -82,7 +75,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 
 def _inputs(entries: Entries) -> HarmonicInputs:
     from ssilang.kernel.statics.frequency import HarmonicInputs
-    from ssilang.kernel.statics.pressure_load import loaded_sides, with_pressures
+    from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones

@@ -7,10 +7,9 @@ from typing import NoReturn
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.elements.loads.line_loads import line_load
 from ssilang.kernel.elements.loads.loads import (
     body_force,
+    line_load,
     loaded_faces,
     on_sides,
     pipe_pressure,
@@ -18,34 +17,16 @@ from ssilang.kernel.elements.loads.loads import (
     shell_load,
     traction,
 )
-from ssilang.kernel.elements.results.reduction import model_on_mesh
+from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    either,
-    flag,
-    group,
-    key,
-    many,
-    operator,
-    opt,
-    said,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.registry import either
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL
-from ssilang.operators.workspace import workspace
 
 FORCES = ("FX", "FY", "FZ", "FR", "FT")
 MOMENTS = ("MX", "MY", "MZ", "MT", "MR")

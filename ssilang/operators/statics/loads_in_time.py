@@ -7,27 +7,11 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.kernel.curves.algebra import check_increasing
-from ssilang.kernel.curves.curve import Curve, Load, LoadPart
+from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    by,
-    choice,
-    flag,
-    group,
-    main,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, ListMots, ListObje, ListReel, Mot, Table, type_of
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, Range
+from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
+from ssilang.operators.prelude import *
 
 _SPACE = ("CHPOINT", "MCHAML")
 _HELD = ("CHPOINT", "MCHAML", "MMODEL", "MAILLAGE", "RIGIDITE", "POINT")

@@ -8,21 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Load, LoadPart
+from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import mass, stiffness
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
-from ssilang.kernel.statics.pressure_load import loaded_sides, pressures, with_pressures
-from ssilang.kernel.statics.thermal_load import check_strains, split_strains
+from ssilang.kernel.statics.thermal_load import (
+    check_strains,
+    loaded_sides,
+    pressures,
+    split_strains,
+    with_pressures,
+)
 from ssilang.kernel.stepping.times import nearest
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Mot, Table
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
@@ -34,6 +33,7 @@ from ssilang.operators.dynamics.reports import (
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.modal.stepped_links import stepped_links
+from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.session.user_procedures import StopCalculation
 from ssilang.operators.statics.bodies import (

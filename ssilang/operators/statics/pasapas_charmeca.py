@@ -8,17 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.statics.pressure_load import along_normals, pressures
-from ssilang.language.values import Mot, Table
+from ssilang.kernel.statics.thermal_load import along_normals, pressures
+from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.statics.loads_in_time import part_at

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.friction_rows import Friction
@@ -15,14 +14,11 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.operators.models.contact import FROCABLE, model_relations
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.pasapas_results import Stresses
 
 

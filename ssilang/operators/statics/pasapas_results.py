@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.elements.families import family_of, strain, stress
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.statics.thermal_load import ThermalStress
-from ssilang.language.values import Mot, Table
+from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Snapshot

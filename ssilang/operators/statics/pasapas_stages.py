@@ -13,18 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.curves.curve import Load, LoadPart
+from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.kinematics import element_sides
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.language.values import Mot, Table
+from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.statics.pasapas_steering import working_table

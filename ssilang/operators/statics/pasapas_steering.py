@@ -6,15 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.elements.results.reduction import field_on_model
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model
+from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.stepping.times import nearest
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
 from ssilang.operators.files.saving import save
+from ssilang.operators.prelude import *
 from ssilang.operators.session.configurations import Configuration
 from ssilang.operators.session.user_procedures import StopCalculation, call_user
 from ssilang.operators.statics.pasapas_results import ResultTables

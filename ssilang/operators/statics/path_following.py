@@ -8,15 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import LoadPart
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -30,14 +24,9 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.families import family_of, strain
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import vector_to_field
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import Procedure
 from ssilang.operators.session.user_procedures import call_user
 
 if TYPE_CHECKING:

@@ -8,20 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.errors import KernelError, SingularMatrixError
-from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.matrices.assembly import imposed_outside
-from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
-from ssilang.language.registry import ANY, Like, arg, flag, key, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListChpo, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_NEGATIVE
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
-from ssilang.operators.workspace import solver_of, workspace
+from ssilang.operators.prelude import *
+from ssilang.operators.workspace import solver_of
 
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
 _WORDS = (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import pressure_vectors, total
@@ -12,12 +11,8 @@ from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.language.registry import arg, by, choice, many, operator
-from ssilang.language.run.call import Call
 from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
+from ssilang.operators.prelude import *
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""

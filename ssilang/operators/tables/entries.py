@@ -9,16 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.stepping.times import every, nearest
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
-from ssilang.language.values import Annule, Table
+from ssilang.language.values import Annule
 from ssilang.language.vocabulary.entries import NUMBER, TableEntry
 from ssilang.language.vocabulary.entry_checks import TableCheck, checked, shown
 from ssilang.messages.message import Sentence
+from ssilang.operators.prelude import *
 
 
 class Entries:

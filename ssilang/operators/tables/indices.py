@@ -6,25 +6,10 @@ from typing import Any
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import (
-    ANY,
-    arg,
-    flag,
-    main,
-    operator,
-    opt,
-    shared,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import (
-    Mot,
-    Table,
-    known_types,
-    type_of,
-)
+from ssilang.language.values import known_types
 from ssilang.operators.dispatch import COPI, DIME, ENLE, united
 from ssilang.operators.numbers.arithmetic import rule
+from ssilang.operators.prelude import *
 
 TABL = shared("TABL", "tables", full_name="TABLE")
 

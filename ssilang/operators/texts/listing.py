@@ -8,30 +8,13 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.curves.curve import Curve, Load
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import arg, flag, key, lead, many, named, shared
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
+from ssilang.language.registry import named
 from ssilang.language.text.printer import print_items
-from ssilang.language.values import (
-    ANNULE,
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Objet,
-    Procedure,
-    Table,
-    Texte,
-    known_types,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import CARRIED
+from ssilang.language.values import ANNULE, Objet, Texte, known_types
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
+from ssilang.operators.prelude import *
 from ssilang.operators.texts.fortran_format import formatted
 
 _ROWS = 200  # rows printed of a field or curve before the middle is left out

@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ssilang.language.registry import arg, choice, key, many, operator, opt, shared
-from ssilang.language.run.call import Call
-from ssilang.language.say.errors import SsiError
-from ssilang.language.values import ListEnti, ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, CARRIED, between
+from ssilang.language.vocabulary.terms import between
 from ssilang.messages.message import Sentence, find
+from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
-from ssilang.operators.workspace import workspace
 
 
 @operator("MESS", *TEXT, family="output", full_name="MESSAGE", reads_itself=TEXT_IS_FREE)

@@ -5,21 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ssilang.language.registry import Like, arg, key, main, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.values import (
-    ListEnti,
-    ListMots,
-    Mot,
-    Procedure,
-    Table,
-    known_types,
-    type_of,
-)
-from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
+from ssilang.language.values import known_types
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union
 from ssilang.operators.lists.progressions import check_length
+from ssilang.operators.prelude import *
 from ssilang.operators.texts.fortran_format import DEFAULT_FORMAT, formatted
 
 _MARKS = frozenset("*/<>")

@@ -10,7 +10,6 @@ from functools import cache
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
-from ssilang.language.near import nearest
 from ssilang.language.registry import OPERATORS, keywords_of
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
@@ -23,7 +22,7 @@ from ssilang.language.say.reference import (
     page_text,
     procedure_page,
 )
-from ssilang.language.search import Item, search
+from ssilang.language.search import Item, nearest, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import teller

@@ -13,7 +13,6 @@ from functools import cache
 
 import numpy as np
 
-from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.elements.families import FAMILIES, family_of
@@ -30,16 +29,15 @@ from ssilang.kernel.materials.behaviours import (
     UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.mesh import CellBlock, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
+from ssilang.operators.prelude import *
 
 UNUSED, AXES = "unused", "axes"
 """Kinds of parameters that are taken without effect, and that DIRECTION and RADIAL set."""
@@ -230,7 +228,7 @@ def _components(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str
 def known_components() -> tuple[str, ...]:
     """Every component that an element or a law gives, with the duals of unknowns."""
     from ssilang.kernel.elements.results.tensors import PRINCIPAL
-    from ssilang.kernel.elements.solids.hooke import HOOKE_COMPONENT
+    from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
     from ssilang.kernel.fields.node_algebra import SCALAR
     from ssilang.kernel.interface.bed import AT_PLACES, OF_WHOLE
     from ssilang.kernel.interface.interface import COMMON_VARIABLES

@@ -1,7 +1,5 @@
 """`check` says of the constants of MATE what a run would say, at the same place."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.check import check_source

@@ -1,7 +1,5 @@
 """`ssilang check --format`: problems for programs."""
 
-from __future__ import annotations
-
 import json
 
 SCRIPT = "OPTI DIME 2 ELME SEG2 ;\nX = 1 / (2. ;\nFIN ;\n"

@@ -1,7 +1,5 @@
 """Checks of a text that was changed: what is not read again is what it was."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

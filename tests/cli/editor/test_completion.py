@@ -1,7 +1,5 @@
 """What Tab offers."""
 
-from __future__ import annotations
-
 import pytest
 from lsprotocol import types as lsp
 from pygls.workspace import TextDocument, Workspace

@@ -1,7 +1,5 @@
 """`ssilang format`: the same tree, the same comments, and nothing left to do a second time."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

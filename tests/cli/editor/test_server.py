@@ -1,7 +1,5 @@
 """The language server as an editor talks to it: a process of its own, a client of the protocol."""
 
-from __future__ import annotations
-
 import asyncio
 import os
 import sys

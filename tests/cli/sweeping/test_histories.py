@@ -1,7 +1,5 @@
 """Histories of runs joined: each value under its own head, whatever the order of the names."""
 
-from __future__ import annotations
-
 import csv
 import json
 

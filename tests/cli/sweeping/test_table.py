@@ -1,7 +1,5 @@
 """The table of a sweep: names out of order, values that runs do not have, types that differ."""
 
-from __future__ import annotations
-
 import pyarrow.parquet as pq
 import pytest
 

@@ -1,7 +1,5 @@
 """Save files: objects come back equal and shared, nodes shift, nothing foreign is built."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import shutil

@@ -1,7 +1,5 @@
 """What an archive holds is taken as it is where it agrees, and refused by its field where not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

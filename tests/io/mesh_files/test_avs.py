@@ -1,7 +1,5 @@
 """AVS UCD files: read back by meshio and by ourselves."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

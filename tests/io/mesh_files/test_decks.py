@@ -1,13 +1,12 @@
 """Abaqus and Nastran decks, read back by meshio and by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
 from meshio._mesh import topological_dimension
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.io.errors import OutputError
@@ -59,8 +58,7 @@ def test_meshio_reads_the_same_volumes(
 ) -> None:
     monkeypatch.setitem(topological_dimension, "wedge15", 3)  # meshio 5.3 has forgotten it
     text = VOLUMES[kind] + f"OPTI SORT 'box' ; SORT '{word}' V ; N = NBEL V ; P = NBNO V ;"
-    result = run_text(text, tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, tmp_path)
     read = meshio.read(tmp_path / f"box{suffix}", "abaqus" if word == "ABAQ" else "nastran")
     assert len(read.points) == result.session.root.find("P")
     assert sum(len(b.data) for b in read.cells) == result.session.root.find("N")

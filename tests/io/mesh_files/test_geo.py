@@ -1,7 +1,5 @@
 """Scripts of Gmsh: what they may do, and what the guard around them holds."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

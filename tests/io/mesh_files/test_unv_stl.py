@@ -1,7 +1,5 @@
 """Universal files written by hand; STL read by meshio and back."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

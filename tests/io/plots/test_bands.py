@@ -1,7 +1,5 @@
 """Triangles cut into bands: areas and lines against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

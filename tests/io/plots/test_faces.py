@@ -3,8 +3,6 @@
 Cells of four kinds and three colours in no order, one without a value; the field is linear.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

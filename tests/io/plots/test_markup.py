@@ -1,7 +1,5 @@
 """Titles as matplotlib's text."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.io.plots.markup import LONGEST, to_mathtext

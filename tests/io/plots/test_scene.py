@@ -1,7 +1,5 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 

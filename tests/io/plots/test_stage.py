@@ -1,7 +1,5 @@
 """Scenes in space: what hides what, light, arrows, labels, cuts, and systems that cannot draw."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator
@@ -11,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.io.errors import NoGraphicsError
@@ -260,8 +259,7 @@ def test_a_system_that_cannot_draw_keeps_the_run(
         monkeypatch.setattr(stages, "_PROBE", DIES)
     else:  # as where a wheel finds no libXrender
         monkeypatch.setitem(sys.modules, "pyvista", None)
-    said = run_text(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path / "out")
-    assert said.exit_code == 0, said.message
+    said = ran(SOLID + "TRAC 'CACH' V ; A = 1 ;", tmp_path / "out")
     assert said.session.root.find("A") == 1
     (warning,) = said.session.warnings
     assert "the picture is left out" in render(warning, "en")

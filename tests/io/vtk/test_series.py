@@ -1,7 +1,5 @@
 """Series over time: file names, the list of times, parts, interruption."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import meshio

@@ -1,7 +1,5 @@
 """Series in one file, read by VTK's own reader: values, parts, gaps, interruption, replacement."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Grids written as .vtu are read back by meshio, an independent reader."""
 
-from __future__ import annotations
-
 import itertools
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Curves and clouds against numpy, on points of unequal distance, in both senses."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Every element in two unlike cells: what its matrices, strains, stresses and forces must share."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

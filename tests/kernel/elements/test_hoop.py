@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -13,8 +14,7 @@ RING = (
 
 
 def found(script, *names):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return [result.session.root.find(name) for name in names]
 
 

@@ -1,7 +1,5 @@
 """Sums, products and choices of fields against dictionaries, on supports that overlap in part."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 
 import numpy as np

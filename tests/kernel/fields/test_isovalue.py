@@ -1,7 +1,5 @@
 """ISOV's cuts: lengths, areas and volumes of level sets of linear fields, degenerate positions."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Nodal fields made before nodes were merged."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.fields.node_algebra import added, restricted

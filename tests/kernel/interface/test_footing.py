@@ -1,7 +1,5 @@
 """Footings: what rigid ones carry against statics by hand, and which joints are one."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 import pytest

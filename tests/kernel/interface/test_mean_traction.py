@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from ssilang.kernel.interface.mean_traction import mean_response
 
 from ssilang.kernel.interface.laws.columns import (
     N_PARAMETERS,
@@ -10,7 +11,6 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
 )
 from ssilang.kernel.interface.laws.point_laws import point_energies
-from ssilang.kernel.interface.mean_traction import mean_response
 from ssilang.kernel.interface.response import InterfaceState, Joints, new_trial
 
 KN, KS = 3e8, 1.1e8

@@ -1,7 +1,5 @@
 """Modified Cam-Clay against closed forms: compression, undrained shear, critical state, energy."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cyclic soil: backbone, Masing's loops, damping, energy, curves that no soil has."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

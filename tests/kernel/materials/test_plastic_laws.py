@@ -1,7 +1,5 @@
 """Plastic laws at points: consistent tangents, admissible stresses, closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

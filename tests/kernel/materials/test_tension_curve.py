@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.materials.plastic.tension_curve import hardening_of
+from ssilang.kernel.materials.plastic.backbone import hardening_of
 
 
 def tension(strain, stress):

@@ -1,7 +1,5 @@
 """Steel and concrete of fibres along paths of strain, against closed forms written out here."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

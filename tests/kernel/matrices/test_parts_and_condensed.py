@@ -1,7 +1,5 @@
 """Matrices made, taken apart and condensed, against dense ones summed term by term."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 
 import numpy as np

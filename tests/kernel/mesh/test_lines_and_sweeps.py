@@ -1,7 +1,5 @@
 """Subdivision, lines, curves, grids and sweeps against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Merging, degenerate cells, opened surfaces, joint cells."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from references.straight_line import straight_line

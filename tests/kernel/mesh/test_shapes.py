@@ -1,7 +1,5 @@
 """Blocks, rounded corners, refined triangles, frames along lines, joints inside a mesh."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

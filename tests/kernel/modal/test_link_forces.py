@@ -1,7 +1,5 @@
 """Forces of every kind of link against plain formulas and derivatives of an energy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

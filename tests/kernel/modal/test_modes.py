@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
@@ -289,6 +289,5 @@ def test_motions_without_stiffness_and_mass_do_not_hide_the_others(points):
             "M = M ET (MASS 'DEPL' 2. P2) ;"
         )
     text += "V = VIBR 'PROCHE' (PROG 0.3) K M ; F = V . 'MODES' . 1 . 'FREQUENCE' ;"
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     assert result.session.root.find("F") == pytest.approx(2.0 / (2.0 * np.pi), rel=1e-12)

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk
@@ -35,9 +35,7 @@ def test_tangent_of_a_load_on_neighbours(n):
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 SPRING = """

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.materials.plastic.creep import norton
 from ssilang.kernel.materials.plastic.response import PointParameters
 
@@ -32,9 +32,7 @@ TIMES = "PROG 0. 1.E-6 1. 3. 10."
 
 def run(text, tmp_path, **words):
     words = {"mode": "PLAN CONT", "times": TIMES, "a": "1.E-7", "n": "2.", "m": "0.5", **words}
-    result = run_text(text.format(**words), output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text.format(**words), output_directory=tmp_path).session.root.find
 
 
 def test_a_constant_stress_creeps_by_the_law_whatever_the_steps(tmp_path):
@@ -100,6 +98,5 @@ def test_a_calculation_goes_on(tmp_path):
 
 def test_exponents_without_a_single_answer_are_refused(tmp_path):
     text = (SQUARE + HELD).format(mode="PLAN DEFO", times=TIMES, a="1.E-7", n="0.5", m="0.5")
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 1
+    result = failed(text, folder=tmp_path)
     assert "AF2" in result.message

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.plasticity.finite_beam import finite_beam
 
 E, SECTION, INERTIA = 1e7, 1.0, 1e-2
@@ -24,9 +24,7 @@ def cantilever(load, end="10. 0.", count=20, element="POUT", step=0.1):
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 def tip(find):

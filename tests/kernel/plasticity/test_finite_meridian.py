@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.elements.families import family_of, stress
 from ssilang.kernel.plasticity.finite import finite_plane_shell
 
@@ -25,9 +25,7 @@ BEAM = "'SECT' 0.2 'INRZ' (0.2 ** 3 / 12.)"
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 def test_a_strip_bends_as_a_beam(tmp_path):

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.plasticity.finite_space_beam import rotation
 from ssilang.kernel.plasticity.large.finite_plate import finite_plate
 
@@ -16,9 +16,7 @@ MA = MATE MO 'YOUN' 1.E6 'NU' 0.3 'EPAI' 0.1 ;
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 def shells(tmp_path, element="DKT"):

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, rotation, spin_of
 
 BEAMS = """
@@ -15,9 +15,7 @@ MA = MATE MO 'YOUN' 1.E7 'NU' 0.3 'SECT' 1. 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E
 
 
 def run(text, tmp_path):
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(text, output_directory=tmp_path).session.root.find
 
 
 def random_beams(tmp_path, element="POUT", points=2):

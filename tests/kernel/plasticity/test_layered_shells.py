@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 PLATE = """
 OPTI DIME 3 ELEM TRI3 ;
@@ -24,9 +23,7 @@ PERFECT = {"law": "PARFAIT", "strength": "'SIGY' 1.E8"}
 
 def run(tmp_path, more="", **words):
     words = {"layers": 7, "nu": "0.", **PERFECT, **words}
-    result = run_text(PLATE.format(**words) + more, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    return ran(PLATE.format(**words) + more, output_directory=tmp_path).session.root.find
 
 
 @pytest.mark.parametrize("layers", [2, 5])
@@ -85,6 +82,5 @@ def test_layers_must_be_said(tmp_path):
         "MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' DKT {} ;"
     )
     for words, said in (("", "INTEGRE"), ("'INTEGRE' 1", "2 to 15")):
-        result = run_text(text.format(words), output_directory=tmp_path)
-        assert result.exit_code == 1
+        result = failed(text.format(words), folder=tmp_path)
         assert said in result.message

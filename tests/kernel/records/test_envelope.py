@@ -1,7 +1,5 @@
 """Mean shocks counted by hand, envelopes against the energy that they keep."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

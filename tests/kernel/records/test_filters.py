@@ -5,9 +5,8 @@ import pytest
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.modal.oscillator import spectrum
-from ssilang.kernel.records.directions import rotated_spectra, turned
-from ssilang.kernel.records.filters import butterworth, without_trend
-from ssilang.kernel.records.integration import integrated
+from ssilang.kernel.records.filters import butterworth, integrated, without_trend
+from ssilang.kernel.records.signals import rotated_spectra, turned
 
 STEP = 0.01
 TIMES = STEP * np.arange(6000)

@@ -1,10 +1,9 @@
 """Yielding oscillators against energy balances, SciPy's integrator and the linear spectrum."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
@@ -100,8 +99,7 @@ SCRIPT = (
 
 
 def curve(tail: str):
-    result = run_text(SCRIPT + f"R = SPON {tail} ;")
-    assert result.exit_code == 0, result.message
+    result = ran(SCRIPT + f"R = SPON {tail} ;")
     return result.session.root.find("R"), result.session.root.find("S1")
 
 

@@ -7,7 +7,7 @@ from scipy.signal import lsim
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.modal.oscillator import spectrum
-from ssilang.kernel.records.integration import integrated
+from ssilang.kernel.records.filters import integrated
 from ssilang.kernel.records.matching import matched, wavelets
 
 STEP = 0.01

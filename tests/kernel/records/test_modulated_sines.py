@@ -1,7 +1,5 @@
 """Modulated sines: their velocity and displacement against integration by numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson

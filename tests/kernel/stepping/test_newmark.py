@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -188,8 +188,7 @@ def test_entries_of_dynamic_choose_the_scheme(entry, tmp_path):
     T2 = DYNAMIC T1 ;
     U = EXTR (EVOL 'TEMP' T2 'DEPL' 'UX' P) 'ORDO' ;
     """
-    result = run_text(deck, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(deck, output_directory=tmp_path)
     found = result.session.root.find("U").values
     times = np.arange(51) * 0.01
     numbers = numbers.get(name, TABLE["HHT 0.1"][1])

@@ -1,7 +1,5 @@
 """Rigid bases under waves that pass and differ: closed forms, direct double integrals, limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

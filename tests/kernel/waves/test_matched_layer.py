@@ -10,8 +10,7 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
-from ssilang.kernel.waves.histories import HISTORIES
-from ssilang.kernel.waves.matched_layer import matched_layer
+from ssilang.kernel.waves.matched_layer import HISTORIES, matched_layer
 
 _PATH = Path(__file__).resolve().parents[3] / "benchmarks" / "reflection.py"
 

@@ -1,7 +1,5 @@
 """Section 9: SI, REPE, QUIT, ITER, FIN."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import run_text

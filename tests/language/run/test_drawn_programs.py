@@ -1,7 +1,5 @@
 """Drawn programs against Python: conditions, loops, procedures, tables; `check` is content."""
 
-from __future__ import annotations
-
 import math
 import random
 from functools import partial

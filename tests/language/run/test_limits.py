@@ -1,7 +1,5 @@
 """No input breaks the interpreter: limits, and errors with a place instead of tracebacks."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.cli.run import RunOptions, run_text

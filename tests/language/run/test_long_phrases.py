@@ -4,6 +4,7 @@ import sys
 import tracemalloc
 
 import pytest
+from script_runs import failed
 
 from ssilang.cli.run import run_text
 from ssilang.language.text.parser import parse_statements
@@ -64,8 +65,7 @@ def test_a_long_chain_gives_what_its_signs_give(sign, run):
 
 def test_a_long_chain_says_where_it_is_wrong():
     script = "A = 1. ;\nX = A" + "\n + A" * 700 + "\n + 'm'" + "\n + A" * 700 + " ;"
-    result = run_text(script)
-    assert result.exit_code == 1
+    result = failed(script)
     assert "+ does not go with FLOTTANT and MOT\n    --> script:702:2" in result.message
 
 

@@ -1,7 +1,5 @@
 """Section 12: objects and methods."""
 
-from __future__ import annotations
-
 _COUNTER = """
 DEBM INCREASE n*ENTIER ; %COUNT = %COUNT + n ; FINM %COUNT ;
 DEBM COUNTER ; %COUNT = 0 ; %METHODE ADD INCREASE ; FINM ;

@@ -1,7 +1,5 @@
 """Section 5: the pile of operands and the first unread word."""
 
-from __future__ import annotations
-
 import pytest
 
 

@@ -1,7 +1,5 @@
 """Section 7: numbers that become a point."""
 
-from __future__ import annotations
-
 
 def test_two_numbers_are_a_point_in_two_dimensions(run):
     assert run("OPTI DIME 2 ; p = 1. 2. ;").kind("p") == "POINT"

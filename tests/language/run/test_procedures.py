@@ -1,7 +1,5 @@
 """Section 10: procedures."""
 
-from __future__ import annotations
-
 import pytest
 
 _SUM = (

@@ -1,7 +1,5 @@
 """Section 6: arithmetic and comparisons of scalars and lists."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

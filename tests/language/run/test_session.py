@@ -1,7 +1,5 @@
 """Warnings and notes of a session: kept, and told to who listens."""
 
-from __future__ import annotations
-
 import gc
 import io
 import weakref

@@ -1,7 +1,5 @@
 """Section 4: names, equal sign, parentheses, results."""
 
-from __future__ import annotations
-
 from ssilang.language.values import ListReel
 
 

@@ -1,7 +1,5 @@
 """Section 8: tables."""
 
-from __future__ import annotations
-
 import pytest
 
 

@@ -1,7 +1,5 @@
 """Section 11: words, texts and what is printed."""
 
-from __future__ import annotations
-
 import pytest
 
 

@@ -1,7 +1,5 @@
 """Section 3: what a word stands for."""
 
-from __future__ import annotations
-
 from ssilang.language.values import Mot
 
 

@@ -3,8 +3,6 @@
 `test_whole_messages.toml` has the scripts; what a reader would point at is marked in them.
 """
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

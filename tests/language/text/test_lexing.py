@@ -1,7 +1,5 @@
 """Sections 1 and 2 of the language: characters, lines, comments, words, numbers, strings."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.language.text.source import Source

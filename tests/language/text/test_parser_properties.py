@@ -1,7 +1,5 @@
 """Properties of the parser: any text gives a script or errors with places; printing is faithful."""
 
-from __future__ import annotations
-
 import time
 
 from hypothesis import HealthCheck, given, settings

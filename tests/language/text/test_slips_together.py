@@ -1,7 +1,5 @@
 """Whatever stands around them, slips of syntax and of blocks are all told in one pass, in place."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Blocks, the end of a run, names that a script assigns, and scripts printed again."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.language.say.errors import SeveralErrors

@@ -1,10 +1,7 @@
 """VERM: defects are found and named, sound meshes are silent."""
 
-from __future__ import annotations
-
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import ran
 
 CUBE = (
     "OPTI DIME 3 ELEM CUB8 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
@@ -13,8 +10,7 @@ CUBE = (
 
 
 def names_after(script: str) -> tuple[dict[str, int], str]:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     root = result.session.root
     names = [n for n in ("MESH1", "MESH2", "NODE1") if n in root.names()]
     return {n: root.find(n).n_cells for n in names}, result.output
@@ -43,7 +39,6 @@ def test_defects_are_named(statements: str, expected: dict[str, int]) -> None:
 @pytest.mark.parametrize("phrase", ["M 'CORR'", "'CORR' M"])
 def test_corrected_meshes_have_each_cell_once(phrase: str) -> None:
     script = CUBE + f"M = V ET S ET (INVE S) ; N = VERM {phrase} ; VERM N ;"
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     assert result.output.count("VERM") == 1
     assert result.session.root.find("N").n_cells == 2

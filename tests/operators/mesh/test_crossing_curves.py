@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 from scipy.special import ellipe, ellipeinc
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 SPACE = "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ; "
 
 
 def line(text):
-    result = run_text(SPACE + text)
-    assert result.exit_code == 0, result.message
+    result = ran(SPACE + text)
     mesh = result.session.root.find("L")
     block = mesh.blocks[0]
     chain = np.append(block.connectivity[:, 0], block.connectivity[-1, -1])
@@ -19,9 +17,7 @@ def line(text):
 
 
 def refused(text):
-    result = run_text(SPACE + text)
-    assert result.exit_code == 1
-    return result.message
+    return failed(SPACE + text).message
 
 
 def length(x):

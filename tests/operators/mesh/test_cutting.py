@@ -1,7 +1,5 @@
 """COUP FUIT VSUR and sets of polygons."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,31 +1,25 @@
 """VISA: pairs of nodes at one place."""
 
-from __future__ import annotations
-
 import numpy as np
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 LINES = "OPTI DIME 2 ELEM SEG2 ; A = DROI 4 (0. 0.) (1. 0.) ; B = DROI 2 (1. 1.E-7) (0. 1.E-7) ; "
 
 
 def test_pairs_are_in_the_same_order() -> None:
-    result = run_text(LINES + "M N = VISA 1.E-3 A B ;")
-    assert result.exit_code == 0, result.message
+    result = ran(LINES + "M N = VISA 1.E-3 A B ;")
     m, n = (result.session.root.find(x).blocks[0].coordinates[:, 0] for x in "MN")
     assert np.allclose(sorted(m[:, 0]), [0.0, 0.5, 1.0])
     assert np.allclose(m[:, 0], n[:, 0])
 
 
 def test_double_nodes_of_one_mesh_with_the_density() -> None:
-    result = run_text("DENS 1.E-3 ; " + LINES + "M N = VISA (A ET B) ; K = NBNO M ;")
-    assert result.exit_code == 0, result.message
+    result = ran("DENS 1.E-3 ; " + LINES + "M N = VISA (A ET B) ; K = NBNO M ;")
     m, n = (result.session.root.find(x).sorted_node_ids for x in "MN")
     assert len(m) == 3
     assert not set(m) & set(n)
 
 
 def test_a_distance_is_needed() -> None:
-    result = run_text(LINES + "M N = VISA A B ;")
-    assert result.exit_code == 1
+    result = failed(LINES + "M N = VISA A B ;")
     assert "a distance is needed" in result.message

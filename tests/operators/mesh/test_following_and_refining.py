@@ -2,9 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, refused
-
-from ssilang.cli.run import run_text
+from script_runs import failed, found, ran, refused
 
 
 @pytest.mark.parametrize(
@@ -107,23 +105,19 @@ def test_raff_cuts_cells_and_ties_what_hangs():
         "MO = MODE T 'MECANIQUE' 'ELASTIQUE' ; MESS (NBEL T) ' ' (NBEL H) ' ' (DIME (RELA MO)) "
         "' ' (NBEL (EXTR MO 'MAIL')) ;"
     )
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
+    result = ran(text)
     # mean sizes 1.1 and 2.1: nothing is cut but the first square when sizes are halved
     assert result.output.split() == ["2", "0", "0", "2"]
-    result = run_text(text.replace("0.6 +", "0.3 +"))
-    assert result.exit_code == 0, result.message
+    result = ran(text.replace("0.6 +", "0.3 +"))
     assert result.output.split()[:2] == ["6", "1"]
     assert result.output.split()[3] == "5"
 
 
 def test_raff_wants_a_size_everywhere_and_one_division():
     start = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = L TRAN 1 (0. 1.) ; "
-    result = run_text(start + "T = RAFF S (COOR 1 L) ;")
-    assert result.exit_code == 1
+    result = failed(start + "T = RAFF S (COOR 1 L) ;")
     assert "no size" in result.message
-    result = run_text(start + "T = RAFF S (0.3 + (COOR 1 S)) ; U = RAFF T (COOR 1 T) ;")
-    assert result.exit_code == 1
+    result = failed(start + "T = RAFF S (0.3 + (COOR 1 S)) ; U = RAFF T (COOR 1 T) ;")
     assert "refined before" in result.message
 
 
@@ -135,8 +129,7 @@ def test_ties_are_named_kept_in_saves_and_left_out_of_pictures(tmp_path):
         "OUBL MO ; OPTI REST 'x' ; REST ; M = DIME (RELA MO) ; OPTI SORT 'v' ; SORT 'VTK' T ; "
         "OPTI SORT 'w' ; SORT 'AVS' T ;"
     )
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, output_directory=tmp_path)
     assert result.output.split()[-2:] == ["QUA4", "SURE"]
     root = result.session.root
     assert root.find("N") == root.find("M") > 0

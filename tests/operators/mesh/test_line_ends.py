@@ -1,7 +1,5 @@
 """Every line goes from its first point to its last, and drawn the other way is the same line."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from script_runs import found

@@ -1,14 +1,12 @@
 """Meshing as scripts write it: the forms of the operators, read against closed forms."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 import numpy as np
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh
 
@@ -18,15 +16,11 @@ STRIP = PLANE + "L = O D 4 A ; S = L TRAN 2 (0. 1.) ; "
 
 
 def value(script: str, name: str = "X") -> Any:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find(name)
+    return ran(script).session.root.find(name)
 
 
 def message(script: str) -> str:
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
+    return failed(script).message
 
 
 def xy(mesh: Mesh) -> np.ndarray:

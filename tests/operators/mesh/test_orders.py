@@ -1,12 +1,10 @@
 """Meshing operators read their operands and words in whatever order they stand."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest
+from script_runs import failed, ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -42,9 +40,7 @@ def plain(value: Any) -> Any:
 
 
 def result(base: str, phrase: str) -> Any:
-    run = run_text(f"{base}R = {phrase} ;")
-    assert run.exit_code == 0, run.message
-    return plain(run.session.root.find("R"))
+    return plain(ran(f"{base}R = {phrase} ;").session.root.find("R"))
 
 
 SAME_IN_THE_PLANE = """
@@ -158,6 +154,5 @@ def test_points_move_alike_whatever_the_order(row: str) -> None:
     ],
 )
 def test_words_that_are_missing_are_told(phrase: str, words: tuple[str, ...]) -> None:
-    run = run_text(f"{PLANE}R = {phrase} ;")
-    assert run.exit_code == 1
+    run = failed(f"{PLANE}R = {phrase} ;")
     assert [w for w in words if f"'{w}'" not in run.message] == []

@@ -1,14 +1,11 @@
 """Rarer meshing operators and forms, as scripts write them."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 import numpy as np
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; E = 0. 1. ; "
 STRIP = PLANE + "L = O D 4 A ; S = L TRAN 2 (0. 1.) ; "
@@ -16,15 +13,11 @@ SPACE = "OPTI DIME 3 ELEM CUB8 ; O = 0. 0. 0. ; A = 1. 0. 0. ; Z = 0. 0. 1. ; "
 
 
 def value(script: str, name: str = "X") -> Any:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find(name)
+    return ran(script).session.root.find(name)
 
 
 def message(script: str) -> str:
-    result = run_text(script)
-    assert result.exit_code == 1
-    return result.message
+    return failed(script).message
 
 
 def test_words_may_stand_before_the_lines() -> None:

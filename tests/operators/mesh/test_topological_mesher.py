@@ -1,8 +1,7 @@
 """TRIA 'TOPO': boundaries filled with simplices, in the plane and in space."""
 
-from __future__ import annotations
-
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -18,9 +17,7 @@ BOX = (
 
 
 def root_of(text: str):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
-    return result.session.root
+    return ran(text).session.root
 
 
 @pytest.mark.parametrize("words", ["L 'NOAJ'", "'NOAJ' L", "L T 'NOAJ'"])

@@ -1,8 +1,7 @@
 """PART and CCON: zones of lines, surfaces and volumes; @ISOSURF."""
 
-from __future__ import annotations
-
 import pytest
+from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 
@@ -18,8 +17,7 @@ SHEETS = (
 
 def cells_of(script: str) -> list[int]:
     """Numbers of cells of the zones of T."""
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     table = result.session.root.find("T")
     return [mesh.n_cells for index, mesh in table.items() if index != "SOUSTYPE"]
 
@@ -66,18 +64,16 @@ def test_sub_type_is_for_parallel_runs_only() -> None:
 
 
 def test_what_separates_must_be_said() -> None:
-    result = run_text(STAR + "T = PART 'SEPA' L ;")
-    assert result.exit_code == 1
+    result = failed(STAR + "T = PART 'SEPA' L ;")
     assert "nothing separates" in result.message
 
 
 def test_lines_of_several_values() -> None:
-    result = run_text(
+    result = ran(
         "OPTI DIME 2 ELEM TRI3 ; S = (DROI 3 (0. 0.) (1. 0.)) TRAN 3 (0. 2.) ; "
         "M C = @ISOSURF S (PROG 0.25 0.5 7.) (COOR 1 S) ; L = MESU M ; A = MINI C ; B = MAXI C ; "
         "E = MAXI ((COOR 1 M) - C) 'ABS' ;"
     )
-    assert result.exit_code == 0, result.message
     values = [result.session.root.find(n) for n in "LABE"]
     assert values == pytest.approx([4.0, 0.25, 0.5, 0.0])
 
@@ -98,13 +94,11 @@ def test_parts_of_equal_sizes_and_their_union(phrase: str, expected: list[int]) 
 
 
 def test_union_of_a_table_of_numbers_and_of_no_parts() -> None:
-    result = run_text(
+    result = ran(
         "T = TABL 'ESCLAVE' ; T . 1 = PROG 1. ; T . 2 = PROG 2. 3. ; X = ETG T ; "
         "Y = INTE X (PROG 3. 1. 7.) ;"
     )
-    assert result.exit_code == 0, result.message
     assert result.session.root.find("X").values.tolist() == [1.0, 2.0, 3.0]
     assert result.session.root.find("Y").values.tolist() == [1.0, 3.0]
-    refused = run_text("T = TABL ; T . 1 = 2 ; X = ETG T ;")
-    assert refused.exit_code == 1
+    refused = failed("T = TABL ; T . 1 = 2 ; X = ETG T ;")
     assert "sub-type" in refused.message

@@ -229,7 +229,7 @@ def _beside_groups(
     A: sp.csr_array, groups: IntArray, solver: Solver | str | None, ordering: Ordering | None
 ) -> Factor | None:
     """Factor of a matrix that is positive but for small negative groups, None if it is not that."""
-    from ssilang.kernel.solvers.cholesky.small_groups import SmallGroupsFactor
+    from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
 
     try:
         factor = SmallGroupsFactor(A, groups, solver, ordering)

@@ -15,7 +15,7 @@ from ssilang.kernel.interface.response import interface_energies, interface_forc
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 from ssilang.kernel.solvers.backends import factorise, goes_to_petsc
-from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients
+from ssilang.kernel.solvers.multigrid.multigrid import conjugate_gradients
 from ssilang.kernel.stepping.problem.problem import Problem
 
 MANY = 150_000  # heavy unknowns from which their accelerations are iterated, never factorised

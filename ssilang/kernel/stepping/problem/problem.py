@@ -41,7 +41,7 @@ from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading, loading_of
-from ssilang.kernel.waves.histories import HISTORIES, refuse_parts_of_layer
+from ssilang.kernel.waves.matched_layer import HISTORIES, refuse_parts_of_layer
 
 SMALL = 160
 """Motions that supports leave, up to which dense matrices and the compiled loop are used."""

@@ -14,11 +14,11 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.conserving import ConservingContact
 from ssilang.kernel.interface.interface import Interface
-from ssilang.kernel.interface.mean_traction import mean_response
 from ssilang.kernel.interface.response import (
     interface_energies,
     interface_forces,
     interface_stiffness,
+    mean_response,
     new_trial,
 )
 from ssilang.kernel.stepping.effective import Effective

@@ -6,14 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListReel, Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.records.soil_column import FreeField, SoilColumn
 
 _CODE = "operators.dynamics.waves-before-the-record"

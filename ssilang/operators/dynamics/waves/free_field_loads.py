@@ -6,17 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray, IntArray
-    from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
 _MOTION = ("DEPL", "VITE", "ACCE")
@@ -191,8 +185,7 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
 
 def _tell_reflecting(entries: Entries, motion: Motion) -> None:
     """Warn where what leaves the layer comes back from an edge before the motion ends."""
-    from ssilang.kernel.waves.reflecting_edges import reflecting_edges
-    from ssilang.kernel.waves.resolution import pressure_speed
+    from ssilang.kernel.waves.resolution import pressure_speed, reflecting_edges
 
     model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
     found = reflecting_edges(model, entries.needed("COUCHE"), entries.get("AMORTISSEURS"))

@@ -6,14 +6,10 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.waves.incoherence import Ground, RigidBase, Shape
 
 _SHAPES: dict[str, Shape] = {"DISQUE": "disc", "RECTANGLE": "rectangle", "BANDE": "strip"}

@@ -6,19 +6,13 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import arg, operator
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-from ssilang.operators.workspace import workspace
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
-    from ssilang.kernel.curves.curve import Curve
-    from ssilang.kernel.mesh.mesh import Mesh
     from ssilang.kernel.waves.layered_half_space import HalfSpace, Kind
     from ssilang.kernel.waves.plane_wave import Given, PlaneWave, WaveMotion
+
 
 #: share of the largest velocity that a record may keep at its end
 DRIFT = 0.02
@@ -124,3 +118,25 @@ def _components(of: FloatArray, kind: Kind, way: FloatArray) -> dict[str, FloatA
     across = of[:, 0] if kind == "SH" else still
     cos, sin = way
     return {"UX": cos * along - sin * across, "UY": sin * along + cos * across, "UZ": up}
+
+
+FEWEST = 4
+"""Cells through the layer below which it reflects about as much as dampers."""
+
+
+@operator("ZPML", arg("table", "TABLE", en="table of @PML"), family="dynamics")
+def zpml(call: Call, table: Table) -> Table:
+    """Read the table, hand back three matrices."""
+    from ssilang.kernel.waves.matched_layer import matched_layer
+
+    entries = Entries(call, table, "@PML")
+    made = matched_layer(
+        entries.needed("MODELE"), entries.needed("CARACTERISTIQUES"),
+        entries.needed("INTERIEUR"), entries.get("REFLEXION"),
+    )  # fmt: skip
+    if made.cells < FEWEST - 1e-6:
+        entries.warn("operators.dynamics.thin-layer", cells=made.cells, fewest=FEWEST)
+    result = Table()
+    for name, matrix in (("RIGI", made.stiffness), ("MASS", made.mass), ("AMOR", made.damping)):
+        result.set(name, matrix)
+    return result

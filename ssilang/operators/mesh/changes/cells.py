@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.base.errors import MeshError
+from ssilang.io.plots.palette import index_of
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.complete import COMPLETE, complete, taken_apart
 from ssilang.kernel.mesh.changes.degree import LINEAR, linear, quadratic
+from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parted
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
-from ssilang.kernel.mesh.combine import poi1, union
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
-from ssilang.language.registry import arg, choice, main, many, opt, said
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListEnti
-from ssilang.language.vocabulary.terms import POSITIVE
-from ssilang.operators.dispatch import CHAN, MANU
-from ssilang.operators.workspace import workspace
+from ssilang.kernel.mesh.combine import poi1, recolour, union
+from ssilang.language.registry import either
+from ssilang.language.vocabulary.terms import between
+from ssilang.operators.dispatch import CHAN, COUL, MANU
+from ssilang.operators.matrices.supports import as_matrix
+from ssilang.operators.prelude import *
 
 _SIMPLEX = {"TRI3": "QUA4", "TRI6": "QUA8"}
 
@@ -138,3 +139,76 @@ def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: 
         raise MeshError("operators.mesh.points-of-cells", word=word, size=size, n_ids=len(ids))
     shade = ws.colour if colour is None else COLOURS.index(colour)
     return Mesh.of(ws.nodes, word, ids.astype(np.int64).reshape(-1, size), shade)
+
+
+def refined(mesh: Mesh, sizes: NodeField) -> Mesh:
+    """The mesh divided to the sizes of a field of one component.
+
+    Raises
+    ------
+    MeshError
+        If the field has several components, lacks at a node, or for cells that are not divided.
+    """
+    if len(sizes.components) != 1:
+        raise MeshError("operators.mesh.one-size-wanted", n_components=len(sizes.components))
+    cells, ties = parted(mesh)
+    if ties:
+        raise MeshError("operators.mesh.refined-before")
+    wanted = sizes.values_at(next(iter(sizes.components)), cells.node_ids, np.nan)
+    if np.isnan(wanted).any():
+        node = mesh.nodes.told(cells.node_ids[np.isnan(wanted)][0])
+        raise MeshError("operators.mesh.no-size-at-node", node=node)
+    return divided_to_sizes(cells, wanted)
+
+
+def tie_relations(model: Model, table: NodeTable) -> Matrix:
+    """Each hanging node moves as the mean of the nodes that it follows, unknown by unknown."""
+    names = dict.fromkeys(u for z in model.zones for u in family_of(z).layout(z).unknowns)
+    parts = []
+    for block in model.ties:
+        nodes = block.connectivity
+        masters = nodes.shape[1] - 1
+        row = np.concatenate([[1.0], np.full(masters, -1.0 / masters)])
+        coefficients = np.broadcast_to(row, nodes.shape)
+        parts += [
+            rows_from_table(table, nodes, (name,) * nodes.shape[1], coefficients) for name in names
+        ]
+    return as_matrix(joined(parts)) if parts else Matrix(table)
+
+
+# other cells are white
+_COLOURS = {
+    "BLEU": "SEG2 TRI3 CUB8 TET4 LIA3", "ROUG": "QUA4 PRI6 PYR5 RAC2 LIA4",
+    "ROSE": "SEG3 TRI6 CU20 TE10 LIA6", "VERT": "QUA8 PR15 PY13 RAC3 LIA8", "JAUN": "TRI7 QUA9",
+}  # fmt: skip
+_COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cells.split()}
+
+
+@operator("AFCO", arg("mesh", "MAILLAGE", en="mesh"), family="mesh")
+def afco(mesh: Mesh) -> Mesh:
+    """Colour each block by its type of cell."""
+    shades = [index_of(_COLOUR_OF.get(b.cell_type, "BLAN")) for b in mesh.blocks]
+    blocks = tuple(
+        replace(b, colours=np.full(len(b), shade, dtype=np.int8))
+        for b, shade in zip(mesh.blocks, shades, strict=True)
+    )
+    return replace(mesh, blocks=blocks)
+
+
+@COUL.form(
+    main("mesh", "MAILLAGE", en="mesh"),
+    either(
+        "colour",
+        group("number", arg("number", "ENTIER", en="its number", usual=between(0, len(COLOURS)))),
+        group("name", arg("name", "MOT", en="its name", kind="colour")),
+        optional=True,
+        en="colour, that of OPTI COUL by default",
+    ),
+)
+def coloured(session: Session, mesh: Mesh, colour: Chosen | None) -> Mesh:
+    """Mesh in another colour."""
+    if colour is None:
+        return recolour(mesh, workspace(session).colour)
+    if colour.word == "number":
+        return recolour(mesh, min(max(colour["number"] - 1, 0), len(COLOURS) - 1))
+    return recolour(mesh, index_of(colour["name"]))

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.changes.cut_open import cut_open
 from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, flag, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def _ids(item: Mesh | Point) -> IntArray:

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
-from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.language.registry import arg, flag, many, operator
-from ssilang.language.run.session import Session
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, part: bool) -> Mesh:

@@ -7,7 +7,6 @@ import numpy as np
 from ssilang.kernel.mesh.boundary import (
     chained,
 )
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.orientation import (
     check_consistent,
     flip,
@@ -16,10 +15,8 @@ from ssilang.kernel.mesh.orientation import (
     reversed_line,
 )
 from ssilang.kernel.mesh.queries.partition import by_neighbours
-from ssilang.language.registry import arg, choice, main, operator, opt
-from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import INVE, ORDO
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @INVE.form(main("mesh", "MAILLAGE", en="mesh"))

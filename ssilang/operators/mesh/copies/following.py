@@ -7,20 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.changes.follow import followed
 from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import ANY, Like, arg, flag, many, operator, said
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
 from ssilang.operators.mesh.copies.moves import displacements
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
 _BEFORE = arg("before", "MAILLAGE", en="mesh before")

@@ -8,11 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.matrix import Matrix, Relations
+from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.mesh.changes.transform import (
     NodeCopier,
     PointMap,
@@ -25,13 +22,8 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.surfaces.facets import facet_shape
-from ssilang.language.registry import Argument, Chosen, Like, arg, many, operator, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER
+from ssilang.language.registry import Argument
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
@@ -48,7 +40,7 @@ from ssilang.operators.mesh.copies.maps import (
 )
 from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.operators.prelude import *
 
 GEOMETRIC = ("POINT", "MAILLAGE", "CHPOINT", "MCHAML", "MMODEL", "TABLE")
 

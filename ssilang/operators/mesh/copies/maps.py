@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.changes.transform import PointMap, turn
-from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
     cone_shape,
@@ -19,8 +17,8 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.language.registry import Argument, Chosen, arg, group, key, select
-from ssilang.language.vocabulary.terms import ANY_NUMBER, NOT_ZERO
+from ssilang.language.registry import Argument
+from ssilang.operators.prelude import *
 
 RATIO = arg("ratio", "FLOTTANT", en="ratio", usual=NOT_ZERO)
 FIXED = arg("fixed", "POINT", en="point that stays")

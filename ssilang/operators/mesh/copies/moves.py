@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affine_through,
@@ -25,10 +22,6 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.generators.sweep import rotate
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import Chosen, arg, choice, many, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.maps import (
     DIRECTION,
     FIXED,
@@ -40,7 +33,7 @@ from ssilang.operators.mesh.copies.maps import (
     projection_of,
 )
 from ssilang.operators.mesh.lines.ends import AXIS, axis_of
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _MIRRORS: Mapping[str, Callable[..., PointMap]] = {
     "POINT": mirror_point,

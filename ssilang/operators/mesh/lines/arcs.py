@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.curves import (
     Arc,
@@ -19,10 +18,7 @@ from ssilang.kernel.mesh.lines.curves import (
 from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, choice, flag, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import POSITIVE, between
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -39,7 +35,7 @@ from ssilang.operators.mesh.lines.ends import (
     ends_of,
     positions,
 )
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @operator(

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
 from ssilang.kernel.mesh.lines.curves import Arc, Polynomial
@@ -21,12 +19,9 @@ from ssilang.kernel.mesh.lines.lines import (
     mesh_curve,
 )
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.queries.measure import cell_measures
-from ssilang.language.registry import arg, key, many, opt
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import CELLS_ALONG, POSITIVE, between
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.language.vocabulary.terms import CELLS_ALONG, between
+from ssilang.operators.prelude import *
 
 COUNT = opt(
     "count",

@@ -8,10 +8,6 @@ import numpy as np
 
 from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
 from ssilang.kernel.mesh.lines.lines import line_ends
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import arg, flag, key, many, operator
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.lines.ends import (
     COUNT,
     END,
@@ -25,7 +21,7 @@ from ssilang.operators.mesh.lines.ends import (
     ends_of,
     positions,
 )
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @operator(

@@ -7,34 +7,13 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.zone_fields import carry
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_ends
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.queries.select import junctions, nearest_node
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    flag,
-    key,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListMots, ListReel
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
 from ssilang.operators.mesh.copies.maps import SHAPES, shape_of
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "SUPERIEUR": np.greater,

@@ -6,15 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.mesh.mesh import Point
-from ssilang.language.registry import arg, main, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
 from ssilang.operators.dispatch import PSCA, PVEC
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 def _made(like: Point, position: FloatArray) -> Point:

@@ -5,20 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,
     enclosed_volume,
     node_sizes,
     total_measure,
 )
-from ssilang.language.registry import arg, choice, operator, opt, said
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListEnti, ListMots
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import listing
+from ssilang.operators.prelude import *
 
 
 @operator(

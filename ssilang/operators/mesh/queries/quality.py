@@ -6,19 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.combine import without_duplicates
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
 from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
-from ssilang.language.registry import arg, flag, key, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListReel
-from ssilang.language.vocabulary.terms import POSITIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
     "PLAN": (("QUA4",), flatness),

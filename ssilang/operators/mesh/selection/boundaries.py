@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,
@@ -12,13 +11,12 @@ from ssilang.kernel.mesh.boundary import (
     sharp_edges,
 )
 from ssilang.kernel.mesh.combine import join_blocks
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.orientation import (
     flip,
     orient,
 )
-from ssilang.language.registry import arg, choice, flag, operator, opt
 from ssilang.language.vocabulary.terms import between
+from ssilang.operators.prelude import *
 
 
 def _whole_lines(mesh: Mesh) -> Mesh:
@@ -91,3 +89,55 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
 def aret(mesh: Mesh, angle: float) -> Mesh:
     """Sharp edges."""
     return sharp_edges(mesh, angle)
+
+
+@operator(
+    "COTE",
+    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
+    arg("mesh", "MAILLAGE", en="surface"),
+    family="mesh",
+)
+def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
+    """Give back a side."""
+    kept = _sides(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-side", number, number=number, count=len(kept))
+    return kept[number - 1]
+
+
+@cote.form(arg("mesh", "MAILLAGE", en="surface"), gives=ANY)
+def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    """Give back all sides."""
+    return _sides(call, mesh)
+
+
+def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    if not mesh.sides:
+        raise call.error("operators.mesh.no-sides", mesh)
+    return mesh.sides
+
+
+@operator(
+    "FACE",
+    arg("number", "ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
+    arg("mesh", "MAILLAGE", en="volume"),
+    family="mesh",
+)
+def face(call: Call, number: int, mesh: Mesh) -> Mesh:
+    """Give back a face."""
+    kept = _faces(call, mesh)
+    if not 1 <= number <= len(kept):
+        raise call.error("operators.mesh.no-such-face", number, number=number, count=len(kept))
+    return kept[number - 1]
+
+
+@face.form(arg("mesh", "MAILLAGE", en="volume"), gives=ANY)
+def all_faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    """Give back all faces."""
+    return _faces(call, mesh)
+
+
+def _faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+    if not mesh.sides:
+        raise call.error("operators.mesh.no-faces", mesh)
+    return mesh.sides

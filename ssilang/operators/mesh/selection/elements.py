@@ -8,9 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
@@ -20,26 +17,9 @@ from ssilang.kernel.mesh.combine import (
     take,
     union,
 )
-from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
 from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    find_operator,
-    flag,
-    key,
-    main,
-    many,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import ListEnti, ListMots
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE, POSITIVE
+from ssilang.language.registry import find_operator
 from ssilang.operators.mesh.points.picking import (
     ABSOLUTE,
     EXTREMES,
@@ -48,6 +28,7 @@ from ssilang.operators.mesh.points.picking import (
     chosen_components,
     picked,
 )
+from ssilang.operators.prelude import *
 
 _MESH = main("mesh", "MAILLAGE", en="cells to pick from")
 _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")

@@ -5,21 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.combine import (
     take,
 )
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.queries.signed_distance import nearest_on_triangles
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
-from ssilang.language.registry import arg, choice, flag, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.vocabulary.terms import NOT_NEGATIVE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 
 @operator(

@@ -6,8 +6,6 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import (
     intersection,
     poi1,
@@ -15,14 +13,10 @@ from ssilang.kernel.mesh.combine import (
     symmetric_difference,
     union,
 )
-from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
-from ssilang.language.registry import arg, flag, main, operator, opt, said
-from ssilang.language.run.call import Call
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
 from ssilang.operators.mesh.tolerance import DISTANCE
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 _SECOND = arg("second", "MAILLAGE", "POINT", en="mesh, or point")
 _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")

@@ -6,24 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.partition import balanced, connected, scattered, separated
-from ssilang.language.registry import (
-    Chosen,
-    arg,
-    choice,
-    flag,
-    key,
-    main,
-    operator,
-    opt,
-    said,
-    select,
-)
-from ssilang.language.run.call import Call
-from ssilang.language.values import Table
-from ssilang.language.vocabulary.terms import POSITIVE, between
+from ssilang.language.vocabulary.terms import between
+from ssilang.operators.prelude import *
 
 _FREE = flag("free", "NESC", en="the table has no sub-type")
 _MESH = main("mesh", "MAILLAGE", en="mesh")

@@ -6,8 +6,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     Path,
@@ -20,11 +18,8 @@ from ssilang.kernel.mesh.generators.sweep import (
 )
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.orientation import reversed_line
-from ssilang.language.registry import arg, operator, opt
-from ssilang.language.run.call import Call
-from ssilang.language.vocabulary.terms import CELLS_ALONG, NOT_ZERO
+from ssilang.language.vocabulary.terms import CELLS_ALONG
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,
@@ -37,7 +32,7 @@ from ssilang.operators.mesh.lines.ends import (
     cuts_of,
     warn_of_flat_cells,
 )
-from ssilang.operators.workspace import workspace
+from ssilang.operators.prelude import *
 
 LAYERS = opt(
     "count",

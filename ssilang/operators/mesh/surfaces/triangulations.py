@@ -6,12 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.stitch import cone, stitch
-from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
 from ssilang.kernel.mesh.queries.quality import quality_in_metric
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
@@ -25,12 +21,7 @@ from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_da
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
 from ssilang.kernel.mesh.volumes.volume import fill_volume
-from ssilang.language.registry import arg, choice, flag, operator, opt, said
-from ssilang.language.run.call import Call
-from ssilang.language.run.session import Session
-from ssilang.language.values import ListEnti, Mot, Table
-from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE
-from ssilang.operators.workspace import Workspace, workspace
+from ssilang.operators.prelude import *
 
 
 @operator(

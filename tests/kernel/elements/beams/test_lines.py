@@ -6,7 +6,7 @@ import pytest
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.loads.line_loads import line_load
+from ssilang.kernel.elements.loads.loads import line_load
 from ssilang.kernel.elements.results.integrals import green_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField

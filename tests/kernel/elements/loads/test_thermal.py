@@ -1,7 +1,5 @@
 """Expansion of shells: free plates and rings move as the closed forms say, held ones press."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

@@ -9,8 +9,14 @@ from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.results.integrals import green_strain, integrals
-from ssilang.kernel.elements.results.reduction import field_on_mesh, field_on_model, model_on_mesh
-from ssilang.kernel.elements.results.supports import cells_of_nodal, moved, nodal_of_cells
+from ssilang.kernel.elements.results.supports import (
+    cells_of_nodal,
+    field_on_mesh,
+    field_on_model,
+    model_on_mesh,
+    moved,
+    nodal_of_cells,
+)
 from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,
     as_tensor,

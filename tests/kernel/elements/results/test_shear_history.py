@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -12,8 +13,7 @@ _BLOCK = (
 
 
 def largest(script):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     field = result.session.root.find("G")
     return np.concatenate([b.components["SCAL"].ravel() for b in field.blocks])
 
@@ -44,8 +44,7 @@ def test_recorded_motion_gives_what_its_fields_give():
         " REPE K 21 ; L = L ET (R . &K . 'DEPL') ;"
         "FIN K ; G2 = ZGAM M L ; D = MAXI (ABS (G - G2)) ; E = MINI G2 ;"
     )
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     find = result.session.root.find
     assert find("D") < 1e-12 * find("E")
     assert find("E") > 1e-5

@@ -1,11 +1,9 @@
 """Meshes of polygons and Wachspress' element on them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.polygons import (
     SIDES,
@@ -22,8 +20,7 @@ PLATE = (
 
 
 def found(script: str, *names: str) -> tuple:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return tuple(result.session.root.find(n) for n in names)
 
 

@@ -1,7 +1,5 @@
 """Points and weights of the quadrature rules against SciPy's, and exact integrals."""
 
-from __future__ import annotations
-
 import itertools
 from math import factorial
 

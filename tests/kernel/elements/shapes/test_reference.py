@@ -1,7 +1,5 @@
 """Shape functions of every cell: one at their node, what they reproduce, true gradients."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

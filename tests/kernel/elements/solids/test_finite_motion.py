@@ -1,11 +1,9 @@
 """Rotation and stretch of a gradient, and the components that a mode gives it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.solids.finite_motion import (
     gradient_components,
@@ -87,6 +85,5 @@ def test_stresses_work_on_the_squares_of_gradients(text, exact, tmp_path):
         "M = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE M 'YOUN' 100. 'NU' 0. ;"
         "Z = XTMX U (KSIG M (SIGM M A U0)) ;"
     )
-    result = run_text(text, tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(text, tmp_path)
     assert result.session.root.find("Z") == pytest.approx(exact, rel=1e-12)

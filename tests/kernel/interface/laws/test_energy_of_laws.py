@@ -1,7 +1,5 @@
 """Every law along irregular paths in fine steps: work is what is stored and what is lost."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Degrees, splitting, copies, selections, boundaries."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from references.straight_line import straight_line

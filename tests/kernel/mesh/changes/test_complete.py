@@ -1,10 +1,7 @@
 """Complete quadratic cells: shared middles, and the cells that they are taken apart into."""
 
-from __future__ import annotations
-
 import pytest
-
-from ssilang.cli.run import run_text
+from script_runs import failed, ran
 
 CUBES = (
     "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
@@ -13,8 +10,7 @@ CUBES = (
 
 
 def found(script: str, *names: str) -> list[object]:
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
+    result = ran(script)
     return [result.session.root.find(n) for n in names]
 
 
@@ -84,6 +80,5 @@ def test_volumes_and_their_envelope_are_taken_apart_alike(
 
 
 def test_cells_that_cannot_be_taken_apart_are_named() -> None:
-    result = run_text(CUBES + "M = CHAN 'PRI6' (CHAN V 'QUAF') ;")
-    assert result.exit_code == 1
+    result = failed(CUBES + "M = CHAN 'PRI6' (CHAN V 'QUAF') ;")
     assert "CU27 cannot be changed into PRI6" in result.message

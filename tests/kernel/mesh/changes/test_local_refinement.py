@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, is_tie, parted
 from ssilang.kernel.mesh.mesh import Mesh
@@ -175,8 +175,7 @@ E = EPSI MO U ; MESS 'STRAIN ' (MAXI E 'AVEC' (MOTS 'EPXX')) ' ' (MINI E 'AVEC' 
 MESS 'OTHER ' (MAXI E 'AVEC' (MOTS 'EPYY')) ' ' (MINI E 'AVEC' (MOTS 'EPYY')) ;
 MESS 'TIES ' (NBEL H) ;
 """
-    result = run_text(deck, tmp_path)
-    assert result.exit_code == 0, result.message
+    result = ran(deck, tmp_path)
     lines = {line.split()[0]: line.split()[1:] for line in result.output.split("\n") if line}
     np.testing.assert_allclose([float(v) for v in lines["STRAIN"]], 0.1, rtol=1e-5)
     np.testing.assert_allclose([float(v) for v in lines["OTHER"]], -0.4, rtol=1e-5)

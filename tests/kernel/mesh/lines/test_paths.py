@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.lines.paths import network_of_lines, shortest_line
+from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 

@@ -1,7 +1,5 @@
 """What is asked of meshes, against sets and loops, on a slanted grid of cells of every kind."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Surfaces inside contours: area, conformity, holes, degree, curved charts, sizes."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Surfaces of triangles cut where they cross, against closed forms and the invariants of cuts."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

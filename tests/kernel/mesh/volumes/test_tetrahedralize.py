@@ -1,7 +1,5 @@
 """Closed surfaces filled with tetrahedra: volume, conformity, errors."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from references.straight_line import straight_line

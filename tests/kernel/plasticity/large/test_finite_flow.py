@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.plasticity.finite import finite_zone
 from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
 from ssilang.kernel.plasticity.large.finite_yielding import InsideOutError
@@ -27,11 +27,10 @@ LAWS = {
 
 def zone_of(mesh, law="perfect", word="MI_PAS"):
     name, numbers = LAWS[law]
-    result = run_text(
+    result = ran(
         f"{MESH[mesh]} M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{name}' ; "
         f"A = MATE M 'YOUN' 5. 'NU' 0.3 {numbers} ;"
     )
-    assert result.exit_code == 0, result.message
     zone, material = result.session.root.find("M").zones[0], result.session.root.find("A")
     points = plastic_points(zone, material)
     made = LAGRANGIAN[word](finite_zone(zone, material), points)

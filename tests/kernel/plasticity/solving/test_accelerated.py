@@ -1,7 +1,5 @@
 """Steps that keep their factor against Newton's method on all unknowns."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 

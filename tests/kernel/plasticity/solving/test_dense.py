@@ -1,7 +1,5 @@
 """Small models with dense matrices against the same steps with sparse ones."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Compiled passes over elements against the laws themselves, and terms that stay in their place."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -14,8 +12,8 @@ from ssilang.kernel.matrices.assembly import assemble_triplets
 from ssilang.kernel.plasticity.points import PointState
 from ssilang.kernel.plasticity.solving.blocks import cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
-from ssilang.kernel.plasticity.solving.passes import zone_pass
 from ssilang.kernel.plasticity.solving.positive import Pattern
+from ssilang.kernel.plasticity.zone_points import zone_pass
 
 M = 900
 RANGES = {

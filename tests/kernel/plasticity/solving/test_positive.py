@@ -1,7 +1,5 @@
 """Newton's method by Cholesky factors against that by LU."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from references.tower_on_clay import stepped_tower, tower_on_clay

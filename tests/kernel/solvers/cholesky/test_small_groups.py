@@ -5,8 +5,8 @@ import pytest
 
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
 from ssilang.kernel.solvers.cholesky.inverse import invert
-from ssilang.kernel.solvers.cholesky.small_groups import SmallGroupsFactor
 
 
 def mixed(sizes, rest=9, seed=3):

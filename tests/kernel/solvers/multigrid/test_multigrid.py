@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from script_runs import ran
 
 from ssilang.kernel import elements
 from ssilang.kernel.base import memory
@@ -143,14 +144,12 @@ X1 = EXTR U1 'UZ' P3 ;
 
 
 def test_reso_takes_it_with_its_conditions_eliminated_and_reports_it(monkeypatch, tmp_path):
-    from ssilang.cli.run import run_text
 
     monkeypatch.setattr("ssilang.kernel.statics.linear.dissection_pays", lambda n: True)
     found, names = [], []
     for free in (1e12, 1e4):
         monkeypatch.setattr(memory, "available_bytes", lambda free=free: free)
-        result = run_text(SCRIPT, output_directory=tmp_path)
-        assert result.exit_code == 0, result.message
+        result = ran(SCRIPT, output_directory=tmp_path)
         found.append(result.session.root.find("X1"))
         names.append(result.session.statistics["systems"][-1]["solver"])
     assert names == [backends.DISSECTION, MULTIGRID]
@@ -158,12 +157,10 @@ def test_reso_takes_it_with_its_conditions_eliminated_and_reports_it(monkeypatch
 
 
 def test_a_script_asks_for_it_with_a_tolerance(tmp_path):
-    from ssilang.cli.run import run_text
 
     found = {}
     for said in ("'AUTO'", "'MULTIGRILLE'", "'MULTIGRILLE' 1.E-5"):
-        result = run_text(f"OPTI 'SOLVEUR' {said} ; {SCRIPT}", output_directory=tmp_path)
-        assert result.exit_code == 0, result.message
+        result = ran(f"OPTI 'SOLVEUR' {said} ; {SCRIPT}", output_directory=tmp_path)
         found[said] = result.session.root.find("X1")
         name = result.session.statistics["systems"][-1]["solver"]
         assert (name == MULTIGRID) == (said != "'AUTO'")

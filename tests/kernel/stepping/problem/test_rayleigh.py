@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from ssilang.kernel.stepping.problem.rayleigh import split_damping
+from ssilang.kernel.stepping.problem.constraints import split_damping
 
 
 def chain(n=60):

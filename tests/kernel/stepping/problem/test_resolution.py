@@ -1,7 +1,5 @@
 """The step that resolves contact, and the one that is told."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.kernel.stepping.problem.plausibility import Resolution

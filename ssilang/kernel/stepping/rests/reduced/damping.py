@@ -22,7 +22,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.stepping.problem.rayleigh import split_damping
+from ssilang.kernel.stepping.problem.constraints import split_damping
 
 ROUNDING = 1e-15  # of the largest eigenvalue of C': a direction without dashpot
 DEPENDENT = 1e-20  # squared length, of one, below which what is left of a state is rounding

@@ -17,7 +17,7 @@ from ssilang.kernel.stepping.problem.initial import (
 )
 from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.arrays import joints_of
+from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
 from ssilang.kernel.stepping.rests.reduced.loop import (
     Reduced,

@@ -13,6 +13,7 @@ from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.stepping.effective import Effective, RootResponse
 from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.problem.constraints import split_damping
 from ssilang.kernel.stepping.problem.moving_supports import (
     MOST,
     Columns,
@@ -21,8 +22,7 @@ from ssilang.kernel.stepping.problem.moving_supports import (
     Start,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.problem.rayleigh import split_damping
-from ssilang.kernel.stepping.rests.dense.arrays import joints_of
+from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     Damping,
     Plan,

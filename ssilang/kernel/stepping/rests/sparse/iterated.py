@@ -210,8 +210,7 @@ class IteratedSolver:
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
-        from ssilang.kernel.solvers.multigrid.krylov import conjugate_gradients, minimal_residuals
-        from ssilang.kernel.solvers.multigrid.multigrid import MOST_TURNS
+        from ssilang.kernel.solvers.multigrid import multigrid as krylov
 
         s, joints = self.system, self.interface
         change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
@@ -230,10 +229,10 @@ class IteratedSolver:
 
         cycle = s.factor.hierarchy.cycle
         if symmetric:
-            found = conjugate_gradients(multiply, cycle, rest, enough, MOST_TURNS)
+            found = krylov.conjugate_gradients(multiply, cycle, rest, enough, krylov.MOST_TURNS)
             self.turns += found.turns
         if not symmetric or not found.converged:
-            found = minimal_residuals(multiply, cycle, rest, enough, MOST_TURNS)
+            found = krylov.minimal_residuals(multiply, cycle, rest, enough, krylov.MOST_TURNS)
             self.turns += found.turns
         increment: FloatArray = s.T @ found.x
         return increment, found.residual < 0.5 * float(np.linalg.norm(rest))

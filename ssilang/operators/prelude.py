@@ -1,0 +1,57 @@
+"""The words that operators are written with: `from ssilang.operators.prelude import *`.
+
+What is declared with (`arg`, `opt`, `flag` ...), the ranges, what a call offers, and the classes of
+the objects that scripts hold.
+"""
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError, KernelError, MeshError
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.language.registry import (
+    ANY,
+    Chosen,
+    Entry,
+    Like,
+    arg,
+    by,
+    choice,
+    flag,
+    group,
+    key,
+    lead,
+    main,
+    many,
+    operator,
+    opt,
+    said,
+    select,
+    shared,
+)
+from ssilang.language.run.call import Call, Operand
+from ssilang.language.run.session import Session
+from ssilang.language.say.errors import SsiError
+from ssilang.language.values import (
+    ListChpo,
+    ListEnti,
+    ListMots,
+    ListObje,
+    ListReel,
+    Mot,
+    Procedure,
+    Table,
+    type_of,
+)
+from ssilang.language.vocabulary.terms import (
+    ANY_NUMBER,
+    CARRIED,
+    NOT_NEGATIVE,
+    NOT_ZERO,
+    POSITIVE,
+)
+from ssilang.operators.workspace import Workspace, workspace
