@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.changes.follow import followed
 from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.registry import ANY, Like, arg, flag, many, operator, said
+from ssilang.language.registry import ANY, Like, arg, flag, many, operator, opt, said
 from ssilang.language.run.call import Call
 from ssilang.language.vocabulary.terms import ANY_NUMBER
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
@@ -48,6 +48,12 @@ def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
         return places[np.searchsorted(nodes, ids)]
 
     return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
+
+
+@dedu.form(said("ADAP"), opt("mesh", "MAILLAGE", en="mesh to adapt"))
+def dedu_adap(call: Call, mesh: Mesh | None) -> NoReturn:
+    """To a metric: its functional is not published."""
+    raise call.error("operators.mesh.functional-not-published")
 
 
 @dedu.form(
