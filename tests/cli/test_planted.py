@@ -10,6 +10,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from petsc_there import COMMAND as COMMAND_OF_PETSC
+from petsc_there import environment, lacking
 
 from ssilang.io.mesh_files import gmsh_alone
 from ssilang.kernel.solvers.petsc.client import SERVER
@@ -130,6 +132,45 @@ def test_the_process_of_gmsh(folder: Path) -> None:
     assert ran(folder) == []
     assert "Traceback" not in done.stderr
     assert Path(gmsh_alone.__file__).is_file()
+
+
+DRAWN = """OPTI DIME 2 ; L = PROG 0. 1. ; TITR 'a title' ; DESS (EVOL 'MANU' L L) ;
+P = 0. 0. ; Q = 1. 0. ; J = MANU 'SEG2' P Q ; M = MODE J 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
+K = (RIGI M (MATE M 'YOUN' 1. 'SECT' 1.)) ET (BLOQ 'UX' 'UY' P) ET (BLOQ 'UY' Q) ;
+SORT 'BILA' 'moved' (MAXI (RESO K (FORC (1. 0.) Q))) ;
+"""
+
+
+def test_settings_of_libraries(tmp_path: Path) -> None:
+    """A figure's LaTeX would be a program, and a run without compiled code never ends."""
+    (tmp_path / "ran").mkdir()
+    place, programs = tmp_path / "deck", tmp_path / "programs"
+    for folder in (place, programs):
+        folder.mkdir()
+    (place / "case.ssi").write_text(DRAWN)
+    (place / "matplotlibrc").write_text("text.usetex: True\nfont.size: 40\n")
+    (place / ".numba_config.yaml").write_text("disable_jit: 1\n")
+    (programs / "latex").write_text(f"#!/bin/sh\n: > {tmp_path}/ran/latex\n")
+    (programs / "latex").chmod(0o755)
+    code = (
+        "import sys; from ssilang.cli.main import main; code = main(sys.argv[1:]); import numba; "
+        "numba.core.config.reload_config(); sys.exit(code or numba.config.DISABLE_JIT)"
+    )
+    path = os.pathsep.join((str(programs), os.environ["PATH"]))
+    done = start(place, sys.executable, "-P", "-c", code, "case.ssi", PATH=path)
+    assert done.returncode == 0, done.stderr
+    assert ran(place) == []
+
+
+@pytest.mark.skipif(bool(lacking()), reason=lacking() or "it is there")
+def test_options_of_petsc(tmp_path: Path) -> None:
+    """Its options write any file."""
+    (tmp_path / "case.ssi").write_text("OPTI 'SOLVEUR' 'PETSC' ; " + DRAWN.replace("\n", " "))
+    (tmp_path / ".petscrc").write_text(f"-info {tmp_path}/written\n")
+    done = start(tmp_path, COMMAND, "--petsc", COMMAND_OF_PETSC, "case.ssi", **environment())
+    assert done.returncode == 0, done.stderr
+    assert "PETSc" in (tmp_path / "results" / "case" / "summary.json").read_text()
+    assert not list(tmp_path.glob("written*"))
 
 
 def test_the_server_of_petsc(folder: Path) -> None:

@@ -21,7 +21,7 @@ FREE = "SSILANG_ALLOW_GEO"
 
 LONGEST = 600
 """Seconds that Gmsh may take; SSILANG_GEO_SECONDS in the environment says otherwise."""
-_PASSED = ("LD_LIBRARY_PATH", "PYTHONPATH", "PATH", "SYSTEMROOT")  # of the environment
+_PASSED = ("LD_LIBRARY_PATH", "PATH", "SYSTEMROOT")  # of the environment
 
 # What the guard would refuse is said before: a help, and no guard.
 _OUTWARD = re.compile(
@@ -46,15 +46,16 @@ def read_geo(path: Path, dimension: int) -> FileMesh:
     outward = _OUTWARD.search(_PASSIVE.sub(" ", text))
     if outward is not None:
         raise InputError("io.geo-reaches-out", name=path.name, word=outward.group(0)[:40])
-    if find_spec("gmsh") is None:
+    found = find_spec("gmsh")
+    if found is None or found.origin is None:
         raise InputError("io.gmsh-missing", error="")
     with tempfile.TemporaryDirectory() as room:
         folder = Path(room).resolve() / "made"
         folder.mkdir()
-        return _meshed(path.resolve(), folder, dimension)
+        return _meshed(path.resolve(), folder, dimension, str(Path(found.origin).parent))
 
 
-def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
+def _meshed(script: Path, folder: Path, dimension: int, library: str) -> FileMesh:
     free = os.environ.get(FREE, "")
     asked = os.environ.get("SSILANG_GEO_SECONDS", "")
     longest = int(asked) if asked.isdecimal() else LONGEST
@@ -63,7 +64,7 @@ def _meshed(script: Path, folder: Path, dimension: int) -> FileMesh:
     nothing = subprocess.DEVNULL
     try:
         code = subprocess.run(
-            [*own, str(script), str(folder), str(dimension), free],
+            [*own, str(script), str(folder), str(dimension), library, free],
             stdin=nothing, stdout=nothing, stderr=nothing, check=False, cwd=folder,
             timeout=longest, env=kept | {"HOME": str(folder), "TMPDIR": str(folder)},
         ).returncode  # fmt: skip

@@ -1,14 +1,14 @@
 """Meshes a .geo file in a process that can start no program and reach no file outside.
 
-    python -P gmsh_alone.py SCRIPT FOLDER DIMENSION FREE
+    python -P gmsh_alone.py SCRIPT FOLDER DIMENSION LIBRARY FREE
 
 `FOLDER/made.msh` is the mesh, `FOLDER/told` says what failed. A script of Gmsh may start programs,
 read and write files by some thirty words, and words are no guard: the kernel refuses. Landlock
 (https://docs.kernel.org/userspace-api/landlock.html) holds files: readable are Python, libraries of
-the system and what stands below the script's folder, writable are the two files in FOLDER, and
-nothing is executable. A filter (https://docs.kernel.org/userspace-api/seccomp_filter.html) lets in
-the calls of a program that computes: none that starts a process, reaches a network or another one,
-or the rights of files.
+the system, the folder LIBRARY of Gmsh and what stands below the script's folder, writable are the
+two files in FOLDER, and nothing is executable. A filter
+(https://docs.kernel.org/userspace-api/seccomp_filter.html) lets in the calls of a program that
+computes: none that starts a process, reaches a network or another one, or the rights of files.
 This file knows nothing of ssilang: it runs before anything else is imported.
 """
 
@@ -187,7 +187,7 @@ def mesh(script: str, made: str, dimension: int) -> str:
     return refused[0].removeprefix("Error: ") if refused else ""
 
 
-def main(script: str, folder: str, dimension: str, free: str) -> int:
+def main(script: str, folder: str, dimension: str, library: str, free: str) -> int:
     """Mesh a script under guard; the exit code."""
     import encodings.utf_8  # noqa: F401  what is imported late must be readable
     import traceback  # noqa: F401
@@ -197,7 +197,10 @@ def main(script: str, folder: str, dimension: str, free: str) -> int:
     written = [os.path.join(folder, name) for name in (MADE, TOLD)]
     for name in written:
         os.close(os.open(name, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
-    readable = [*filter(None, sys.path), sys.prefix, sys.base_prefix, *_LIBRARIES, "/dev/null"]
+    sys.path.append(library)  # may be known by PYTHONPATH, whose other folders are not read
+    readable = [library, sys.prefix, sys.base_prefix, *_LIBRARIES, "/dev/null"]
+    if os.path.basename(library) == "site-packages":  # of one user: its code stands beside Python
+        readable.append(os.path.dirname(os.path.dirname(library)))
     if not confine([os.path.dirname(script), *readable], written) and not free:
         return UNGUARDED
     try:

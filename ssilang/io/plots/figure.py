@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import logging
+import os
 import re
 import textwrap
 import unicodedata
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from ssilang.io.plots.stage import Stage
 
 DPI = 150
-_STYLE: dict[str, object] = {
+_STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 10.0,
     "axes.titlesize": 12.0,
@@ -52,6 +53,17 @@ _STYLE: dict[str, object] = {
 }
 
 
+def _style() -> dict[Any, Any]:
+    """Settings of pictures; a `matplotlibrc` of the folder may be anybody's, and calls LaTeX."""
+    if not os.path.isfile("matplotlibrc"):
+        return _STYLE
+    import matplotlib as mpl
+    from matplotlib.style.core import STYLE_BLACKLIST
+
+    plain = {k: v for k, v in mpl.rcParamsDefault.items() if k not in STYLE_BLACKLIST}
+    return plain | _STYLE
+
+
 @contextmanager
 def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
     """A new figure of `width` x `height` inches; the style holds inside the block."""
@@ -61,7 +73,7 @@ def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
     from matplotlib.figure import Figure
 
     _share_what_is_read()
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    with mpl.rc_context(_style()):
         figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
         figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # type: ignore[union-attr, call-arg]
         yield figure
@@ -149,12 +161,18 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 
 def figure_bytes(figure: Figure, form: str) -> bytes:
-    """`figure` as a file of a format: 'png', 'svg' or 'pdf'."""
+    """`figure` as a file of a format: 'png', 'svg' or 'pdf'; its parts are placed once.
+
+    Left to `savefig` each format places them twice and draws twice.
+    """
     import matplotlib as mpl
 
     buffer = io.BytesIO()
     metadata = {"Date": None} if form == "svg" else None
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+    with mpl.rc_context(_style()):
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.execute(figure)
+            figure.set_layout_engine(None)
         figure.savefig(buffer, format=form, metadata=metadata)
     return buffer.getvalue()
 

@@ -173,6 +173,7 @@ def test_a_script_does_nothing_outside(name, words, tmp_path, monkeypatch):
     folder, elsewhere = tmp_path / "deck", tmp_path / "elsewhere"
     folder.mkdir()
     elsewhere.mkdir()
+    monkeypatch.setenv("PYTHONPATH", str(elsewhere))  # is no library of Gmsh
     secret, out = elsewhere / "secret.geo", elsewhere / "out"
     secret.write_text(SQUARE.replace("0.5", "0.1"))  # another mesh if it is read
     (folder / "link.geo").symlink_to(secret)

@@ -9,8 +9,21 @@ not tried (`tried`), where numba keeps code as it does; SSILANG_PLAIN_NUMBA=0 tr
 from __future__ import annotations
 
 import os
+import sys
+import warnings
 
 from ssilang.kernel.base.compiled.tried import untried
+
+if os.path.isfile(".numba_config.yaml") and "numba" not in sys.modules:
+    # it may be anybody's, and turns compiling off: settings come by the environment alone
+    yaml = sys.modules.get("yaml")
+    sys.modules["yaml"] = None  # type: ignore[assignment]  # numba finds no reader
+    with warnings.catch_warnings(action="ignore"):
+        from numba.core import config
+    config._config_fname = os.devnull  # each compilation looks
+    del sys.modules["yaml"]
+    if yaml is not None:
+        sys.modules["yaml"] = yaml
 
 UNTRIED = untried()
 """What of these versions was not tried, '' if all was."""

@@ -463,7 +463,8 @@ def import_petsc() -> Any:
             raise
         sys.path.append(sorted(places)[-1])
         import petsc4py
-    petsc4py.init([])
+    # options come by PETSC_OPTIONS: a .petscrc of the folder could be anybody's, and writes files
+    petsc4py.init(["ssilang", "-skip_petscrc"])
     from petsc4py import PETSc
 
     return PETSc
