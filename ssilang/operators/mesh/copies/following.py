@@ -50,7 +50,7 @@ def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
     return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
 
 
-@dedu.form(said("ADAP"), opt("mesh", "MAILLAGE", en="mesh to adapt"))
+@dedu.form(said("ADAP"), opt("mesh", "MAILLAGE", en="linear surfaces or volumes"))
 def dedu_adap(call: Call, mesh: Mesh | None) -> NoReturn:
     """To a metric: its functional is not published."""
     raise call.error("operators.mesh.functional-not-published")
