@@ -182,8 +182,8 @@ def test_words_of_operators_are_no_misspelt_names(text):
          "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT DST ;",
          "operators.models.element-not-built", "DST"),
-        ("M = MODE L MECANIQUE ELASTIQUE PLASTIQUE PARFAIT POUT ;",
-         "kernel.materials.elements-family-no-plastic-law", "MODE"),
+        ("M = MODE L MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PARFAIT POUT ;",
+         "kernel.materials.sections-no-plastic", "MODE"),
         ("T . 'LAGRANGIEN' = MOT 'JADIS' ; PASAPAS T ;", "entry-value", "T . 'LAGRANGIEN'"),
     ],
 )  # fmt: skip

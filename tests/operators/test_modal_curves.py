@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ssilang.cli.run import run_text
+
 MODE = (
     "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ; M1 = MASS 'UX' 4. P1 ; "
     "T1 = VIBR 'SIMU' 1. 1 K1 M1 ; "
@@ -46,3 +48,10 @@ def test_recombined_reactions_are_those_of_the_recombined_displacement(found):
     assert abs(moment) > 1.0
     np.testing.assert_allclose(moment, whole)
     assert other < 1e-9 * abs(moment)
+
+
+def test_a_point_that_no_mode_has_is_still_and_told(tmp_path):
+    text = MODE + "P2 = 1. 0. ; E = EVOL 'RECO' LQ LT T1 'UX' P2 ;"
+    session = run_text(text, output_directory=tmp_path).session
+    assert session.root.find("E").parts[0].ordinates.tolist() == [0.0, 0.0, 0.0]
+    assert [w.code for w in session.warnings] == ["operators.curves.zero-at-node"]

@@ -44,7 +44,9 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "hoop", "fibre", "plate")
+SECTION_FAMILIES = ("plate", "meridian", "beam", "timoshenko", "pipe")
+"""Families whose sections yield as a whole; DKT also at points across the thickness."""
+PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "hoop", "fibre", *SECTION_FAMILIES)
 """Families of elements that have plastic laws."""
 
 UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
@@ -60,8 +62,8 @@ CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)
 FIBRE_LAWS = (*UNIAXIAL_LAWS, "PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of the fibres of sections."""
 
-LAYER_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
-"""Plastic laws of thin shells with points across the thickness."""
+SECTION_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
+"""Plastic laws of sections as a whole, and of points across the thickness of shells."""
 
 OTHER_BEHAVIOURS = (
     "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE", "CAOUTCHOUC",
@@ -191,9 +193,9 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
         )
     if family not in PLASTIC_FAMILIES:
         raise MaterialError("kernel.materials.elements-family-no-plastic-law", family=family)
-    if family == "plate" and law not in LAYER_LAWS:
+    if family in SECTION_FAMILIES and law not in SECTION_LAWS:
         raise MaterialError(
-            "kernel.materials.thin-shells-no-plastic", law=law, layer_laws=LAYER_LAWS
+            "kernel.materials.sections-no-plastic", law=law, section_laws=SECTION_LAWS
         )
     if elasticity not in ("", "ISOTROPE"):
         raise MaterialError("kernel.materials.plastic-laws-go-elasticity", elasticity=elasticity)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
@@ -200,7 +201,7 @@ class Bulk:
         force += np.bincount(places.ravel(), zone.forces(found.stress).ravel(), self.size)
         elastic = found.elastic_strain(zone.parameters, old.stress)
         plastic = old.plastic + strained - elastic
-        density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), strain)
+        density = np.einsum("mi,mi->m", 0.5 * (old.stress + found.stress), zone.paired(strain))
         return _OfZone(
             PointState(found.stress, plastic, free, found.variables, time),
             float(density @ zone.weights.ravel()),
@@ -300,10 +301,10 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
-    from ssilang.kernel.plasticity.layered_points import drilling_stiffness, is_layered
+    from ssilang.kernel.plasticity.layered_points import drilling_stiffness
 
-    layered = is_layered(zone)
-    return drilling_stiffness(zone, characteristics) if layered else without_stiffness(zone)
+    drilled = ELEMENTS[zone.element].family == "plate"
+    return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
 
 
 def without_stiffness(zone: Zone) -> ElementMatrices:

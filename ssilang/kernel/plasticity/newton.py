@@ -153,7 +153,9 @@ class BulkSolver(FullNewtonSolver):
             try:
                 step, pushed = self._corrected(motion, now, gap)
             except SingularFactorError:
-                return StepOutcome(now.du, 0, now.residual)
+                if now.residual > TOLERANCE:
+                    return StepOutcome(now.du, 0, now.residual)
+                step, pushed = np.zeros_like(now.du), now.pushed  # all yields, and is in balance
             now = self._searched(motion, r, now, step, pushed)
             self.residuals.append(now.residual)
             if not np.isfinite(now.residual):

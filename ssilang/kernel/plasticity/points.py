@@ -131,10 +131,14 @@ class PlasticPoints:
             density = density + self.law.locked(self.parameters, state.stress, state.variables)
         return float(density @ self.weights.ravel())
 
+    def paired(self, full: FloatArray) -> FloatArray:
+        """Values (m, ...) of stresses or strains as they count in forces and work."""
+        return full
+
     def forces(self, stress: FloatArray) -> FloatArray:
         """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""
         n, s, p, rows = self.B.shape
-        weighted = (self.gathered(stress) * self.weights[:, None]).reshape(n, 1, s * p)
+        weighted = (self.gathered(self.paired(stress)) * self.weights[:, None]).reshape(n, 1, s * p)
         found: FloatArray = np.matmul(weighted, self.B.reshape(n, s * p, rows))[:, 0]
         return found
 
@@ -147,7 +151,8 @@ class PlasticPoints:
         values = np.empty((n, rows, rows))
         for cells in chunks(n):
             B = self.B[cells].transpose(0, 2, 1, 3)
-            left = B.reshape(len(B), p * s, rows).transpose(0, 2, 1)
+            left = self.paired(B.reshape(-1, s, rows)).reshape(len(B), p * s, rows)
+            left = left.transpose(0, 2, 1)
             values[cells] = np.matmul(left, np.matmul(D[cells], B).reshape(len(B), p * s, rows))
         return values
 
@@ -196,9 +201,9 @@ class PlasticPoints:
 
 
 def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
-    """EIXX EIYY EIZZ GIXY ..., EISS in bars."""
+    """EIXX EIYY EIZZ GIXY ..., EISS in bars, GIXY CIX ... of beams."""
     names = family_of(zone).strain_names(zone)
-    return tuple(n[0] + "I" + n[2:] for n in names)
+    return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
 
 
 def is_plastic(zone: Zone) -> bool:

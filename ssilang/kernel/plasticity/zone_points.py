@@ -14,12 +14,14 @@ from ssilang.kernel.elements.zone_fields import (
     zone_field,
 )
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
-from ssilang.kernel.plasticity.layered_points import layered_points
+from ssilang.kernel.plasticity.layered_points import is_layered, layered_points
 from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, law_parameters
+from ssilang.kernel.plasticity.section_points import section_points
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
@@ -37,8 +39,10 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     """
     if "SECTION" in zone.behaviour:
         return fibre_points(zone, characteristics)
-    if ELEMENTS[zone.element].family == "plate":
+    if is_layered(zone):
         return layered_points(zone, characteristics)
+    if ELEMENTS[zone.element].family in SECTION_FAMILIES:
+        return section_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)

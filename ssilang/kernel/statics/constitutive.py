@@ -13,7 +13,6 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
-from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import apply_moduli
 from ssilang.kernel.elements.solids.solid_moduli import moduli_from_field
@@ -26,6 +25,7 @@ from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, V
 from ssilang.kernel.interface.laws.law_table import law_of, shown_variables, state_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.plasticity.layered_points import is_layered
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
@@ -94,7 +94,7 @@ def _no_fibres(zone: Zone) -> None:
         raise FieldError("kernel.statics.beams-sections-fibres-no")
     if "FLUAGE" in zone.behaviour:
         raise FieldError("kernel.statics.answer-law-creep-depends")
-    if ELEMENTS[zone.element].family == "plate" and is_plastic(zone):
+    if is_layered(zone) and is_plastic(zone):
         raise FieldError("kernel.statics.plastic-shells-no-law")
 
 

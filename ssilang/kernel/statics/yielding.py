@@ -14,6 +14,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
@@ -90,7 +91,7 @@ def criterion(
         return _of_joint(zone, material, stress, variables)
     words = zone.behaviour
     name = _law(zone) if is_plastic(zone) else ""
-    if name not in CRITERIA or ELEMENTS[zone.element].family == "plate":
+    if name not in CRITERIA or ELEMENTS[zone.element].family in SECTION_FAMILIES:
         raise FieldError(
             "kernel.statics.law-element-no-criterion",
             words=words,

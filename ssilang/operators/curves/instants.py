@@ -166,6 +166,13 @@ def refused_place(call: Call, fields: Sequence[AnyField], name: str, node: int) 
     )
 
 
+def tell_zero(call: Call, refused: SsiError, value: object = None) -> None:
+    """Warn that values at a node that no field has are zero; an unknown component is refused."""
+    if "distance" not in refused.data:
+        raise refused
+    call.warn("operators.curves.zero-at-node", value, **refused.data)
+
+
 def _place(numbering: Numbering, name: str, node: int) -> int:
     return numbering.index_of(node, name) if name in numbering.unknowns else -1
 

@@ -8,12 +8,12 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.results.equivalent_section import section_equivalent
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.results.skin import (
     in_global_axes,
     is_shell,
     is_thick_shell,
-    shell_equivalent,
     shell_tensor,
     thick_tensor,
 )
@@ -25,7 +25,6 @@ from ssilang.kernel.elements.results.structural_gradients import (
 from ssilang.kernel.elements.results.tensors import (
     PRINCIPAL,
     components_at_home,
-    equivalent_of_lines,
     invariants,
     principal,
     tensor,
@@ -73,12 +72,12 @@ def _equivalent(
 
     def make(zone: Zone) -> CellFieldBlock:
         if what == "VMIS" and is_shell(zone) and material is not None:
-            return _scalar(zone, *shell_equivalent(zone, field, material))
+            return _scalar(zone, *section_equivalent(zone, field, material))
         if is_solid(zone) or is_shell(zone) or is_thick_shell(zone):
             T, support = _tensor(zone, field, material, side)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
-            return _scalar(zone, *equivalent_of_lines(zone, field, material))
+            return _scalar(zone, *section_equivalent(zone, field, material))
         raise FieldError(
             "operators.fields.continuous-elements-only", what=what, element=zone.element
         )

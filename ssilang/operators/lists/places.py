@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.language.registry import Argument
-from ssilang.operators.curves.instants import refused_place
+from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.prelude import *
@@ -71,10 +71,7 @@ def _values_at(
         if any(set(f.components) != set(wanted) for f in fields):
             raise call.error("operators.lists.components-differ")
     if fields and not any(f.nature == "DISCRET" or node[0] in f.node_ids for f in fields):
-        told = refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0]))
-        if "distance" not in told.data:  # the component is unknown
-            raise told
-        call.warn("operators.curves.zero-at-node", point, **told.data)
+        tell_zero(call, refused_place(call, fields, str(wanted[0]).rstrip(), int(node[0])), point)
     return ListReel([float(f.values_at(str(n).rstrip(), node)[0]) for n in wanted for f in fields])
 
 

@@ -19,7 +19,7 @@ from ssilang.operators.curves.evol import (
     names_in_time,
     nodes_named,
 )
-from ssilang.operators.curves.instants import value_in_time
+from ssilang.operators.curves.instants import tell_zero, value_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
 from ssilang.operators.prelude import *
@@ -75,7 +75,11 @@ def _curves(
     """Curves of components at nodes: weights (m, n) times the n shapes there."""
     parts: list[CurvePart] = []
     for name, node in places:
-        shape = value_in_time(call, list(shapes), name, node)
+        try:
+            shape = value_in_time(call, list(shapes), name, node)
+        except SsiError as refused:
+            tell_zero(call, refused)
+            shape = np.zeros(len(shapes))
         colour = colours[len(parts) % len(colours)]
         parts.append(CurvePart(times, weights @ shape, "TEMP", name, name, colour))
     return Curve(tuple(parts), workspace(call.session).title)

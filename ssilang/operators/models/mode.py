@@ -255,16 +255,12 @@ def _check_rule(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
 
 
 def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
-    """Plastic thin shells need points across the thickness, 2 to 15 of them."""
+    """Plastic thin shells have 2 to 15 points across the thickness, or yield as a whole."""
     plastic = [z.element for z in zones if "PLASTIQUE" in z.behaviour]
     if "COQ3" in plastic:
         raise call.error("operators.models.coq3-is-elastic")
-    if "DKT" not in plastic:
-        return
-    count = wish.options.get("INTEGRE")
-    if not isinstance(count, int):
-        raise call.error("operators.models.generalised-plasticity-not-built")
-    if not 2 <= count <= 15:
+    count = wish.options.get("INTEGRE", 2)
+    if "DKT" in plastic and isinstance(count, int) and not 2 <= count <= 15:
         raise call.error("operators.models.points-across", count=count)
 
 

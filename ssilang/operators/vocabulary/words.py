@@ -24,8 +24,9 @@ from ssilang.kernel.materials.behaviours import (
     CREEP_FAMILIES,
     ELASTICITIES,
     FIBRE_LAWS,
-    LAYER_LAWS,
     PLASTIC_FAMILIES,
+    SECTION_FAMILIES,
+    SECTION_LAWS,
     UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
@@ -282,10 +283,12 @@ def laws_of(element: str) -> tuple[str, ...]:
 
 def _plastic(family: str) -> tuple[str, ...]:
     if family not in PLASTIC_FAMILIES:
-        return ("SECTION",) if family == "timoshenko" else ()
+        return ()
+    if family in SECTION_FAMILIES:
+        return (*SECTION_LAWS, *(("SECTION",) if family == "timoshenko" else ()))
     bodies = tuple(n for n in PLASTIC_LAWS if n not in (*UNIAXIAL_LAWS, "SECTION"))
     bodies += UNIAXIAL_LAWS if family in UNIAXIAL_FAMILIES else ()
-    return {"fibre": FIBRE_LAWS, "plate": LAYER_LAWS}.get(family, bodies)
+    return FIBRE_LAWS if family == "fibre" else bodies
 
 
 def elements_of_law(law: Word) -> list[str]:

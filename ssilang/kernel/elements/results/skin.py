@@ -100,27 +100,6 @@ def thick_tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support]:
     return T, support
 
 
-def shell_equivalent(
-    zone: Zone, field: CellField, material: CellField
-) -> tuple[FloatArray, Support]:
-    """Von Mises of the membrane forces and, weighed by CALF (2/3), of the moments."""
-    family, parameters = family_of(zone), zone_field(zone, material)
-    names = family.stress_names(zone)
-    values, support = components_at_home(zone, field, names)
-    h = parameters.at("EPAI", support)
-    alpha = parameters.at("CALF", support, 2 / 3)
-    half = sum(n[0] == "M" for n in names)
-    N, M = (_plane_mises(values[:, start : start + half]) for start in (0, half))
-    return np.sqrt((N / h) ** 2 + (6 * alpha * M / h**2) ** 2), support
-
-
-def _plane_mises(rows: FloatArray) -> FloatArray:
-    a, b = rows[:, 0], rows[:, 1]
-    shear = rows[:, 2] if rows.shape[1] > 2 else 0.0
-    found: FloatArray = np.sqrt(a**2 + b**2 - a * b + 3 * shear**2)
-    return found
-
-
 def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldBlock:
     """Normal stress SMXX at the point (DY, DZ) of the section, local axes.
 

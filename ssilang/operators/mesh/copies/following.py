@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -41,6 +41,12 @@ def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
         return places[np.searchsorted(nodes, ids)]
 
     return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
+
+
+@dedu.form(said("ADAP"), opt("mesh", "MAILLAGE", en="linear surfaces or volumes"))
+def dedu_adap(call: Call, mesh: Mesh | None) -> NoReturn:
+    """To a metric: its functional is not published."""
+    raise call.error("operators.mesh.functional-not-published")
 
 
 @dedu.form(

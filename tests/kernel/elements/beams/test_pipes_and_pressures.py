@@ -8,7 +8,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.follower import pressure_stiffness
 from ssilang.kernel.elements.loads.loads import pipe_pressure, pressure_vectors, shell_load
-from ssilang.kernel.elements.results.tensors import equivalent_of_lines
+from ssilang.kernel.elements.results.equivalent_section import section_equivalent
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
@@ -56,7 +56,7 @@ def test_closed_ends_pull_on_a_pipe_under_pressure():
     u = field(zone, UY=lambda x: push * x[:, 1] / (E * AREA))
     stress = families.stress(zone, mat, u)
     np.testing.assert_allclose(stress.components["EFFX"], push)
-    values, _ = equivalent_of_lines(zone, CellField((stress,)), mat)
+    values, _ = section_equivalent(zone, CellField((stress,)), mat)
     np.testing.assert_allclose(values, push / AREA)
 
 
@@ -66,7 +66,7 @@ def test_stress_of_an_elbow_is_that_of_its_ring_times_the_intensity_factor(momen
     """M r / I with the ring's inertia, by pi / 4 and 0.89 lambda^(-2/3) where that is above 1."""
     zone, mat = _pipe(**({"RACO": bend} if bend else {}))
     block = CellFieldBlock(zone.cells, {moment: np.full((1, 1), 3e4)}, "GRAVITE", zone.element)
-    values, _ = equivalent_of_lines(zone, CellField((block,)), mat)
+    values, _ = section_equivalent(zone, CellField((block,)), mat)
     mean = RE - H / 2
     ratio = H * bend / mean**2 if bend else np.inf
     factor = max(1.0, 8 / 9 * ratio ** (-2 / 3))

@@ -10,7 +10,8 @@ from scipy.sparse.linalg import spsolve
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.loads import shell_load
-from ssilang.kernel.elements.results.skin import shell_equivalent, shell_skin, shell_tensor
+from ssilang.kernel.elements.results.equivalent_section import section_equivalent
+from ssilang.kernel.elements.results.skin import shell_skin, shell_tensor
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
@@ -272,7 +273,7 @@ def test_skin_stresses_of_a_bent_and_pulled_plate():
         assert parts["SMXY"][0, 0] == pytest.approx(0.5 / 0.2 + sign * 6 * 0.25 / 0.04)
         T, _ = shell_tensor(zone, stress, mat, side)
         assert T[0, 0, 1, 1] == pytest.approx(1 / 0.2 - sign * 6 / 0.04)
-    equivalent, _ = shell_equivalent(zone, stress, mat)
+    equivalent, _ = section_equivalent(zone, stress, mat)
     N, M = np.sqrt(9 + 1 - 3 + 0.75), np.sqrt(4 + 1 + 2 + 3 / 16)
     assert equivalent[0, 0] == pytest.approx(np.hypot(N / 0.2, 4 * M / 0.04))
     strains = {"EPSS": 1e-3, "EPTT": 0.0, "GAST": 2e-4, "RTSS": 1e-2, "RTTT": 0.0, "RTST": 0.0}

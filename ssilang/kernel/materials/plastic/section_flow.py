@@ -1,0 +1,142 @@
+"""Plasticity on the forces of sections: associated flow on their equivalent stress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.materials.plastic.response import PointParameters, Response
+
+TURNS = 100
+
+
+@dataclass(frozen=True, eq=False)
+class SectionParameters(PointParameters):
+    """Parameters of sections at m points.
+
+    Attributes
+    ----------
+    rigidity, softness : array (m, 6, 6)
+        Forces of elastic strains and curvatures, and back.
+    form : array (m, 6, 6)
+        The equivalent stress q of forces F has q^2 = F form F.
+    size : array (m,)
+        Area of the section (thickness of shells): q size is work conjugate to the flow p.
+    """
+
+    rigidity: FloatArray
+    softness: FloatArray
+    form: FloatArray
+    size: FloatArray
+
+    @property
+    def moduli(self) -> FloatArray:
+        """Rigidities (m, 6, 6)."""
+        return self.rigidity
+
+    @property
+    def compliance(self) -> FloatArray:
+        """Elastic compliance (m, 6, 6), zero where there is no rigidity."""
+        return self.softness
+
+    def elastic_energy(self, stress: FloatArray) -> FloatArray:
+        """Energy (m,) that forces (m, 6) store in a unit of length or surface."""
+        found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.softness, stress)
+        return found
+
+    def at(self, points: IntArray) -> SectionParameters:
+        """The same for some of the points."""
+        own = PointParameters(self.values, self.curves).at(points)
+        parts = (self.rigidity, self.softness, self.form, self.size)
+        return SectionParameters(own.values, own.curves, *(part[points] for part in parts))
+
+    def strength(self, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Limit of the equivalent stress after a flow p (m,), and its slope."""
+        if "ECRO" in self.curves:
+            return self.curve("ECRO", p)
+        return self["SIGY"], np.zeros(len(p))
+
+
+def respond(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """`q(F - X) <= R(p)`, strains of flow `size dp dq/dF`, `dX = H dp (F - X) / q`.
+
+    Stresses are forces (m, 6), strains those of the section. A pulled section has the axial flow
+    p; a centre that moves along F - X is Prager's where the form has an inverse.
+    """
+    assert isinstance(parameters, SectionParameters)
+    moduli = parameters.moduli
+    trial = stress + np.einsum("mij,mj->mi", moduli, strain)
+    centre = variables[:, 1:7] if variables.shape[1] > 1 else np.zeros_like(trial)
+    reduced, p, inner = trial - centre, variables[:, 0], variables.copy()
+    q = np.sqrt(np.einsum("mi,mij,mj->m", reduced, parameters.form, reduced))
+    rows = np.flatnonzero(q > parameters.strength(p)[0] * (1 + 1e-14))
+    found, tangent = trial.copy(), moduli.copy()
+    if len(rows):
+        given = parameters.at(rows)
+        dp, moved = _flow(given, reduced[rows], p[rows])
+        inner[rows, 0] += dp
+        flow, shift, tangent[rows] = _consistent(given, moved, dp, p[rows] + dp)
+        found[rows] -= dp[:, None] * flow
+        if variables.shape[1] > 1:
+            inner[rows, 1:7] += dp[:, None] * shift
+    return Response(found, inner, tangent)
+
+
+def _directions(given: SectionParameters) -> tuple[FloatArray, FloatArray]:
+    """Rigidity times form times size (m, 6, 6), and H where the form counts (m, 6)."""
+    active = np.einsum("mii->mi", given.form) > 0
+    H = given.values.get("H", np.zeros(len(given.size)))
+    return given.size[:, None, None] * (given.moduli @ given.form), H[:, None] * active
+
+
+def _flow(given: SectionParameters, reduced: FloatArray, p: FloatArray) -> tuple[FloatArray, ...]:
+    """The flow (m,) that brings reduced forces (m, 6) back onto the criterion, and where to."""
+    back, H = _directions(given)
+    change = back + H[:, None, :] * np.eye(6)
+    low, high, dp = np.zeros(len(p)), np.full(len(p), np.inf), np.zeros(len(p))
+    first = np.abs(reduced).max() / given["YOUN"].min() / given.size.min()
+    for _ in range(TURNS):
+        limit, slope = given.strength(p + dp)
+        A = np.eye(6) + (dp / limit)[:, None, None] * change
+        moved = np.linalg.solve(A, reduced[..., None])[..., 0]
+        weighed = np.einsum("mij,mj->mi", given.form, moved)
+        q = np.sqrt(np.vecdot(moved, weighed))
+        if (np.abs(q - limit) <= 1e-13 * limit).all():
+            break
+        low, high = np.where(q > limit, dp, low), np.where(q < limit, dp, high)
+        turned = np.einsum("mij,mj->mi", change, moved)
+        rate = -np.linalg.solve(A, turned[..., None])[..., 0] * (limit - dp * slope)[:, None]
+        steep = np.vecdot(weighed, rate) / (q * limit**2) - slope
+        step = dp - (q - limit) / steep
+        middle = np.where(np.isinf(high), 2 * low + first, 0.5 * (low + np.minimum(high, 1e300)))
+        dp = np.where((step > low) & (step < high), step, middle)
+    return dp, np.asarray(moved, dtype=np.float64)
+
+
+def _consistent(
+    given: SectionParameters, moved: FloatArray, dp: FloatArray, p: FloatArray
+) -> tuple[FloatArray, ...]:
+    """What a unit of flow takes off the forces and adds to the centre, and the tangent."""
+    back, H = _directions(given)
+    weighed = np.einsum("mij,mj->mi", given.form, moved)
+    q = np.sqrt(np.vecdot(moved, weighed))[:, None]
+    n, b = weighed / q, moved / q
+    flow, shift = np.einsum("mij,mj->mi", back, b), H * b
+    Dn = given.size[:, None] * np.einsum("mij,mj->mi", given.moduli, n)
+    DN = (back - Dn[:, :, None] * n[:, None]) / q[..., None]
+    HB = H[:, :, None] * (np.eye(6) - b[:, :, None] * n[:, None]) / q[..., None]
+    step = dp[:, None, None]
+    change = np.eye(6) + step * (DN + HB)
+    try:
+        inverse = np.linalg.inv(change)
+    except np.linalg.LinAlgError:  # of a step far beyond any equilibrium
+        inverse = np.linalg.pinv(change)
+    whole, v = inverse @ given.moduli, np.einsum("mij,mj->mi", inverse, flow + shift)
+    hard = given.strength(p)[1] + np.vecdot(n, v)
+    w = np.einsum("mji,mj->mi", whole, n) / hard[:, None]
+    reduced = whole - v[:, :, None] * w[:, None]
+    return flow, shift, given.moduli - flow[:, :, None] * w[:, None] - step * (DN @ reduced)
