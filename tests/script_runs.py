@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from ssilang.cli.run import RunResult, run_text
+
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def found(script: str, *names: str, folder: Path | None = None) -> Any:
@@ -39,3 +44,11 @@ def failed(script: str, folder: Path | None = None) -> RunResult:
 def refused(script: str, folder: Path | None = None) -> str:
     """The message of a script that must fail, as `failed`."""
     return failed(script, folder).message
+
+
+def assert_says(output: str, wanted: str) -> None:
+    """A text is as known but for blanks: words as they are, numbers to four digits."""
+    found = " ".join(output.split())
+    assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
+    numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
+    assert numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)

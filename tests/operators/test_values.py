@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import io
 import math
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
+import script_runs
 from scipy import special
 
 from ssilang.cli.run import RunOptions, execute, make_session
@@ -39,12 +42,18 @@ UX, UY = (lambda x, y: x - 2.5), (lambda x, y: x * y)
 VX, VY = (lambda x, y: y), (lambda x, y: y * y)
 
 
+LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+
+def session_after(text, folder, output):
+    made = make_session(Source("prelude", ""), RunOptions(folder), output)
+    execute(made, Source("prelude", text))
+    return made
+
+
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("values")
-    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
-    execute(made, Source("prelude", PRELUDE))
-    return made
+    return session_after(PRELUDE, tmp_path_factory.mktemp("values"), io.StringIO())
 
 
 def asked(session, phrase):
@@ -276,3 +285,13 @@ def test_lists_of_lists_and_curves(session, phrase):
     found = asked(session, phrase)
     found = found.values if hasattr(found, "values") else found
     np.testing.assert_allclose(found, LISTS[phrase], rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("group", LISTED["printed"])
+def test_objects_are_listed_as_they_are(group, tmp_path):
+    output = io.StringIO()
+    session = session_after(PRELUDE + LISTED["before"], tmp_path, output)
+    for phrase, wanted in LISTED["printed"][group].items():
+        begin = output.tell()
+        execute(session, Source("statement", f"LIST {phrase} ;"))
+        script_runs.assert_says(output.getvalue()[begin:], wanted)
