@@ -53,12 +53,13 @@ def test_words_that_are_spelt_like_keywords_are_operands_where_operands_stand(
     assert says in "\n".join(printed(statement))
 
 
-def test_a_file_may_be_called_like_an_option(printed):
-    printed(
-        "OPTI SORT 'debut.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
-        "T = LIRE 'CSV' 'debut.csv' 'DEBU' 2 'LIGN' ; "
-        "SI (NEG (EXTR (T . 1) 2) 4.) ; ERRE 5 ; FINSI ;"
+def test_a_file_may_be_called_like_an_option(found):
+    table = found(
+        "OPTI SORT 'debut.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 5.) ; "
+        "T = LIRE 'CSV' 'debut.csv' 'DEBU' 2 'LIGN' ;",
+        "T",
     )
+    assert table.get(1).values.tolist() == [2.0, 5.0]
 
 
 _TABLE = "T = TABL ; T . 'A' = PROG 3. 1. 2. 1. ; T . 'B' = LECT 30 10 20 11 ; "
