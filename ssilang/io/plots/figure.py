@@ -161,12 +161,18 @@ def save_figure(figure: Figure, path: Path) -> Path:
 
 
 def figure_bytes(figure: Figure, form: str) -> bytes:
-    """`figure` as a file of a format: 'png', 'svg' or 'pdf'."""
+    """`figure` as a file of a format: 'png', 'svg' or 'pdf'; its parts are placed once.
+
+    Left to `savefig` each format places them twice and draws twice.
+    """
     import matplotlib as mpl
 
     buffer = io.BytesIO()
     metadata = {"Date": None} if form == "svg" else None
     with mpl.rc_context(_style()):
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.execute(figure)
+            figure.set_layout_engine(None)
         figure.savefig(buffer, format=form, metadata=metadata)
     return buffer.getvalue()
 
