@@ -7,14 +7,15 @@ COUNT lines are drawn by SEED over all of `ssilang` that runs: bodies of functio
 declared (signatures, decorators, annotations, tables of modules) and what is said (docstrings,
 refusals, texts). Each gets one fault (`faults`). The tests near it are collected once, with those
 of all others, in a copy of the project; a process split off from there gives the function its
-faulty code and runs them, the nearest first and one case of each before the next, until one fails
-or `--seconds` of processor time are used. Survivors, and faults in compiled functions, are tried
-in a process of their own that imports the module with the fault (`--once`: not). A mutant that all
-pass is a survivor and printed as a diff; `--again` tries those of a report once more. Changes that
-change nothing stand with their reason in `mutants_equivalent.toml`.
+faulty code and runs them, the nearest first, one case of each (and those that name its room) before
+the next, until one fails or `--seconds` of processor time are used. Survivors (`--once`: not), and
+faults in compiled functions, which get three times the limit, are tried in a process of their own
+that imports the module with the fault. A mutant that all pass is a survivor and printed as a diff;
+`--again` tries those of a report once more. Changes that change nothing stand with their reason in
+`mutants_equivalent.toml`.
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
-what calls it in its module, or the word of the operator that does; rare names count more. What the
+what calls it, or the word of the operator or procedure that does; rare names count more. What the
 data beside a file of tests names (`.toml` of its name) is named by that file.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
@@ -59,6 +60,9 @@ ROOT = Path(__file__).resolve().parents[1]
 EQUIVALENT = Path(__file__).with_name("mutants_equivalent.toml")
 HANGS = 60.0  # s of processor time of one test beyond the limit: it is counted as noticed
 FILES = 30  # of tests, at most, for a mutant
+WORD = 1.6  # what naming the operator counts, of naming the function
+OFTEN = 6  # operators that may share a word of theirs
+COMPILES = 3.0  # times the limit: what a fault changes, and all that calls it, is compiled first
 CASE = 4  # files whose tests go before one more case of a test
 NOT_SO = "untried: it is in no function of a process"
 WORDS = dict.fromkeys(("assertion", "crash", "time"), "noticed")
@@ -125,7 +129,8 @@ class Fault:
         return "\n".join([f"{self.path}:{self.line} {self.kind}", *diff])
 
 
-Asked = tuple[Fault | None, list[str]]  # a fault not yet in the text, files of tests
+Asked = tuple[Fault | None, list[str], frozenset[str]]
+"""A fault not yet in the text, files of tests, words whose cases of a test go first."""
 
 
 def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
@@ -303,7 +308,7 @@ class Callers:
         self.words: dict[tuple[str, str], set[str]] = {}
         self.spans: dict[str, list[tuple[int, int, str]]] = {}
         self.library = {
-            path.stem: set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
+            path.stem.upper().lstrip("@"): set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
             for path in (ROOT / "stdlib").glob("*.ssi")
         }  # procedures written in the language
         for path in sorted((ROOT / "ssilang").rglob("*.py")):
@@ -317,6 +322,9 @@ class Callers:
             for node in ast.walk(tree):
                 if isinstance(node, ast.FunctionDef | ast.ClassDef):
                     self._put(module, node, imported)
+        often = Counter(word for words in self.words.values() for word in words)
+        for words in self.words.values():  # a word of many operators is that of a type
+            words -= {word for word in words if often[word] > OFTEN}
 
     def _put(self, module: str, node: Any, imported: dict[str, str]) -> None:
         names = {getattr(n, "id", getattr(n, "attr", "")) for n in ast.walk(node)}
@@ -332,13 +340,15 @@ class Callers:
         module = fault.path[:-3].replace("/", ".")
         at = {(module, n) for a, b, n in self.spans.get(module, ()) if a <= fault.line <= b}
         found, known, weight = {module: 1.0}, set(at), 1.0
-        for _ in range(4):
+        for _ in range(6):
             for key in at:
                 words = self.words[key]
-                for name in {key[1], key[0]} | words:
+                for name in key:
                     found.setdefault(name, weight)
+                for name in words:  # an operator's word is nobody else's, however far it is
+                    found[name] = WORD
                 for name in (p for p, said in self.library.items() if said & words):
-                    found.setdefault(name, 0.4 * weight)
+                    found.setdefault(name, 0.4 * WORD)
             ways = {f"{m}.{n}" for m, n in at}
             at = {key for key, used in self.uses.items() if key not in known and used & ways}
             known, weight = known | at, 0.4 * weight
@@ -355,8 +365,11 @@ def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str
         for file in have:  # a name that most have tells nothing
             rank[file] += weight * math.log(len(texts) / len(have))
     for file in texts:
-        if Path(file).parent == mirror or mirror in Path(file).parents:
+        folder = Path(file).parent
+        if folder == mirror:
             rank[file] += 6.0 + 12.0 * (module.name in Path(file).stem)
+        elif folder in mirror.parents[:-2] or mirror in folder.parents:  # rooms around and within
+            rank[file] += 1.0
     return [f for f in sorted(rank, key=lambda f: (-rank[f], f)) if rank[f] > 0.0][:FILES]
 
 
@@ -398,14 +411,15 @@ def living() -> list[FunctionType]:
     return [f for f in gc.get_objects() if isinstance(f, FunctionType)]
 
 
-def in_turn(items: list[pytest.Item], files: list[str]) -> list[pytest.Item]:
+def in_turn(items: list[pytest.Item], files: list[str], words: frozenset[str]) -> list[pytest.Item]:
     """Tests of files, the nearest first; more cases of one test come behind other files' tests."""
     rank, cases = {file.split("::")[0]: i for i, file in enumerate(files)}, Counter[str]()
     order: list[tuple[bool, int, int, pytest.Item]] = []
     for item in items:
         file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
         if file in rank:
-            place = rank[file] + CASE * cases[test]
+            own = words & set(re.findall(r"[a-z]+", item.nodeid.partition("[")[2].lower()))
+            place = rank[file] + (0 if own else CASE * cases[test])
             order.append((bool(item.get_closest_marker("long")), place, rank[file], item))
             cases[test] += 1
     return [item for *_, item in sorted(order, key=lambda one: one[:3])]
@@ -436,8 +450,8 @@ class _Judge:
         functions = living()
         gc.freeze()
         items = {item.nodeid: item for item in session.items}
-        for fault, files in self.asked:
-            near = in_turn(session.items, files)
+        for fault, files, words in self.asked:
+            near = in_turn(session.items, files, words)
             said = self.split_off(near, fault, functions)
             test = re.match(r"\w+ (tests/.*) \(", said)
             if fault and test and test[1] in items and test[1] not in self.good:
@@ -498,7 +512,7 @@ def verdicts(copy_of: Path, asked: list[Asked], seconds: float) -> Iterator[str]
         sys.path.insert(0, str(copy_of))
         judge = _Judge(asked, seconds, writes)
         options = ["-n", "0", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=1"]
-        files = sorted({file for _, files in asked for file in files})
+        files = sorted({file for _, files, _ in asked for file in files})
         try:
             pytest.main([*options, *files], [judge])
         except BaseException as problem:
@@ -574,20 +588,22 @@ def try_all(
         if reason or not fault.source() or not tests:
             tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else "none is near")
         else:
-            (cold if compiled(fault) else warm).append((fault, tests))
-    for (fault, tests), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
+            words = frozenset(re.findall("[a-z]+", fault.path[len("ssilang/") : -len(".py")]))
+            (cold if compiled(fault) else warm).append((fault, tests, words))
+    for (fault, tests, words), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
         if once or WORDS.get(said.split()[0]) == "noticed":
             tell(fault, said)
         else:
-            cold.append((fault, tests))
-    for fault, tests in cold:
+            cold.append((fault, tests, words))
+    for fault, tests, words in cold:
+        limit = COMPILES * seconds if compiled(fault) else seconds
         target = copy_of / fault.path
         was = target.read_bytes()
         target.write_text(fault.source() or "", encoding="utf-8")
-        (said,) = verdicts(copy_of, [(None, tests)], seconds)
+        (said,) = verdicts(copy_of, [(None, tests, words)], limit)
         target.write_bytes(was)
         if test := re.match(r"\w+ (tests/.*) \(", said):
-            (alone,) = verdicts(copy_of, [(None, [test[1]])], seconds)
+            (alone,) = verdicts(copy_of, [(None, [test[1]], words)], limit)
             said = said if alone.startswith("passed") else f"passes not without it: {alone}"
         tell(fault, said)
         for made in set(kept.glob("ssilang/compiled/*")):

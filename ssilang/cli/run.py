@@ -238,6 +238,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         errors = [error]
     except KeyboardInterrupt as stop:
         errors = [interruption(stop, session.evaluator.current_span)]
+        _tell_checkpoints(session)
     except ReaderLeft:
         errors = [SsiError("reader-left", session.evaluator.current_span)]
     _end_petsc(session)
@@ -246,10 +247,11 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         _tell_plain_numba(session)
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
-        _end_recording(session, errors)
-        _close_files(session, errors)
-        if not errors:
-            _forget_checkpoints(session)
+        with session.hold():  # files end whole
+            _end_recording(session, errors)
+            _close_files(session, errors)
+            if not errors:
+                _forget_checkpoints(session)
     _flush(out, errors)
     left = any(e.code == "reader-left" for e in errors)
     names = session.frame.names() | session.library.standard_names
@@ -355,6 +357,16 @@ def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
     from ssilang.io.checkpoint import Deck
 
     return Deck(__version__, source.digest, {k: repr(v) for k, v in given.items()})
+
+
+def _tell_checkpoints(session: Session) -> None:
+    """Say that calculations are kept, where the one that was ended has not said it."""
+    from ssilang.operators.files.outputs import run_output
+
+    kept = run_output(session).checkpoints
+    told = any(w.code == "operators.dynamics.checkpoint-left" for w in session.warnings)
+    if kept is not None and kept.kept and not told:
+        session.warn("cli.checkpoints-left", None, folder=kept.folder)
 
 
 def _forget_checkpoints(session: Session) -> None:

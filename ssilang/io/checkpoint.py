@@ -96,6 +96,11 @@ class Checkpoints:
         """Whether an earlier run left any."""
         return next(self._states(), None) is not None
 
+    @property
+    def kept(self) -> bool:
+        """Whether this run keeps any, its own or those that it goes on from."""
+        return bool(self._lengths)
+
     def begin(self) -> int:
         """The number of a calculation that begins."""
         self._number += 1

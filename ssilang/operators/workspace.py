@@ -112,5 +112,6 @@ def open_session(session: Session) -> Session:
     session.workspace = made
     session.make_point = made.point
     session.dimension = lambda: made.dimension
+    session.units = lambda: made.units
     session.flaw_of = flaw_of
     return session

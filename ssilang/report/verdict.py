@@ -53,13 +53,7 @@ def verdict_html(results: Results, charts: Sequence[Chart], told: Teller) -> str
 def _figures(verdict: dict[str, Any], told: Teller) -> str:
     rows = []
     for name, peak in verdict["peaks"].items():
-        rows.append(
-            (
-                text(told(_PEAKS[name])),
-                _marked(name, peak["value"]),
-                number(peak["time"]),
-            )
-        )
+        rows.append((text(told(_PEAKS[name])), _marked(name, peak["value"]), number(peak["time"])))
     for name, value in verdict["left"].items():
         rows.append((text(told(_LEFT[name])), number(value), ""))
     rows.append((text(told("report.area")), number(verdict["area"]), ""))

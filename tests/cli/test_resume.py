@@ -71,6 +71,23 @@ def test_who_ends_a_run_is_told_how_to_go_on(case, capsys):
     assert not (case.parent / "results" / "case" / "checkpoints").exists()
 
 
+def test_who_ends_a_run_behind_its_last_step_is_told_too(tmp_path, capsys, monkeypatch):
+    deck, out = tmp_path / "case.ssi", ["--out", str(tmp_path / "out")]
+    deck.write_text(SHORT)
+    finished = KeptCalculation.finished
+
+    def end(self, done, state):
+        finished(self, done, state)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(KeptCalculation, "finished", end)
+        assert main([str(deck), *out]) == 1
+    assert "is kept in" in said(capsys)
+    assert main([str(deck), *out, "--resume"]) == 0
+    assert "its 100 steps are given back" in said(capsys)
+
+
 def test_a_checkpoint_of_another_deck_is_refused(case, capsys):
     case.write_text(SHORT.replace("1.E7", "2.E7"))
     for words, sentence in (((), "belong to another deck"), (("--lang", "fr"), "autre jeu")):
@@ -221,9 +238,11 @@ def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
         process.send_signal(number)
         _, told = process.communicate()
         assert process.returncode != 0 or not (out / "checkpoints").exists()  # which end with it
-        left = number == signal.SIGTERM and process.returncode and b"is kept in" not in told
+        if process.returncode == 1:  # told to end, not killed
+            assert b"is kept in" in told
         again = started(deck, out, "--resume")
         _, told = again.communicate()
         assert again.returncode == 0, told
-        assert not (left and b"goes on behind step" in told)  # it was behind its last step
+        if process.returncode:
+            assert b"goes on behind step" in told or b"given back" in told
         assert files_of(out) == truth

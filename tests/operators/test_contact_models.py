@@ -18,7 +18,7 @@ T.CHARGEMENT = CHAR DIMP (DEPI TOP -1.E-3) (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 1
 # A runs to the right: its body lies on the left, the other on the right, as it must
 
 
-@pytest.mark.parametrize("method", ["MESC", "SYME", "FAIB", "MORT", ""])
+@pytest.mark.parametrize("method", ["FAIB", ""])
 def test_uniform_pressure_passes_between_meshes_that_do_not_match(found, method):
     low, high, opened = found(
         PLANE + f"T.MODELE = M ET (MODE (INVE C) CONTACT UNILATERAL A {method}) ; PASAPAS T ; "
@@ -74,29 +74,16 @@ B = (BLOQ UZ S1) ET (BLOQ UX UY V1) ET (BLOQ UX UY V2) ; D = BLOQ UZ TOP ;
 """
 
 
-@pytest.mark.parametrize("method", ["MESC", "SYME", "MORT"])
-def test_two_cubes_press_on_each_other(found, method):
+def test_two_cubes_press_on_each_other(found):
     low, high = found(
         SPACE.replace("DROI 3", "DROI 2").replace("TRAN 3", "TRAN 2")
-        + f"K = MODE F1 CONTACT UNILATERAL F2 {method} ; "
+        + "K = MODE F1 CONTACT UNILATERAL F2 MORT ; "
         "U = RESO ((RIGI (M ET K) G) ET B ET D) (DEPI D -.02) ; S = EXCO SMZZ (SIGM M G U) ; "
         "A1 = MINI S ; A2 = MAXI S ;",
         "A1",
         "A2",
     )
     assert (low, high) == pytest.approx((-10.0, -10.0), rel=1e-8)
-
-
-@pytest.mark.parametrize("method", ["MESC", "FAIB", "MORT"])
-def test_cubes_of_other_meshes_carry_about_the_same(found, method):
-    """Points in triangles do not pass the patch test exactly; the whole force is near."""
-    force = found(
-        SPACE + f"K = MODE F1 CONTACT UNILATERAL F2 {method} ; "
-        "L = (RIGI (M ET K) G) ET B ET D ; U = RESO L (DEPI D -.02) ; "
-        "A1 = MAXI (RESU (EXCO FZ (REAC D U))) ABS ;",
-        "A1",
-    )
-    assert force == pytest.approx(10.0, rel=0.05)
 
 
 def test_two_cubes_do_not_pull(found):

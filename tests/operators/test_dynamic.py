@@ -277,3 +277,33 @@ def test_a_warning_of_the_library_stands_at_the_scripts_own_line(tmp_path):
     warning = next(w for w in result.session.warnings if "'ECON'" in sentence(w, "en")[0])
     assert warning.span.source.name == "script"
     assert warning.span.text == "DYNAMIC"
+
+
+ROCKING = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 8 (0. 0.) (1. 0.) ; S = L TRAN 30 (0. 3.) ;
+G = L PLUS (0. 0.) ; MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;
+MA = MATE MO 'YOUN' 3.E9 'NU' 0.2 'RHO' 2500. ;
+MJ = MODE (RACC 1.E-3 L G) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2' ;
+K = RIGI MO MA ; MS = MASS MO MA ; W = MS * (MANU 'CHPO' S 1 'UY' -9.81) ;
+LT = PROG 0. PAS 1.E-3 8. ; T = TABL ; T . 'TEMPS_CALCULES' = LT ;
+EV = EVOL 'MANU' LT ({0} * (SIN (LT * 450.)) * (MASQ LT 'EGINFE' 0.8)) ;
+T . 'RIGI' = K ET (BLOQ 'DEPL' G) ; T . 'MASS' = MS ; T . 'AMOR' = 2.E-5 * K ;
+T . 'CHAR' = (CHAR 'MECA' W) ET (CHAR 'MECA' (MS * (MANU 'CHPO' S 1 'UX' 1.)) EV) ;
+T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = MATE MJ 'KN' 1.E9 'KS' 1.E9 ;
+T . 'PAS_SAUVES' = 80 ; P = S POIN 'PROC' (0. 3.) ; A = DYNAMIC T ;
+T . 'REDUCTION' = 3.E-3 ; B = DYNAMIC T ;
+X = PROG ; Y = PROG ; REPE B1 100 ; X = X ET (PROG (EXTR (A . &B1 . 'DEPL') 'UX' P)) ;
+Y = Y ET (PROG (EXTR (B . &B1 . 'DEPL') 'UX' P)) ; FIN B1 ;
+"""
+
+
+@pytest.mark.parametrize(("push", "amplifies"), [(5.0, True), (1.0, False)])
+def test_a_reduced_motion_that_amplifies_is_told(push, amplifies, tmp_path):
+    result = run(ROCKING.format(push), tmp_path)
+    told = [
+        w for w in result.session.warnings if w.code == "operators.dynamics.reduction-amplified"
+    ]
+    whole, reduced = (np.array(result.session.root.find(n).values) for n in ("X", "Y"))
+    error = np.abs(reduced - whole).max() / np.abs(whole).max()
+    estimate = result.session.statistics["calculations"][1]["estimated_error"]
+    assert [error > 10 * estimate and error > 3e-3, bool(told)] == [amplifies, amplifies]

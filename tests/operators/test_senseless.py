@@ -323,6 +323,12 @@ MODELS = {
         "D.load-outside",
     ),
     "a load joined with itself": (OSCILLATOR.format("F = F ET F ;", ""), "D.load-twice"),
+    "energy kept of a law that has none": (
+        FOOTING.replace("'JOINT_SDM'", "'JOINT_DILATANT'")
+        .replace("'KS' 1.E5", "'KS' 1.E5 'PHI' 35. 'MU' 5.")
+        .format(WEIGHT, "T . 'CONSERVATIF' = VRAI ;"),
+        "D.conserving-other-laws",
+    ),
     # bodies that are there twice
     "a mass joined with itself": (
         OSCILLATOR.format("M = M ET M ;", ""),
@@ -399,6 +405,7 @@ SENSIBLE_MODELS = {
         "M = M ET (0.5 * M) ; K = K ET (0.5 * K) ;", ""
     ),
     "springs side by side": OSCILLATOR.format("K = K ET (RIGI 'UX' 400. P) ;", ""),
+    "energy kept of joints": FOOTING.format(WEIGHT, "T . 'CONSERVATIF' = VRAI ;"),
     "friction that does not bound": FOOTING.replace("'KS' 1.E5", "'KS' 1.E5 'FROT' -1.").format(
         WEIGHT, ""
     ),

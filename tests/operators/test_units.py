@@ -40,7 +40,7 @@ def warned(system: str, given: str, model: str = BODY) -> list[dict[str, object]
     option = f"OPTI 'UNIT' '{system}' ; " if system else ""
     made = run_text(f"{model}{option}A = MATE MO {given} ; LIST (TYPE A) ;")
     assert made.exit_code == 0, made.message
-    known = {"operators.models.unusual-value", "operators.models.no-stiffness"}
+    known = {f"operators.models.{w}" for w in ("unusual-value", "unusual-ratio", "no-stiffness")}
     assert {w.code for w in made.session.warnings} <= known
     return [w.data for w in made.session.warnings if w.code == "operators.models.unusual-value"]
 

@@ -155,6 +155,10 @@ GENERIC_ELEMENTS: dict[str, dict[str, str]] = {
 }
 
 
+LOCKING = {"QUA4": True, "CUB8": True, "TRI3": False, "TET4": False, "PRI6": False, "PYR5": False}
+"""Elements too stiff for nearly incompressible matter; whether the mean volume change cures it."""
+
+
 def register_element(kind: ElementKind) -> None:
     """Add an element to the catalogue (used by packages that bring their own)."""
     ELEMENTS[kind.name] = kind

@@ -24,6 +24,7 @@ from ssilang.kernel.matrices.matrix import (
 )
 from ssilang.kernel.mesh.nodes import NodeTable
 
+_ROUNDING = 1e-14  # of the largest coefficient: what a sum of others leaves
 _PLANE: tuple[tuple[str, ...], tuple[str, ...]] = (("UX", "UY"), ("RZ",))
 _UNKNOWNS: dict[Mode, tuple[tuple[str, ...], tuple[str, ...]]] = {
     Mode.PLANE_STRAIN: _PLANE,
@@ -114,6 +115,19 @@ def rows_from_table(
         _multiplier_nodes(table, nodes[:, 0]),
         np.full(len(nodes), sense, dtype=np.int8),
     )
+
+
+def saying_nothing(relations: Relations) -> IntArray:
+    """Rows whose coefficients cancel: unknowns of theirs that stand there twice, of other signs."""
+    rows = np.repeat(np.arange(len(relations)), np.diff(relations.row_start))
+    names = np.unique(relations.unknowns, return_inverse=True)[1]
+    keys = np.column_stack([rows, relations.nodes, names])
+    places, which = np.unique(keys, axis=0, return_inverse=True)
+    sums = np.abs(np.bincount(which.ravel(), relations.coefficients, len(places)))
+    largest, left = np.zeros((2, len(relations)))
+    np.maximum.at(largest, rows, np.abs(relations.coefficients))
+    np.maximum.at(left, places[:, 0], sums)
+    return np.flatnonzero(left <= _ROUNDING * largest)
 
 
 def _finite(table: NodeTable, nodes: IntArray, unknown: str, factors: FloatArray) -> None:

@@ -330,13 +330,11 @@ class Integration:
             "loops": known,
             "energies": history.kept[: self._done + 1],
             "told": {
-                "iterations": history.iterations,
-                "seen": history.seen,
+                "iterations": history.iterations, "seen": history.seen, "solver": history.solver,
                 "seconds": history.seconds + time.perf_counter() - self._started,
-                "solver": history.solver,
                 "rule": self._rule,
             },
-        }
+        }  # fmt: skip
 
     def _go_on(self, kept: State, history: History) -> None:
         """Take over the state in which an earlier run left."""

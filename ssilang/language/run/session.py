@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol, TextIO
+from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
@@ -21,6 +21,9 @@ from ssilang.language.say.visible import visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.messages.message import sentence
+
+if TYPE_CHECKING:
+    from ssilang.language.vocabulary.unit_systems import UnitSystem
 
 
 @dataclass
@@ -105,6 +108,8 @@ class Session:
         Turns numbers into a POINT, set by the operators' package.
     dimension : function
         Number of coordinates a point has (OPTI DIME), 0 before it is set.
+    units : function
+        The deck's units, OPTI 'UNIT'; None if it says nothing of them.
     flaw_of : function
         Code of the refusal of a value that no calculation can use, '' if there is none; set by
         the operators' package.
@@ -120,6 +125,7 @@ class Session:
     workspace: Any = None
     make_point: Callable[[list[float]], Any] | None = None
     dimension: Callable[[], int] = lambda: 0
+    units: Callable[[], UnitSystem | None] = lambda: None
     flaw_of: Callable[[Any], str] = lambda value: ""
     warnings: list[Any] = field(default_factory=list)
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target

@@ -64,7 +64,8 @@ def _word(kind: str, row: dict[str, Any]) -> Word:
     if kind not in ("component", "parameter"):
         return Word(*said)
     within, usual = (read_range(row.get(name, "")) for name in ("range", "usual"))
-    return Quantity(*said, row.get("unit"), within, usual, row.get("default"))
+    beside = {name: read_range(span) for name, span in row.get("beside", {}).items()}
+    return Quantity(*said, row.get("unit"), within, usual, row.get("default"), beside)
 
 
 @cache

@@ -19,6 +19,8 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
+from ssilang.language.vocabulary.terms import UNSAID
+from ssilang.language.vocabulary.unit_systems import SOIL, usual_of_entry, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
@@ -166,6 +168,16 @@ class TableCheck:
                 missing = 1 if entry.index == NUMBER else entry.index
                 raise self._error("entry-missing", shown((*where, missing)))
         self._without_effect(table, path, where, given)
+        self._waves(path, dict(given))
+
+    def _waves(self, path: tuple[str, ...], given: Mapping[Any, Any]) -> None:
+        """Warn of a soil that no ground is: of a modulus and a density in units of two systems."""
+        known, soil = self.declared.inside(path), {n: given.get(Mot(n)) for n in SOIL}
+        if not self.aloud or not all(n in known and isinstance(soil[n], float) for n in SOIL):
+            return
+        flaw = wave_flaw(soil, self.session.units())
+        if flaw is not None:
+            self._warn("soil-waves", **flaw)
 
     def _words_of_truth(
         self, table: Table, path: tuple[str, ...], where: tuple[object, ...]
@@ -197,13 +209,10 @@ class TableCheck:
         told = [(i, e) for i, e in unused if self.aloud and not readers.read(str(i).rstrip())]
         if not told:
             return
-        name, reasons = self.declared.name, {(e.en, e.fr) for _, e in told}
+        reasons = {(e.en, e.fr) for _, e in told}
         en, fr = next(iter(reasons)) if len(reasons) == 1 else ("", "")
         names = [shown((*where, i)) for i, _ in told]
-        self.session.warn(
-            "entries-without-effect", self.place, procedure=name, operator=name, names=names,
-            en=en, fr=fr,
-        )  # fmt: skip
+        self._warn("entries-without-effect", names=names, en=en, fr=fr)
 
     def _only_with(
         self,
@@ -217,12 +226,11 @@ class TableCheck:
             beside = self.declared.at(path, index)
             given = table.get(Mot(index)) if table.has(Mot(index)) else beside and beside.fallback
             said = beside.word(given) if beside is not None and isinstance(given, str) else None
+            if isinstance(given, bool):
+                said = "VRAI" if given else "FAUX"
             if said is not None and said not in words:
-                name, other = self.declared.name, shown((*where[:-1], index))
-                self.session.warn(
-                    "entry-only-with", self.place, procedure=name, operator=name,
-                    where=shown(where), other=other, words=list(words), given=said,
-                )  # fmt: skip
+                told = {"where": shown(where), "other": shown((*where[:-1], index))}
+                self._warn("entry-only-with", **told, words=list(words), given=said)
 
     def _known(self, entry: TableEntry, value: Any, where: tuple[object, ...]) -> None:
         if entry.role == REFUSED and value is not False:  # FAUX asks for nothing
@@ -235,14 +243,21 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
-        said = entry.usual.flaw(value, entry.index)
+        usual = entry.usual
+        if usual is UNSAID:
+            usual = usual_of_entry(entry.index, entry.unit, self.session.units())
+        said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
-            self.session.warn(
-                "entry-unusual", self.place, procedure=name, operator=name, where=shown(where),
-                en=entry.en, fr=entry.fr, **said[1],
-            )  # fmt: skip
+            self._warn("entry-unusual", **told, fr=entry.fr, **said[1])
+        curves = value.parts if self.aloud and type_of(value) == "EVOLUTIO" else ()
+        if curves and not any(p.words or p.ordinates.any() for p in curves):
+            self._warn("entry-of-noughts", **told, fr=entry.fr)
         if isinstance(value, Table) and self.declared.inside(entry.path):
             self.run(value, entry.path, where)
+
+    def _warn(self, code: str, **data: object) -> None:
+        name = self.declared.name
+        self.session.warn(code, self.place, procedure=name, operator=name, **data)
 
     def _error(self, code: str, where: str, **data: object) -> SsiError:
         name = self.declared.name
@@ -262,10 +277,7 @@ class TableCheck:
             self.session.library, self.declared, path, word, table.has, self.place.source.code
         )
         if said is not None:
-            name = self.declared.name
-            self.session.warn(
-                said[0], self.place, procedure=name, operator=name, where=shown(where), **said[1]
-            )
+            self._warn(said[0], where=shown(where), **said[1])
 
 
 class _Readers:

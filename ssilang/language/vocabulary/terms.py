@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from ssilang.messages.message import spoken
 class Unit:
     """A unit of the SI with the powers of mass, length, time and temperature in it.
 
-    A quantity in a system of other base units has the same powers.
+    A quantity in a system of other base units has the same powers. Entries of tables are usually
+    within `usual`, in SI.
     """
 
     symbol: str
@@ -23,6 +25,7 @@ class Unit:
     length: int = 0
     time: int = 0
     temperature: int = 0
+    usual: tuple[float, float] = (-math.inf, math.inf)
 
 
 UNITS: dict[str, Unit] = {
@@ -30,21 +33,21 @@ UNITS: dict[str, Unit] = {
     for unit in (
         Unit(""),  # a pure number
         Unit("rad"),
-        Unit("deg"),
+        Unit("deg", usual=(-360.0, 360.0)),
         Unit("%"),
-        Unit("m", length=1),
+        Unit("m", length=1, usual=(-5e3, 5e3)),
         Unit("m2", length=2),
         Unit("m3", length=3),
         Unit("m4", length=4),
         Unit("1/m", length=-1),
-        Unit("m/s", length=1, time=-1),
-        Unit("m/s2", length=1, time=-2),
-        Unit("s", time=1),
-        Unit("Hz", time=-1),
+        Unit("m/s", length=1, time=-1, usual=(-1e4, 1e4)),
+        Unit("m/s2", length=1, time=-2, usual=(-100.0, 100.0)),
+        Unit("s", time=1, usual=(-1e5, 1e5)),
+        Unit("Hz", time=-1, usual=(0.0, 1e4)),
         Unit("rad/s", time=-1),
         Unit("kg", mass=1),
         Unit("kg/m2", mass=1, length=-2),
-        Unit("kg/m3", mass=1, length=-3),
+        Unit("kg/m3", mass=1, length=-3, usual=(10.0, 2.5e4)),
         Unit("kg m2", mass=1, length=2),
         Unit("N", mass=1, length=1, time=-2),
         Unit("N m", mass=1, length=2, time=-2),
@@ -216,12 +219,15 @@ class Quantity(Word):
         Outside of it the value is probably in another unit (SI).
     default : float or None
         What is taken where it is not given, if that is a number and the kernel has no data of it.
+    beside : mapping of str to Range
+        Outside of it the ratio to that other word of the same unit is unusual.
     """
 
     unit: str | None = ""
     range: Range = UNSAID
     usual: Range = UNSAID
     default: float | None = None
+    beside: Mapping[str, Range] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True, slots=True)

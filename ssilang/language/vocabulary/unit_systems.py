@@ -7,12 +7,14 @@ makes force = mass times acceleration (a tonne with N and mm). The powers of a q
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from ssilang.language import vocabulary
-from ssilang.language.vocabulary.terms import UNITS, Quantity, Range
+from ssilang.language.vocabulary.terms import UNITS, UNSAID, Quantity, Range
 
 _SYMBOL = re.compile(r"[A-Za-z]+")
 
@@ -98,6 +100,33 @@ def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> d
     known.pop(system.written(unit))
     here = system.factor(unit)
     return {name: value * size / here for name, size in known.items() if value * size in usual}
+
+
+def usual_of_entry(index: str, unit: str, system: UnitSystem | None) -> Range:
+    """What an entry of a unit of the SI usually is in a system; of None, where that has no part."""
+    powers = UNITS.get(unit)
+    if not unit or powers is None or (system is None and (powers.mass or powers.length)):
+        return UNSAID
+    usual, size = Range(*powers.usual), 1.0 if system is None else system.factor(unit)
+    if not math.isfinite(usual.high):
+        meant = [w for w in vocabulary.meanings("parameter", index) if isinstance(w, Quantity)]
+        usual = next((w.usual for w in meant if w.unit == unit), UNSAID)
+    return Range(usual.low / size, usual.high / size)
+
+
+WAVES = Range(20.0, 4000.0)
+"""Speeds of shear waves (m/s), from mud to the stiffest rock."""
+SOIL = ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
+"""Entries of an elastic soil."""
+
+
+def wave_flaw(soil: Mapping[str, Any], system: UnitSystem | None) -> dict[str, float] | None:
+    """What is wrong with the shear waves of a soil: their speed, in units of length by second."""
+    speed = math.sqrt(soil["YOUNG"] / (2.0 + 2.0 * soil["POISSON"]) / soil["MASSE_VOLUMIQUE"])
+    here = 1.0 if system is None else system.length
+    told = {"speed": speed, "low": WAVES.low / here, "high": WAVES.high / here}
+    scaled = system is None and soil["MASSE_VOLUMIQUE"] == 1.0  # a soil without units
+    return None if scaled or speed * here in WAVES else told
 
 
 _RATES = {

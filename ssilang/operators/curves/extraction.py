@@ -98,11 +98,7 @@ def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
     return _PARTS[what.word](call, curve, **what.values)
 
 
-@EXTR.form(
-    _MAIN,
-    arg("name", "MOT", en="name of an axis"),
-    gives="LISTREEL|LISTENTI|LISTMOTS",
-)
+@EXTR.form(_MAIN, arg("name", "MOT", en="name of an axis"), gives="LISTREEL|LISTENTI|LISTMOTS")
 def extr_axis(call: Call, curve: Curve, name: str) -> ListReel | ListEnti | ListMots:
     """What stands along the axis of a name."""
     wanted = name.rstrip()[:12]
@@ -113,10 +109,7 @@ def extr_axis(call: Call, curve: Curve, name: str) -> ListReel | ListEnti | List
             return ordinate_list(part)
     names = sorted({n for p in curve.parts for n in (p.abscissa_name, p.ordinate_name)} - {""})
     raise call.error(
-        "operators.curves.no-axis-of-name",
-        name,
-        wanted=wanted,
-        names=[f"'{n}'" for n in names],
+        "operators.curves.no-axis-of-name", name, wanted=wanted, names=[f"'{n}'" for n in names]
     )
 
 

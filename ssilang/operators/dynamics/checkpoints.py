@@ -130,13 +130,9 @@ class KeptCalculation:
         if done > self._written:
             self._write(done, state())
         if self._written:
-            self.entries.warn(
-                "operators.dynamics.checkpoint-left",
-                step=self._written,
-                steps=len(self.problem.times) - 1,
-                time=self.problem.times[self._written],
-                folder=self.checkpoints.folder,
-            )
+            times, folder = self.problem.times, self.checkpoints.folder
+            told = {"step": self._written, "time": times[self._written], "folder": folder}
+            self.entries.warn("operators.dynamics.checkpoint-left", **told, steps=len(times) - 1)
 
     def lost(self, done: int, state: Callable[[], State]) -> None:
         """What solves has ended: as `left`, from before the steps that it broke off."""

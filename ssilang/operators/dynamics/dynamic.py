@@ -168,11 +168,18 @@ def _step_again(
         integrate_reduced(problem, float(tolerance), [extremes])
 
 
+AMPLIFIED = 10.0
+"""How much more than the tolerance a motion may move under loads that are stronger by it."""
+
+
 def _say_reduction(entries: Entries, history: History) -> None:
-    """Warn when a reduction that was asked for was not made."""
+    """Warn when a reduction that was asked for was not made, or its estimate is no guide."""
     found = history.reduction
     if found is not None and found.vectors == 0:
         entries.warn("operators.dynamics.reduction-not-used", refused=found.refused)
+    elif found is not None and found.swing > AMPLIFIED * (share := entries.get("REDUCTION")):
+        told = {"estimate": found.estimate, "swing": found.swing, "share": share}
+        entries.warn("operators.dynamics.reduction-amplified", **told)
 
 
 # ---- what is read ----------------------------------------------------------------------------
@@ -223,20 +230,12 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
         entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
         entries.warn("operators.dynamics.steps-not-written")
+    get = entries.get
     return Inputs(
-        entries.needed("RIGI"),
-        times,
-        entries.get("MASS"),
-        entries.get("AMOR"),
-        entries.get("CHAR"),
-        entries.get("DEPL"),
-        entries.get("VITE"),
-        entries.get("MODELE"),
-        entries.get("CARACTERISTIQUES"),
-        scheme_of(entries),
-        contact_options(entries),
-        solver=solver_of(entries.call.session),
-    )
+        entries.needed("RIGI"), times, get("MASS"), get("AMOR"), get("CHAR"), get("DEPL"),
+        get("VITE"), get("MODELE"), get("CARACTERISTIQUES"), scheme_of(entries),
+        contact_options(entries), solver=solver_of(entries.call.session),
+    )  # fmt: skip
 
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.operators.tables.entries import Entries
 
@@ -69,6 +72,15 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
 
 
+def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
+    joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
+    if joints is not None and problem.scheme.conserving:
+        laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
+        names = [n for n, law in LAWS.items() if law in laws and law.code is not LawCode.SDM]
+        if names:
+            yield "operators.dynamics.conserving-other-laws", {"laws": names}
+
+
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import masses_alone
 
@@ -115,7 +127,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
-    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere,
+    _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)

@@ -165,13 +165,9 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     found = contact_resolution(problem)
     if found is None or found.resolved:
         return
-    entries.warn(
-        "operators.dynamics.contact-not-resolved",
-        dt=found.dt,
-        contact_time=found.contact_time,
-        wanted_dt=found.wanted_dt,
-        conserving=problem.scheme.conserving,
-    )
+    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
+    code, conserving = "operators.dynamics.contact-not-resolved", problem.scheme.conserving
+    entries.warn(code, **told, conserving=conserving)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:
@@ -179,12 +175,8 @@ def warn_overloaded(entries: Entries, problem: Problem) -> None:
     from ssilang.kernel.stepping.problem.capacity import overloads
 
     for found in overloads(problem, problem.loading.at(problem.times[:1])[0]):
-        entries.warn(
-            "operators.dynamics.footing-overloaded",
-            node=problem.numbering.table.told(found.node),
-            pressing=found.pressing,
-            capacity=found.capacity,
-        )
+        told = {"node": problem.numbering.table.told(found.node), "pressing": found.pressing}
+        entries.warn("operators.dynamics.footing-overloaded", **told, capacity=found.capacity)
 
 
 def warn_massless(entries: Entries, problem: Problem) -> None:
@@ -206,17 +198,11 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
-    warn_connections(
-        entries.call.session,
-        entries.place,
-        entries.procedure,
-        inputs.stiffness,
-        inputs.model,
-        inputs.characteristics,
-    )
+    place = entries.call.session, entries.place, entries.procedure
+    warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics)
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
-            warn_repeated(entries.call.session, entries.place, entries.procedure, matrix, kind)
+            warn_repeated(*place, matrix, kind)
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:
@@ -236,20 +222,11 @@ def warn_contrast(entries: Entries, problem: Problem) -> None:
 
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:
-        entries.warn(
-            "operators.dynamics.badly-conditioned",
-            number=found.number,
-            digits=found.digits,
-            balanced=found.balanced,
-            kn=found.kn,
-            wanted_kn=found.wanted_kn,
-        )
+        told = {n: getattr(found, n) for n in ("number", "digits", "balanced", "kn", "wanted_kn")}
+        entries.warn("operators.dynamics.badly-conditioned", **told)
         return
     ratio = stiffness_contrast(problem)
     if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
         return
-    entries.warn(
-        "operators.dynamics.joints-out-of-proportion",
-        stiffer=ratio if ratio > 1 else 0.0,
-        softer=1 / ratio,
-    )
+    told = {"stiffer": ratio if ratio > 1 else 0.0, "softer": 1 / ratio}
+    entries.warn("operators.dynamics.joints-out-of-proportion", **told)

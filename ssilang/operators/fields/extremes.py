@@ -12,17 +12,7 @@ from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_algebra import component_names
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.language.registry import (
-    Operator,
-    arg,
-    by,
-    choice,
-    flag,
-    main,
-    many,
-    operator,
-    opt,
-)
+from ssilang.language.registry import Operator, arg, by, choice, flag, main, many, operator, opt
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListEnti, ListMots, ListReel
 from ssilang.language.vocabulary.terms import CARRIED, POSITIVE
@@ -158,10 +148,7 @@ def _add_forms(operator: Operator, largest: bool) -> None:
         gives=by("others", {True: "CHPOINT"}, "FLOTTANT"),
     )(partial(_of_node_fields, largest=largest))
     operator.form(
-        main("value", "MCHAML", en="field in cells"),
-        _ABSOLUTE,
-        *_COMPONENTS,
-        gives="FLOTTANT",
+        main("value", "MCHAML", en="field in cells"), _ABSOLUTE, *_COMPONENTS, gives="FLOTTANT"
     )(partial(_of_cell_field, largest=largest))
 
 

@@ -109,6 +109,9 @@ def _tensor(
 @operator("VMIS", MODEL, STATE, family="stress")
 def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     """Equivalent stress."""
+    strains = next((f for f in fields if f.title == "DEFORMATIONS"), None)
+    if strains is not None:
+        call.warn("operators.fields.equivalent-of-strains", strains)
     return _equivalent(call, model, fields, "MOYE", von_mises, "VMIS")
 
 

@@ -72,10 +72,7 @@ def _whole(records: Records) -> int:
     value = records.number()
     if value != int(value):
         raise InputError(
-            "operators.files.no-whole-number",
-            name=records.name,
-            line=records.line,
-            value=value,
+            "operators.files.no-whole-number", name=records.name, line=records.line, value=value
         )
     return int(value)
 

@@ -90,9 +90,7 @@ def _convolved(
         )
     if mirrored and max(before, after) > len(signal) - 1:
         raise call.error(
-            "operators.lists.signal-too-short",
-            n_signal=len(signal),
-            before=max(before, after),
+            "operators.lists.signal-too-short", n_signal=len(signal), before=max(before, after)
         )
     # value k needs the signal from k - after to k + before
     padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")

@@ -37,10 +37,7 @@ from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.tables.soundness import flaw_of
 
 
-@INTE.form(
-    main("first", "RIGIDITE", en="matrix"),
-    arg("second", "RIGIDITE", en="matrix"),
-)
+@INTE.form(main("first", "RIGIDITE", en="matrix"), arg("second", "RIGIDITE", en="matrix"))
 def intersection_of_matrices(first: Matrix, second: Matrix) -> Matrix:
     """What two matrices were both put together of."""
     blocks = tuple(b for b in first.blocks if any(b is c for c in second.blocks))
@@ -99,9 +96,7 @@ def _warn_of_other_names(call: Call, matrix: Matrix, field: NodeField) -> None:
     names = {name for name, part in field.components.items() if part.values.any()}
     if matrix.blocks and names and names.isdisjoint({*known, *_MULTIPLIERS}):
         call.warn(
-            "operators.matrices.product-of-other-names",
-            names=sorted(names),
-            known=sorted(known),
+            "operators.matrices.product-of-other-names", names=sorted(names), known=sorted(known)
         )
 
 

@@ -88,10 +88,7 @@ def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
 def _word_and_number(call: Call, sign: str, word: str) -> bool:
     """A word is no number: they differ, which is told since the word may be a name misspelt."""
     call.session.warn(
-        "operators.numbers.word-and-number",
-        call.span,
-        operator=sign,
-        word=word.rstrip(),
+        "operators.numbers.word-and-number", call.span, operator=sign, word=word.rstrip()
     )
     return False
 

@@ -93,30 +93,37 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
 
 
 def warn_of_strains(entries: Entries, displacement: NodeField | None) -> None:
-    """Tell, once, of solids whose law is taken at rest and that strain beyond what it holds for."""
+    """Tell, once, of solids that strain beyond what their law holds for, by the table below."""
     from ssilang.kernel.elements.boundary import is_solid
     from ssilang.kernel.elements.solids.finite_motion import motion_of
+    from ssilang.kernel.elements.solids.kinematics import harmonic
 
-    zones = [z for z in finite_zones(entries) if is_solid(z)]
-    for plastic, (code, most) in _HELD.items():
-        asked = [z for z in zones if is_plastic(z) is plastic]
+    finite = finite_zones(entries)
+    zones = [z for z in finite or plastic_zones(entries.get("MODELE")) if is_solid(z)]
+    for large, plastic, code, most in _HELD:
+        asked = [z for z in zones if is_plastic(z) is plastic and not harmonic(z)]
         told = any(
             w.code == code and w.span == entries.place for w in entries.call.session.warnings
         )
-        if displacement is None or told or (plastic and entries.get("LAGRANGIEN") != "TOTAL"):
+        present = large and plastic and entries.get("LAGRANGIEN") != "TOTAL"
+        if displacement is None or told or present or large is not bool(finite):
             continue
         moved = [motion_of(z, displacement, "STRESSES") for z in asked]
-        strains = [0.5 * abs(F.swapaxes(2, 3) @ F - np.eye(3)).max() for F in moved]
+        if large:
+            strains = [0.5 * abs(F.swapaxes(2, 3) @ F - np.eye(3)).max() for F in moved]
+        else:
+            strains = [abs(0.5 * (F.swapaxes(2, 3) + F) - np.eye(3)).max() for F in moved]
         strain = max(strains, default=0.0)
         if strain > most:
             entries.warn(code, strain=float(strain), error=2.0 * float(strain))
 
 
-_HELD = {
-    True: ("operators.statics.small-strains-left", 0.05),
-    False: ("operators.statics.elastic-strains-large", 0.1),
-}
-"""Codes, and the strains from which they are told, of plastic and of elastic solids."""
+_HELD = (
+    (True, True, "operators.statics.small-strains-left", 0.05),
+    (True, False, "operators.statics.elastic-strains-large", 0.1),
+    (False, True, "operators.statics.displacements-not-small", 0.1),
+)
+"""Of large displacements or not, of plastic or elastic solids: codes, strains from which told."""
 
 
 def _given(bulk: Bulk, start: Any) -> State | None:

@@ -182,9 +182,7 @@ def tagr(call: Call, gradient: CellField) -> CellField:
         names = {n: f"U{n[3]},{n[1]}" for n in block.components if len(n) == 4 and n[2] == ","}
         if not names or any(n not in block.components for n in names.values()):
             raise call.error(
-                "operators.statics.not-gradients",
-                gradient,
-                components=block.components,
+                "operators.statics.not-gradients", gradient, components=block.components
             )
         made = {n: block.components[names.get(n, n)] for n in block.components}
         blocks.append(replace(block, components=made))

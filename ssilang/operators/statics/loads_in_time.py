@@ -25,15 +25,7 @@ from ssilang.language.registry import (
     select,
 )
 from ssilang.language.run.call import Call
-from ssilang.language.values import (
-    ListChpo,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    Table,
-    type_of,
-)
+from ssilang.language.values import ListChpo, ListMots, ListObje, ListReel, Mot, Table, type_of
 from ssilang.language.vocabulary.terms import ANY_NUMBER, POSITIVE, Range
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 
@@ -45,8 +37,7 @@ _NAME = opt("name", "MOT", en="name, of 4 characters")
 _LINK = choice("link", ("LIE", "LIBR"), en="follows the matter or not: the same here")
 _MOVES = choice("moves", ("TRAN", "ROTA"), en="moving: not available")
 _PATH = group(  # behind the name, which may be this word
-    "path",
-    choice("path", ("TRAJ",), en="moving: not available"),
+    "path", choice("path", ("TRAJ",), en="moving: not available")
 )
 
 
@@ -134,10 +125,7 @@ def char_in_steps(
             raise call.error("operators.statics.time-and-field-wanted", times, i=i)
         if steps and time <= steps[-1][0]:
             raise call.error(
-                "operators.statics.times-must-increase",
-                times,
-                time=time,
-                steps=steps[-1][0],
+                "operators.statics.times-must-increase", times, time=time, steps=steps[-1][0]
             )
         steps.append((float(time), held))
     if not steps:
@@ -307,10 +295,7 @@ def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     place = what["place"]
     if not 1 <= place <= len(load.parts):
         raise call.error(
-            "operators.statics.no-part-of-number",
-            place,
-            n_parts=len(load.parts),
-            place=place,
+            "operators.statics.no-part-of-number", place, n_parts=len(load.parts), place=place
         )
     part = load.parts[place - 1]
     if what.word == "CHAR":

@@ -192,7 +192,7 @@ def _stretch(
         line.close()
     if record is not None:
         record.save(history)
-    if finite:
+    if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
@@ -392,22 +392,14 @@ def _inputs(
     masses: Matrix | None = None
     if dynamic:
         masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
+    stiffnesses = _joined(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE")
+    damping, velocity = entries.get("AMORTISSEMENT"), start.of("VITESSES")
     inputs = Inputs(
-        _joined(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE"),
-        times,
-        masses,
-        entries.get("AMORTISSEMENT") if dynamic else None,
-        load,
-        displacement,
-        start.of("VITESSES") if dynamic else None,
-        model,
-        material,
-        scheme_of(entries),
-        contact_options(entries, dynamic),
-        start.of("VARIABLES_INTERNES"),
-        sides.friction,
+        stiffnesses, times, masses, damping if dynamic else None, load, displacement,
+        velocity if dynamic else None, model, material, scheme_of(entries),
+        contact_options(entries, dynamic), start.of("VARIABLES_INTERNES"), sides.friction,
         solver_of(entries.call.session),
-    )
+    )  # fmt: skip
     return inputs, stresses
 
 

@@ -242,7 +242,7 @@ def test_paths_lose_energy_and_balance(name, path):
             footing.state, lost, f, work, moved = new, gone, after, work + done, moved + abs(done)
         now = now + way
     springs = 0.5 * now @ footing.springs() @ now
-    assert stored + lost + springs == pytest.approx(work, abs=5e-3 * moved)
+    assert stored + lost + springs == pytest.approx(work, abs=5e-3 * moved + 1e-9)
 
 
 @settings(max_examples=25, deadline=None)

@@ -159,24 +159,12 @@ def make_problem(inputs: Inputs) -> Problem:
     refuse_negative_mass(assembled["M"], numbering, HISTORIES)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
+    u, v = (_start(field, numbering) for field in (inputs.displacement, inputs.velocity))
     return Problem(
-        numbering,
-        assembled["K"],
-        assembled["M"],
-        assembled["C"],
-        constraints,
-        rows.multipliers,
-        loading,
-        interface,
-        _start(inputs.displacement, numbering),
-        _start(inputs.velocity, numbering),
-        _joint_states(interface, inputs.variables),
-        times,
-        inputs.scheme,
-        contact,
-        inputs.contact_options,
-        inputs.solver,
-    )
+        numbering, assembled["K"], assembled["M"], assembled["C"], constraints, rows.multipliers,
+        loading, interface, u, v, _joint_states(interface, inputs.variables), times,
+        inputs.scheme, contact, inputs.contact_options, inputs.solver,
+    )  # fmt: skip
 
 
 def _joint_states(interface: Interface | None, given: CellField | None) -> FloatArray:

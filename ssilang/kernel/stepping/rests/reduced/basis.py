@@ -161,6 +161,9 @@ class Reduction:
     velocity, acceleration : float
         The same difference of velocities and accelerations, which no tolerance holds: they
         follow higher frequencies and converge more slowly.
+    swing : float
+        How far loads that are stronger by the tolerance move the motion, relative to the largest;
+        0 where the footings hardly lift.
     """
 
     vectors: int = 0
@@ -169,6 +172,7 @@ class Reduction:
     prepared: float = 0.0
     velocity: float = math.nan
     acceleration: float = math.nan
+    swing: float = 0.0
 
 
 def refuse_reduction(problem: Problem) -> None:

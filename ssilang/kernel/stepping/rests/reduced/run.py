@@ -42,6 +42,7 @@ GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
 MOST_VECTORS = 0.5  # of the unknowns: more do not pay
 MOST = 4000  # vectors, for memory
 MOST_VALUES = 30_000_000  # reduced states kept until the estimate is known
+LIFTED = 0.5  # share of the joints' points that opens at once: from there on motions may amplify
 BATCH = 64  # instants expanded together
 PAIRS_KEPT = 2  # models whose bases stay in memory
 
@@ -127,6 +128,7 @@ class ReducedIntegration:
     observers: Sequence[Observer]
     progress: Progress | None
     tolerance: float
+    lifted: float = 0.0
 
     def run(self) -> History:
         """All steps.
@@ -155,12 +157,14 @@ class ReducedIntegration:
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
         given.begin()
+        swing = self._swing(pair.poor) if self.lifted > LIFTED else 0.0
         self._hand_over(pair.rich, given, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
             time.perf_counter() - built,
             Reduction(
-                pair.rich.size, estimate, None, built - started, *difference.relative[3:].tolist()
+                pair.rich.size, estimate, None, built - started,
+                *[*difference.relative[3:].tolist(), swing],
             ),
         )  # fmt: skip
 
@@ -184,12 +188,26 @@ class ReducedIntegration:
             if a is None or b is None:
                 return rich, None, None
             difference.take(poor, rich, a, b)
+            opened = np.mean(b.rows.jumps[:, :, -1] > 0.0, axis=1) if p.interface else np.zeros(1)
+            self.lifted = max(self.lifted, float(opened.max()))
             if not difference.estimate <= self.tolerance:
                 return rich, difference, None
             chunks.append(replace(b, rows=b.rows._replace(jumps=b.rows.jumps[:0])))
             if self.progress is not None:
                 self.progress(run.last, n - 1)
         return rich, difference, chunks if fits else None
+
+    def _swing(self, model: ReducedModel) -> float:
+        """How far loads that are stronger by the tolerance move the motion, as `Difference`."""
+        p, difference = self.problem, Difference(self.problem)
+        last = np.arange(len(p.times)) == len(p.times) - 1
+        stronger, plain = (Trace(p, model, last, s) for s in (1.0 + self.tolerance, 1.0))
+        for run in comparing(p.times):
+            a, b = stronger.advance(run), plain.advance(run)
+            if a is None or b is None:
+                return math.inf
+            difference.take(stronger, plain, a, b)
+        return difference.estimate
 
     def _hand_over(
         self, model: ReducedModel, given: Integration, wanted: np.ndarray,

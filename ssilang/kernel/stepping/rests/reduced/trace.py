@@ -62,6 +62,7 @@ class Trace:
     problem: Problem
     model: ReducedModel
     kept: np.ndarray
+    strength: float = 1.0  # of the loads
     motion: Motion = field(init=False)
     energies: FloatArray = field(init=False)
     iterations: int = 0
@@ -94,7 +95,8 @@ class Trace:
         """The steps of a run; None if one of them did not converge."""
         row = rows_of(self.kept[run.first + 1 : run.last + 1])
         steps = run.first + 1 + np.flatnonzero(row >= 0)
-        factors = self.problem.loading.at(self.problem.times[run.first : run.last + 1])
+        times = self.problem.times[run.first : run.last + 1]
+        factors = self.strength * self.problem.loading.at(times)
         to = recorder_of(
             self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
             jumps=np.zeros((len(row), *self.motion.w.shape)),

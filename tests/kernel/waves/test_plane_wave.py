@@ -1,0 +1,57 @@
+"""Histories of plane waves between the record's samples, and columns along heights."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.waves.free_field_forces import along_columns
+from ssilang.kernel.waves.layered_half_space import HalfSpace
+from ssilang.kernel.waves.plane_wave import PlaneWave, plane_motion
+
+GROUND = HalfSpace(
+    np.array([4.0]), np.array([1800.0, 2100.0]), np.array([150.0, 300.0]),
+    np.array([330.0, 620.0]), np.array([0.03, 0.0]),
+)  # fmt: skip
+STEP = 0.01
+ALONG, DEPTHS = np.array([0.0, 7.0, 2.5, 0.0]), np.array([0.0, 1.3, 9.0, 1.3])
+
+
+def rough(n=60):
+    """A record in which every frequency up to the highest takes part."""
+    record = np.random.default_rng(2).standard_normal(n)
+    return np.concatenate([np.zeros(5), record - record.mean(), np.zeros(5)])
+
+
+@pytest.mark.parametrize(
+    ("kind", "given"), [("SH", "SURFACE"), ("SV", "INCIDENTE"), ("P", "SURFACE")]
+)
+def test_finer_steps_pass_through_the_coarse_ones(kind, given):
+    wave = PlaneWave(kind, 0.3, given, 0.4, STEP, rough(), 2.0)
+    coarse = plane_motion(GROUND, wave, ALONG, DEPTHS)
+    fine = plane_motion(GROUND, wave, ALONG, DEPTHS, STEP / 2.5)
+    np.testing.assert_allclose(fine.times[::3], coarse.times)
+    for name in ("displacement", "velocity", "acceleration"):
+        a, b = getattr(coarse, name), getattr(fine, name)[..., ::3]
+        assert a.shape[0] == 4
+        np.testing.assert_allclose(b, a, atol=1e-9 * np.abs(a).max())
+
+
+def test_the_surface_moves_as_recorded_there_and_later_further_on():
+    record = rough()
+    wave = PlaneWave("SH", 0.3, "SURFACE", 0.0, STEP, record)
+    found = plane_motion(GROUND, wave, ALONG, DEPTHS).acceleration
+    at_rest = record.sum() / 256  # the series is without its mean
+    np.testing.assert_allclose(found[0, 0], record - at_rest, atol=1e-9)
+    slowness = np.sin(0.3) / 300.0
+    far = plane_motion(GROUND, wave, np.array([2 * STEP / slowness]), np.zeros(1)).acceleration
+    np.testing.assert_allclose(far[0, 0, 2:], found[0, 0, :-2], atol=1e-9)
+
+
+def test_points_between_those_of_a_column_move_between_them():
+    column = np.array([2.0, 7.5, 0.0, 4.0])  # in no order
+    heights = np.array([0.0, 7.5, 4.0, 1.0, 5.4, 2.0, 7.4999999])
+    motion = np.random.default_rng(1).standard_normal((4, 3))
+    order = np.argsort(column)
+    wanted = [np.interp(heights, column[order], v) for v in motion[order].T]
+    np.testing.assert_allclose(
+        along_columns(heights, column) @ motion, np.transpose(wanted), atol=1e-6
+    )
