@@ -201,11 +201,6 @@ def test_integrals_over_several_intervals_and_of_several_curves(found):
     np.testing.assert_allclose(b.values, [3.5, 7.0])
 
 
-def test_sorted_points_of_a_curve(found):
-    part = found("E = ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.)) ;", "E").parts[0]
-    assert (part.abscissas.tolist(), part.ordinates.tolist()) == ([1, 2], [6, 5])
-
-
 def test_title_and_legend_change_in_a_new_curve(found):
     e, f = found(TENT + "F = CHAN 'LEGE' E 1 'later' ; F = CHAN 'TITR' F 'all' ;", "E", "F")
     assert (e.parts[0].legend, f.parts[0].legend, f.title) == ("", "later", "all")

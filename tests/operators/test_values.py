@@ -284,6 +284,7 @@ LISTS = {
     "BORN I 'MAXIMUM' 2": [2, -2, 0, 2],
     "EXTR (1. - E) 'ORDO' 2": [-4.0, 0.75], "EXTR (E * E) 'ORDO' 1": A**2,
     "EXTR (E ** 2) 'ORDO' 1": A**2, "(LECT 4 5) - (PROG 1.5 1.)": [2.5, 4.0],
+    "EXTR (ORDO (EVOL 'MANU' L K)) 'ORDO'": [2.0, -4.0, 0.25],
     "UNIQ (LECT 4 1 4 2 1)": [4, 1, 2], "I SAUF (LECT 0 3)": [-2, 7],
     "INTE (PROG 3. 1. 2.) (PROG 2. 3. 9.)": [3, 2],
     "POSI 0.5 'DANS' L": 3, "EXTR (L ET 7.) 4": 7.0, "DIME I": 4,

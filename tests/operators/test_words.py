@@ -141,14 +141,6 @@ def test_inherited_method_runs_on_the_heir(found):
     )
 
 
-def test_tables_in_tables_are_printed_as_deep_as_said():
-    tables = "T = TABL ; T . 1 = TABL ; T . 1 . 2 = TABL ; T . 1 . 2 . 'DEEP' = 7 ; T . 3 = T ;\n"
-    found = [run_text(tables + f"LIST T{n} ;").output for n in ("", " 1", " 2", " 99")]
-    assert ["DEEP" in text for text in found] == [False, False, True, True]
-    assert found[1].count("Table of") == 2
-    assert found[2] == found[3]  # a table that holds itself ends there
-
-
 @pytest.mark.parametrize("count", [-1, 10**9])
 def test_blank_lines_have_a_limit(count, tmp_path):
     result = run_text(f"N = {count} ; SAUT N 'LIGN' ;", tmp_path)
