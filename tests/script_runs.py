@@ -1,7 +1,10 @@
 """Running a script in a test and looking at what it made."""
 
+import re
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 from ssilang.cli.run import RunOptions, RunResult, run_text
 
@@ -13,6 +16,9 @@ def ran(
     result = run_text(script, output_directory, options)
     assert result.exit_code == 0, result.message
     return result
+
+
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 def found(script: str, *names: str, folder: Path | None = None) -> Any:
@@ -43,3 +49,11 @@ def failed(script: str, folder: Path | None = None) -> RunResult:
 def refused(script: str, folder: Path | None = None) -> str:
     """The message of a script that must fail, as `failed`."""
     return failed(script, folder).message
+
+
+def assert_says(output: str, wanted: str) -> None:
+    """A text is as known but for blanks: words as they are, numbers to four digits."""
+    found = " ".join(output.split())
+    assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
+    numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
+    assert numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)

@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import script_runs
 
 from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
@@ -35,7 +36,6 @@ load_operators()
 _OPERATORS = [o for n, o in sorted(OPERATORS.items()) if n == o.name]
 _PROCEDURES = {p: procedure_page(p) for p in standard_procedures().values()}
 _PRINTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 
 @pytest.fixture(scope="module")
@@ -92,15 +92,11 @@ class Emptied:
             self.silent.append((found.name, place, [type_of(o.value) for o in call.operands]))
 
 
-def _same(name, number, output):
-    """Whether an example printed what is known: words as they are, numbers to four digits."""
+def assert_same(name, number, output):
+    """An example prints what is known."""
     known = _PRINTED.get(name, [])
-    if number > len(known) or not known[number - 1]:
-        return True
-    wanted, found = known[number - 1], " ".join(output.split())
-    assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
-    numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
-    return numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
+    if number <= len(known) and known[number - 1]:
+        script_runs.assert_says(output, known[number - 1])
 
 
 def _checked(text, result):
@@ -124,7 +120,7 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
         options = RunOptions(output_directory=tmp_path / str(number), on_form=ran)
         result = run_text(text, options=options)
         assert result.exit_code == 0, result.message
-        assert _same(operator.name, number, result.output)
+        assert_same(operator.name, number, result.output)
         _checked(text, result)
     assert ran.missing(operator) == untried.get(operator.name, [])
 
@@ -146,4 +142,4 @@ def test_examples_of_procedures_run(path, tmp_path):
     for number, text in enumerate(_PROCEDURES[path].help.examples, 1):
         result = run_text(text, output_directory=tmp_path / str(number))
         assert result.exit_code == 0, result.message
-        assert _same(path.stem.upper(), number, result.output)
+        assert_same(path.stem.upper(), number, result.output)

@@ -31,15 +31,20 @@ def test_progress_is_one_line_that_goes_away(monkeypatch):
 
 
 def test_loops_too(monkeypatch):
-    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.PATIENCE", 0.0)
-    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.REFRESH", 0.0)
+    clock = iter((0.0, 1.0, 3.0, 3.5, 3.6, 8.0))  # patience 2 s, a line each 0.2 s
+    monkeypatch.setattr("ssilang.cli.terminal.loop_progress.time.monotonic", lambda: next(clock))
     shown = []
     loops = LoopProgress(SentProgress(shown.append), teller("en"))
-    loops.enter("B", 3)
+    loops.enter("A", 5)
     loops.turn(1)
     loops.turn(2)
+    loops.enter("B", None)
+    loops.turn(7)
     loops.leave()
-    assert [text.split(",")[0] for text in shown] == ["B 1/3", "", "B 2/3", ""]
+    loops.turn(3)
+    loops.leave()
+    nested = ["A 2/5 > B 7, 14 s left", "", "A 3/5, 12 s left", ""]
+    assert shown == ["A 2/5, 12 s left", "", *nested]
 
 
 def test_a_cell_has_one_display_of_progress_that_is_written_anew():

@@ -9,38 +9,12 @@ LINE = (
 )
 
 
-def test_numbers_and_sums_act_on_components(found):
-    values = found(
-        LINE + "X1 = MAXI (C + C) ; X2 = MAXI (C * 2. - C) ; X3 = MINI (1. / C) ; "
-        "X4 = MAXI (C + 10. (MOTS 'A')) ; X5 = MAXI (C ** 2) ; X6 = MAXI (10. - C) ;",
-        "X1", "X2", "X3", "X4", "X5", "X6",
-    )  # fmt: skip
-    assert values == (10.0, 5.0, 0.2, 12.0, 25.0, 8.0)
-
-
 def test_components_that_only_one_field_has_are_kept(found):
     names = found(LINE + "D = C - (EXCO 'A' C) - S ; N = EXTR D 'COMP' ; ", "N")
     assert sorted(str(w) for w in names.values) == ["A", "B", "SCAL"]
     field = found(LINE + "D = C - (EXCO 'A' C) - S ;", "D")
     block = field.blocks[0].components
     assert [float(np.ravel(block[n])[0]) for n in ("A", "B", "SCAL")] == [0.0, 5.0, -3.0]
-
-
-def test_product_by_a_scalar_field_and_by_names(found):
-    values = found(
-        LINE + "X1 = MAXI (C * S) ; X2 = MAXI (C * C) ; "
-        "D = C * C (MOTS 'A') (MOTS 'B') (MOTS 'AB') ; X3 = MAXI D ; X4 = MAXI (C / S) ;",
-        "X1", "X2", "X3", "X4",
-    )  # fmt: skip
-    assert values == pytest.approx((15.0, 25.0, 10.0, 5 / 3))
-
-
-def test_components_are_extracted_and_renamed(found):
-    names, top = found(
-        LINE + "N = EXTR (NOMC (MOTS 'A') (MOTS 'Z') C) 'COMP' ; X = MAXI (EXCO 'A' C) ;", "N", "X"
-    )
-    assert [str(w) for w in names.values] == ["Z", "B"]
-    assert top == 2.0
 
 
 def test_values_of_a_list_are_dealt_out_one_a_cell(found):
@@ -64,17 +38,6 @@ def test_support_words_compare_on_their_eight_letters(found):
     assert (field.blocks[0].support, field.title) == ("RIGIDITE", "SCALAIRE")
 
 
-def test_functions_masks_bounds_and_products(found):
-    values = found(
-        LINE + "X1 = MAXI (ABS (C * -1.)) ; X2 = MAXI (EXP (S * 0.)) ; "
-        "X3 = C MASQ 'SUPERIEUR' 'SOMME' 3. ; X4 = MAXI (BORN C 'A' 'MAXIMUM' 1.) ; "
-        "X5 = MAXI (PSCA C C (MOTS 'A' 'B') (MOTS 'A' 'B')) ; X6 = MAXI (C MASQ 'EXISTE' 'Q') ; "
-        "X7 = XTX (EXCO 'A' C) ;",
-        "X1", "X2", "X3", "X4", "X5", "X6", "X7",
-    )  # fmt: skip
-    assert values == (5.0, 1.0, 4, 1.0, 29.0, 0.0, 16.0)
-
-
 def test_type_and_constituent_change(found):
     field = found(LINE + "D = CHAN 'CONS' (CHAN 'TYPE' C 'CARACTERISTIQUES') 'SOIL' ;", "D")
     assert field.title == "CARACTERISTIQUES"
@@ -89,15 +52,6 @@ def test_curves_in_cells_add_up(found):
         "Y",
     )
     assert y.values.tolist() == [3.0, 4.5]
-
-
-def test_vector_product_of_fields_turns_in_2d(found):
-    x, y = found(
-        LINE + "LM = MOTS 'A' 'B' ; D = PVEC C LM LM ; X = MAXI (EXCO 'A' D) ; "
-        "Y = MAXI (EXCO 'B' D) ;",
-        "X", "Y",
-    )  # fmt: skip
-    assert (x, y) == (-5.0, 2.0)
 
 
 def test_zero_hooke_matrices_make_no_stiffness(found):

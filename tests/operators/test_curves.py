@@ -95,17 +95,6 @@ def test_sum_of_curves_lives_on_their_common_abscissas(found):
     np.testing.assert_allclose(part.ordinates, [11.5, 15, 17])
 
 
-def test_curves_and_numbers(found):
-    def ordinates(phrase):
-        return found(TENT + f"F = {phrase} ;", "F").parts[0].ordinates.tolist()
-
-    assert ordinates("E * 2.") == [0, 6, 2]
-    assert ordinates("1. - E") == [1, -2, 0]
-    assert ordinates("E ** 2") == [0, 9, 1]
-    assert ordinates("E * E") == [0, 9, 1]
-    assert ordinates("ABS (E - 2.)") == [2, 1, 1]
-
-
 def test_complex_curves_multiply_as_complex_numbers(found):
     a, b = found(
         "X = PROG 0. 1. ; E = EVOL 'COMP' 'REIM' 'F' X 'A' (PROG 1. 2.) 'B' (PROG 3. -1.) ; "
@@ -210,16 +199,6 @@ def test_integrals_over_several_intervals_and_of_several_curves(found):
     )
     np.testing.assert_allclose(a.values, [1.5, 2.0])
     np.testing.assert_allclose(b.values, [3.5, 7.0])
-
-
-def test_primitive_begins_at_zero_and_ends_at_the_integral(found):
-    y = found(TENT + "Y = EXTR (PRIM E) 'ORDO' ;", "Y")
-    assert y.values.tolist() == [0, 1.5, 3.5]
-
-
-def test_sorted_points_of_a_curve(found):
-    part = found("E = ORDO (EVOL 'MANU' (PROG 2. 1.) (PROG 5. 6.)) ;", "E").parts[0]
-    assert (part.abscissas.tolist(), part.ordinates.tolist()) == ([1, 2], [6, 5])
 
 
 def test_title_and_legend_change_in_a_new_curve(found):

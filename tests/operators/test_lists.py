@@ -171,20 +171,6 @@ def test_subtracting_and_testing_lists():
     assert value("DANS 'SEQU' (PROG 2. 1.) (PROG 1. 2. 3.)") is False
 
 
-def test_list_arithmetic_keeps_integers_and_goes_item_by_item():
-    assert items("(LECT 4 5 6) + 1") == [5, 6, 7]
-    assert items("1 - (LECT 4 5 6)") == [-3, -4, -5]
-    assert items("(LECT 4 5) - (PROG 1.5 1.)") == [2.5, 4.0]
-    assert items("(PROG 2. 3.) ** 2") == [4.0, 9.0]
-
-
-def test_running_sum_and_item_by_item_maximum():
-    assert items("SOMM 'CUMU' (PROG 1. 2. 3.)") == [1, 3, 6]
-    assert items("MAXI (PROG 1. 5.) (PROG 3. 2.)") == [3, 5]
-    assert value("MAXI 'ABS' (LECT 1 -5)") == 5
-    assert value("MAXI (PROG 1. -5.) 'ABS'") == 5
-
-
 def test_list_of_objects_holds_one_type(refused):
     assert value("DIME (ENUM (PROG 1.) (PROG 2.))") == 2
     assert "one type" in refused("L = ENUM (PROG 1.) «'word'» ;")

@@ -119,15 +119,6 @@ def test_union_adds_discrete_values_and_wants_diffuse_ones_to_agree(found, refus
     assert "natures" in refused(natures + "F = E «ET» D ;")
 
 
-def test_numbers_act_on_every_value(found):
-    values = found(
-        POINT + "A = MAXI (C + 1.) ; B = MAXI (1. - C) ; D = MAXI (C ** 2) ; E = MINI (12. / C) ; "
-        "F = MAXI (C / 2) ;",
-        "A", "B", "D", "E", "F",
-    )  # fmt: skip
-    assert values == (5.0, -2.0, 16.0, 3.0, 2.0)
-
-
 def test_component_is_taken_under_the_name_scal_or_a_new_one(found, refused):
     a, b = found(
         POINT + "A = EXTR (EXCO 'UY' C) 'SCAL' P ; B = EXTR (EXCO 'UY' C 'T') 'T' P ;", "A", "B"
@@ -135,16 +126,6 @@ def test_component_is_taken_under_the_name_scal_or_a_new_one(found, refused):
     assert (a, b) == (4.0, 4.0)
     assert "components are: UX UY" in refused(POINT + "A = «EXCO» 'UZ' C ;")
     assert found(POINT + "E = VIDE (EXCO 'UZ' 'NOID' C) ;", "E") is True
-
-
-def test_components_are_renamed_and_removed(found):
-    names, left = found(
-        POINT + "N = EXTR (NOMC (MOTS 'UX') (MOTS 'FX') C) 'COMP' ; "
-        "M = EXTR (ENLE C 'UX') 'COMP' ;",
-        "N", "M",
-    )  # fmt: skip
-    assert [str(w) for w in names.values] == ["FX", "UY"]
-    assert [str(w) for w in left.values] == ["UY"]
 
 
 def test_values_come_in_the_order_of_the_points_asked_for(found):
@@ -176,15 +157,6 @@ def test_repeated_points_sum_up_in_a_discrete_field(found, refused):
     assert "twice" in refused(
         script + "C = «MANU» 'CHPO' 'NATURE' 'DIFFUS' M 'T' (PROG 1. 2. 3.) ;"
     )
-
-
-def test_extremes_with_and_without_components(found):
-    values = found(
-        POINT + "D = C * -1. ; A = MAXI D ; B = MAXI D 'ABS' ; E = MAXI D 'AVEC' (MOTS 'UY') ; "
-        "F = MINI D 'SANS' (MOTS 'UY') ; G = MAXI 'ABS' D ; H = EXTR (MAXI C (C * 2.)) 'UX' P ;",
-        "A", "B", "E", "F", "G", "H",
-    )  # fmt: skip
-    assert values == (-3.0, 4.0, -4.0, -3.0, 4.0, 6.0)
 
 
 def test_products_norms_and_combinations(found):

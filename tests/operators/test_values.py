@@ -6,9 +6,12 @@ coordinates of where a value stands. Curves are two, of other lengths, and go ba
 
 import io
 import math
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
+import script_runs
 from scipy import special
 
 from ssilang.cli.run import RunOptions, execute, make_session
@@ -37,12 +40,18 @@ UX, UY = (lambda x, y: x - 2.5), (lambda x, y: x * y)
 VX, VY = (lambda x, y: y), (lambda x, y: y * y)
 
 
+LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+
+def session_after(text, folder, output):
+    made = make_session(Source("prelude", ""), RunOptions(folder), output)
+    execute(made, Source("prelude", text))
+    return made
+
+
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("values")
-    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
-    execute(made, Source("prelude", PRELUDE))
-    return made
+    return session_after(PRELUDE, tmp_path_factory.mktemp("values"), io.StringIO())
 
 
 def asked(session, phrase):
@@ -166,7 +175,8 @@ NUMBERS = {
     "MAXI U 'ABS' (MOTS 'UX')": 1.5, "MINI U 'ABS' 'AVEC' (MOTS 'UX')": 0.5,
     "MAXI C 'ABS' 'SANS' (MOTS 'VY')": 1.5, "MINI C": -1.5, "MAXI C": 4.5, "MINI D": 0.25,
     "MAXI L": 3.0, "MINI L": -1.0, "MAXI K 'ABS'": 4.0, "MINI L 'ABS'": 0.5,
-    "MAXI I": 7, "MINI I": -2, "MINI I 'ABS'": 0,
+    "MAXI I": 7, "MINI I": -2, "MINI I 'ABS'": 0, "MAXI 'ABS' K": 4.0, "MINI 'ABS' C": 0.5,
+    "C MASQ 'SUPERIEUR' 'SOMME' 1.1": 9, "MAXI (C MASQ 'EXISTE' 'Q')": 0.0,
     "XTX U": dot(EVERY, EVERY), "XTY U V W W": dot(EVERY, VEVERY),
     "XTY U V (MOTS 'UX') (MOTS 'UY')": dot({"": EVERY["UX"]}, {"": VEVERY["UY"]}),
     "XTX C": in_cells(lambda x, y: UX(x, y) ** 2 + UY(x, y) ** 2),
@@ -216,6 +226,13 @@ FIELDS = {
     "CX / CY": {"SCAL": lambda x, y: x / y},
     "U * Y": {"UX": lambda x, y: UX(x, y) * y, "UY": lambda x, y: x * y * y},
     "C * CY": {"VX": lambda x, y: UX(x, y) * y, "VY": lambda x, y: x * y * y},
+    "12. / V": {"UX": lambda x, y: 12 / y, "UY": lambda x, y: 12 / y**2},
+    "1. / D": {"VX": lambda x, y: 1 / y, "VY": lambda x, y: 1 / y**2},
+    "V ** 2": {"UX": lambda x, y: y**2, "UY": lambda x, y: y**4},
+    "D + 10. (MOTS 'VX')": {"VX": lambda x, y: y + 10, "VY": lambda x, y: y * y},
+    "C * D": {"VX": lambda x, y: UX(x, y) * y, "VY": lambda x, y: x * y**3},
+    "C * D (MOTS 'VX') (MOTS 'VY') (MOTS 'A')": {"A": lambda x, y: UX(x, y) * y * y},
+    "BORN C 'VX' 'MAXIMUM' 1.": {"VX": lambda x, y: np.minimum(UX(x, y), 1)},
     "C / CY": {"VX": lambda x, y: UX(x, y) / y, "VY": lambda x, y: x},
     "MASQ X 'SUPERIEUR' 2.": {"SCAL": lambda x, y: x > 2},
     "X MASQ 'EGSUPE' 2.": {"SCAL": lambda x, y: x >= 2},
@@ -263,6 +280,9 @@ LISTS = {
     "PROG 3. PAS -0.5 1.5": [3.0, 2.5, 2.0, 1.5], "LECT 5 PAS -2 1 3 * 4": [5, 3, 1, 4, 4, 4],
     "RAFF L 2": [3.0, 1.0, -1.0, -0.25, 0.5], "BORN L 'COMPRIS' -0.5 1.": [1.0, -0.5, 0.5],
     "BORN I 'MAXIMUM' 2": [2, -2, 0, 2],
+    "EXTR (1. - E) 'ORDO' 2": [-4.0, 0.75], "EXTR (E * E) 'ORDO' 1": A**2,
+    "EXTR (E ** 2) 'ORDO' 1": A**2, "(LECT 4 5) - (PROG 1.5 1.)": [2.5, 4.0],
+    "EXTR (ORDO (EVOL 'MANU' L K)) 'ORDO'": [2.0, -4.0, 0.25],
     "UNIQ (LECT 4 1 4 2 1)": [4, 1, 2], "I SAUF (LECT 0 3)": [-2, 7],
     "INTE (PROG 3. 1. 2.) (PROG 2. 3. 9.)": [3, 2],
     "POSI 0.5 'DANS' L": 3, "EXTR (L ET 7.) 4": 7.0, "DIME I": 4,
@@ -274,3 +294,13 @@ def test_lists_of_lists_and_curves(session, phrase):
     found = asked(session, phrase)
     found = found.values if hasattr(found, "values") else found
     np.testing.assert_allclose(found, LISTS[phrase], rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("group", LISTED["printed"])
+def test_objects_are_listed_as_they_are(group, tmp_path):
+    output = io.StringIO()
+    session = session_after(PRELUDE + LISTED["before"], tmp_path, output)
+    for phrase, wanted in LISTED["printed"][group].items():
+        begin = output.tell()
+        execute(session, Source("statement", f"LIST {phrase} ;"))
+        script_runs.assert_says(output.getvalue()[begin:], wanted)

@@ -3,7 +3,6 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
@@ -120,19 +119,6 @@ def test_computed_name(found):
     assert (a, b) == (10, 20)
 
 
-def test_listings_say_what_objects_hold(printed):
-    text = "\n".join(
-        printed(
-            "LIST 3 ; LIST 2.5 ; LIST VRAI ; LIST 'abc' ; LIST (LECT 1 2) ; LIST (MOTS 'UX') ; "
-            "T = TABL ; T . 'A' = 4 ; LIST T ; "
-            "E = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 3.) ; LIST E ; "
-            "X = 7 ; LIST *ENTIER ;"
-        )
-    )
-    for part in ("of value: 3", "2.50000", "VRAI", "abc", "UX", "3.00000E+00", "X "):
-        assert part in text
-
-
 def test_object_with_methods_keeps_its_state(found):
     values = found(
         "DEBM NAIT X*ENTIER ; %N = X ; %METHODE AJOUTE PLUS ; FINM ; "
@@ -153,25 +139,6 @@ def test_inherited_method_runs_on_the_heir(found):
         )
         == 2
     )
-
-
-def test_numbers_behind_list_choose_what_is_printed():
-    def printed(text):
-        return ran(text).output.rstrip("\n").split("\n")
-
-    assert [len(r.split()) for r in printed("LIST (PROG 1. PAS 1. 7.) 3 ;")[1:]] == [3, 3, 1]
-    assert [len(r.split()) for r in printed("LIST (LECT 1 PAS 1 25) 12 ;")[1:]] == [12, 12, 1]
-    deck = "DEBP P1 A*FLOTTANT ;\n  B = A * 2. ;\n  MESS B ;\nFINP B ;\n"
-    assert printed(deck + "LIST P1 2 ;")[1:] == ["    2    B = A * 2. ;"]
-    assert [r[4] for r in printed(deck + "LIST P1 2 3 ;")[1:]] == ["2", "3"]
-
-
-def test_tables_in_tables_are_printed_as_deep_as_said():
-    tables = "T = TABL ; T . 1 = TABL ; T . 1 . 2 = TABL ; T . 1 . 2 . 'DEEP' = 7 ; T . 3 = T ;\n"
-    found = [run_text(tables + f"LIST T{n} ;").output for n in ("", " 1", " 2", " 99")]
-    assert ["DEEP" in text for text in found] == [False, False, True, True]
-    assert found[1].count("Table of") == 2
-    assert found[2] == found[3]  # a table that holds itself ends there
 
 
 @pytest.mark.parametrize("count", [-1, 10**9])

@@ -43,13 +43,6 @@ def test_an_empty_text_vanishes(run):
     assert run("t = TEXT ' ' ; x = PROG 1. t 2. ; n = DIME x ;")["n"] == 2
 
 
-def test_list_prints_the_value(run):
-    text = "\n".join(run("LIST 3 ; LIST 2.5 ; LIST 'abc' ; LIST VRAI ;").lines)
-    assert "3" in text
-    assert "2.5" in text
-    assert "abc" in text
-
-
 def test_erre_with_a_text_fails(fails):
     assert fails("«ERRE» 'out of range' ;") == "erre"
 
@@ -83,8 +76,3 @@ def test_a_text_spells_the_values_of_words_and_numbers(run):
         "X = TEXT I W T . 1 ; I = 9 ; Y = X ;"
     )
     assert script["Y"] == 20
-
-
-def test_list_shows_a_text_as_it_stands(run):
-    lines = run("I = 2 ; X = 9 ; T = TEXT I 'TIMES' 3 'X' ; LIST T ;").lines
-    assert lines == ["Text: 2 TIMES 3 X"]
