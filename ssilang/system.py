@@ -1,4 +1,4 @@
-"""What systems do each in their own way: the only module that names what POSIX alone has.
+"""What systems do and say each in their own way: the one module with names of POSIX alone.
 
 Where a name is missing its substitute stands beside it: Windows' locks for `flock`, a seek and a
 write for `pwrite`. Modules and functions that a system may lack are looked up when this module is

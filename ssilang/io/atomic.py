@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all: write aside, then rename."""
+"""Files that appear whole or not at all, under names that every system takes, below one folder."""
 
 from __future__ import annotations
 

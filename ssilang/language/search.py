@@ -1,4 +1,4 @@
-"""Search in what help knows: names, summaries, texts, in both languages, ranked."""
+"""Search in what help knows, ranked, and the known name that a misspelt word means."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Colours of messages on a terminal (never in files or pipes, nor when NO_COLOR is set)."""
+"""Colours of messages on a terminal, and a pager for long texts; files and pipes get neither."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sums, products and functions of fields in cells, block by block."""
+"""Sums, products and functions of fields in cells, block by block; fields of curves."""
 
 from __future__ import annotations
 

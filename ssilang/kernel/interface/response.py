@@ -1,4 +1,4 @@
-"""Forces and stiffness of an interface as functions of its jumps, compiled."""
+"""Forces and stiffness of an interface by its jumps, compiled; tractions that conserve energy."""
 
 from __future__ import annotations
 

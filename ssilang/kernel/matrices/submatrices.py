@@ -1,4 +1,4 @@
-"""Parts of a matrix: nodes, unknowns, diagonal, symmetric halves, blocks by name or by mesh."""
+"""Parts of a matrix: nodes, their mesh, unknowns, diagonal, halves, blocks by name or by mesh."""
 
 from __future__ import annotations
 

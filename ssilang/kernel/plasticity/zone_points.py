@@ -1,4 +1,4 @@
-"""The plastic points of a zone, by its kind: bodies and bars, beams of fibres, layered shells."""
+"""The plastic points of a zone by its kind, and the compiled passes over them by its law."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Filters of records: Butterworth's, causal or without phase, and polynomials of the velocity.
+"""Filters and integration of records: Butterworth's, polynomials of the velocity, baselines.
 
 Boore & Akkar, Bull. Seism. Soc. Am. 93 (2003) and Boore, 95 (2005): a filter that runs forth and
 back needs zeros before and after the record, 1.5 n / f of its low corner.

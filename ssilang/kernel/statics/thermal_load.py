@@ -1,4 +1,4 @@
-"""Free strains in a load (temperatures, given strains), as forces and as stresses to take off."""
+"""Free strains and pressures in a load, as nodal forces; the stresses to take off."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A perfectly matched layer round a box in plane strain: edges that absorb waves of any incidence.
+"""A perfectly matched layer round a box in plane strain, and its histories of stress.
 
 Coordinates beyond the box are stretched, `s_j = alpha_j + beta_j / (i omega)` along each axis, so
 that waves fade on their way and none is reflected at the box before the mesh is made (Berenger

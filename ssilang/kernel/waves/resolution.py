@@ -1,4 +1,4 @@
-"""Whether a mesh carries the waves of a record: elements against wavelengths."""
+"""Whether a mesh carries the waves of a record, and which of its edges send them back."""
 
 from __future__ import annotations
 

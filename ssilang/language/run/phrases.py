@@ -1,4 +1,4 @@
-"""Phrases: operands in a pile, the first unread word tried as an operator or a procedure."""
+"""Phrases: operands in a pile, the first unread word tried as an operator; errors there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""DEFO VECT ANNO: deformed shapes, arrows and texts for TRAC; their unions."""
+"""DEFO VECT ANNO: shapes, arrows and texts for TRAC; COUL of them and of curves; their unions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""NUAG: clouds, and clouds in EXTR DIME REDU LIST."""
+"""NUAG: clouds, clouds in EXTR DIME REDU LIST, and IPOL in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Vectors and tensors held by fields, turned by a rotation."""
+"""Vectors and tensors of fields turned by a rotation; DFOU: a Fourier harmonic at an angle."""
 
 from __future__ import annotations
 

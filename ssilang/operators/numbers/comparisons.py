@@ -1,4 +1,4 @@
-"""EGA NEG < > <EG >EG: comparisons give a LOGIQUE."""
+"""EGA NEG < > <EG >EG give a LOGIQUE, ET OU NON join them; MULT."""
 
 from __future__ import annotations
 

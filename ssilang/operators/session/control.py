@@ -1,4 +1,4 @@
-"""QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on, what procedures read and give."""
+"""QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on; INFO NOTI AIDE SOUC: what is told."""
 
 from __future__ import annotations
 

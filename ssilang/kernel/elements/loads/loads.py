@@ -1,4 +1,4 @@
-"""Nodal forces of pressures, surface tractions and body forces."""
+"""Nodal forces of pressures, tractions, body forces, and of what is spread along beams and bars."""
 
 from __future__ import annotations
 

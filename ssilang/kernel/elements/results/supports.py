@@ -1,4 +1,4 @@
-"""Fields in cells carried from one support to another, and to and from nodes."""
+"""Fields in cells carried to other supports and nodes, or restricted to a mesh or a model."""
 
 from __future__ import annotations
 

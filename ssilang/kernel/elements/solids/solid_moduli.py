@@ -1,4 +1,4 @@
-"""Elastic moduli of the continuous elements of a zone, from its material parameters."""
+"""Elastic moduli of continuous elements from material parameters; Hooke matrices as fields."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shear stress over shear strain under a first loading: curves of G/Gmax, and the hyperbola."""
+"""Curves of a first loading: G/Gmax and the hyperbola in shear, hardening from a tension test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Meshes of curves: straight lines, polylines and any parametrised curve."""
+"""Meshes of curves: straight, broken, parametrised; the shortest way along a network of lines."""
 
 from __future__ import annotations
 

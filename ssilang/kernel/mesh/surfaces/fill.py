@@ -1,4 +1,4 @@
-"""Points put inside a plane contour so that its triangulation has a wanted size."""
+"""A plane contour filled: points inside for a wanted size, and a cut in two where it is narrow."""
 
 from __future__ import annotations
 

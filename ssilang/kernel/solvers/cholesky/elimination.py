@@ -1,4 +1,4 @@
-"""Elimination of linear conditions `C u = d` from a system, exactly and sparsely.
+"""Elimination of conditions `C u = d`, and of small negative groups before a Cholesky factor.
 
 A condition gives one of its unknowns (the slave) by the others: `u = T q + P d`, where q are the
 unknowns that stay. `T^T K T` is then as symmetric and positive as K on the admissible motions.

@@ -1,4 +1,4 @@
-"""Conjugate gradients with algebraic multigrid, where a factor would take too much memory or time.
+"""Krylov iterations with algebraic multigrid, where a factor would take too much memory or time.
 
 Smoothed aggregation (Vanek, Mandel, Brezina 1996) needs the motions that cost next to no energy:
 the rigid ones of the body, given at each unknown. The levels are of single precision, the iteration

@@ -1,4 +1,4 @@
-"""Conditions of a time-stepping problem, eliminated: `u = T q + particular(d)`.
+"""Conditions eliminated, `u = T q + particular(d)`; damping split by mass and stiffness.
 
 Non-associated relations (RELA ... 'DUAL') push by `D^T lambda` with rows D that are not C:
 equilibrium then holds on the motions V that D leaves, `V^T (K u - F) = 0`.

@@ -1,4 +1,4 @@
-"""ZOPL: the ground's motion under a plane wave, behind the procedure @ONDE."""
+"""ZOPL ZPML: plane waves and matched layers, behind the procedures @ONDE and @PML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Meshes of other cells, or given node by node: CHAN MANU."""
+"""Cells of meshes: CHAN MANU, colours by COUL AFCO, and RAFF to sizes wanted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Straight and broken lines: DROI LIGN QUEL."""
+"""Lines: DROI LIGN QUEL, and INTE where two simple surfaces cross."""
 
 from __future__ import annotations
 

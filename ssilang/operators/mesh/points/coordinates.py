@@ -1,4 +1,4 @@
-"""COOR: coordinates of points, of nodes and of integration points."""
+"""Points and coordinates: COOR NOEU CONF BARY."""
 
 from __future__ import annotations
 

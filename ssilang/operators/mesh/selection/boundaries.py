@@ -1,4 +1,4 @@
-"""Boundaries of meshes: CONT ENVE ARET."""
+"""Boundaries of meshes: CONT ENVE ARET, and the sides kept from their making: COTE FACE."""
 
 from __future__ import annotations
 

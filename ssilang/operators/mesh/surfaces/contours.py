@@ -1,4 +1,4 @@
-"""Surfaces inside contours: SURF DALL."""
+"""Surfaces inside contours and cuts of them: SURF DALL COUP FUIT ISOV."""
 
 from __future__ import annotations
 

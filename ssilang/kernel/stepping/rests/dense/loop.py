@@ -1,4 +1,4 @@
-"""The whole time loop, compiled, for small systems with dense matrices."""
+"""Small problems as dense arrays, and their whole time loop, compiled."""
 
 from __future__ import annotations
 
