@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ssilang.kernel.interface.mean_traction import mean_response
+from ssilang.kernel.interface.response import mean_response
 
 from ssilang.kernel.interface.laws.columns import (
     N_PARAMETERS,
