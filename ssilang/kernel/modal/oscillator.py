@@ -172,11 +172,11 @@ def spectrum(
         times, signal = sampled(times, signal, wanted)
     w = oscillators.w
     largest = np.zeros(len(w))
-    for x, v in oscillators.march(times, signal):
+    looked_at = np.isin(times, times if wanted is None else wanted)
+    for (x, v), looks in zip(oscillators.march(times, signal), looked_at, strict=True):
         seen = w**2 * x + 2.0 * damping * w * v if kind == "ACCA" else x
-        np.maximum(largest, np.abs(seen), out=largest)
-    power = {"DEPL": 0, "VITE": 1, "ACCE": 2, "ACCA": 0}[kind]
-    return np.asarray(largest * w**power)
+        np.maximum(largest, looks * np.abs(seen), out=largest)
+    return np.asarray(largest * w ** {"DEPL": 0, "VITE": 1, "ACCE": 2, "ACCA": 0}[kind])
 
 
 def rested(times: FloatArray, signal: FloatArray, slowest: float) -> tuple[FloatArray, FloatArray]:

@@ -109,14 +109,11 @@ def probing_step(
     _no_fibres(zone)
     if is_joint(zone):
         return _joint_probe(zone, material, stress, precision)
-    family, parameters = family_of(zone), zone_field(zone, material)
     if not is_plastic(zone):
-        return np.zeros((len(stress), len(family.strain_names(zone)), stress.shape[2]))
+        return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     points = plastic_points(zone, material)
     raised = section_stress(points, stress) * precision
-    step = np.einsum("mij,mj->mi", points.parameters.compliance, raised)
-    del parameters
-    return points.gathered(step)
+    return points.gathered(np.einsum("mij,mj->mi", points.parameters.compliance, raised))
 
 
 # ---- elasticity -----------------------------------------------------------------------------

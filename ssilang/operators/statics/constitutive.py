@@ -166,10 +166,14 @@ class _StateRead:
     precision: float
 
     def tangent(self, zone: Zone) -> Answer:
-        """The law's tangent at this state."""
+        """The law's tangent at this state: over the shortest of the steps that make it yield."""
         stress, variables = _stresses_of(zone, self.stress), zone_field(zone, self.variables)
         step = probing_step(zone, self.material, stress, variables, self.precision)
-        return respond(zone, self.material, stress, variables, step)
+        share, small = np.ones_like(step[:, :1]), 1e-6 * np.abs(step).max(axis=1, keepdims=True)
+        for less in 0.5 ** np.arange(1, 11):
+            tried = respond(zone, self.material, stress, variables, (share - less) * step)
+            share -= less * (sum(np.abs(v)[:, None] for v in tried.inelastic.values()) > small)
+        return respond(zone, self.material, stress, variables, share * step)
 
 
 _STATE = (
@@ -241,8 +245,7 @@ def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> Elemen
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     """Tangent stiffness."""
     read = _state_read(call, **state)
-    answers = [read.tangent(z) for z in read.model.zones]
-    tangents = [(a.tangent, a.symmetric) for a in answers]
+    tangents = [(a.tangent, a.symmetric) for a in map(read.tangent, read.model.zones)]
     return _tangent_matrix(read.model, tangents, read.material, symmetric)
 
 
