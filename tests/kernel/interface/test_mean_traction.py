@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from ssilang.kernel.interface.response import mean_response
 
 from ssilang.kernel.interface.laws.columns import (
     N_PARAMETERS,
@@ -11,7 +10,7 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
 )
 from ssilang.kernel.interface.laws.point_laws import point_energies
-from ssilang.kernel.interface.response import InterfaceState, Joints, new_trial
+from ssilang.kernel.interface.response import InterfaceState, Joints, mean_response, new_trial
 
 KN, KS = 3e8, 1.1e8
 LAWS = {
