@@ -170,7 +170,7 @@ class _StateRead:
         stress, variables = _stresses_of(zone, self.stress), zone_field(zone, self.variables)
         step = probing_step(zone, self.material, stress, variables, self.precision)
         share, small = np.ones_like(step[:, :1]), 1e-6 * np.abs(step).max(axis=1, keepdims=True)
-        for less in 0.5 ** np.arange(1, 11):
+        for less in 0.5 ** np.arange(1, 11) if step.any() else ():
             tried = respond(zone, self.material, stress, variables, (share - less) * step)
             share -= less * (sum(np.abs(v)[:, None] for v in tried.inelastic.values()) > small)
         return respond(zone, self.material, stress, variables, share * step)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal
 
@@ -186,17 +187,21 @@ def model_on_mesh(model: Model, mesh: Mesh) -> Model:
     """
     zones: list[Zone] = []
     for zone in model.zones:
-        for block in mesh.blocks:
-            rows = cell_rows(zone.cells, block)
-            kept = rows[rows >= 0]
-            if not len(kept):
-                continue
+        for kept in _rows_in(mesh, zone.cells):
             same = len(kept) == len(zone.cells) and np.array_equal(kept, np.arange(len(kept)))
             cells = zone.cells if same else _picked(zone.cells, kept)
             zones.append(replace(zone, cells=cells))
     if not zones:
         raise FieldError("kernel.elements.no-cell-mesh-belongs")
     return Model(tuple(zones))
+
+
+def _rows_in(mesh: Mesh, cells: CellBlock) -> Iterator[IntArray]:
+    """Rows of cells that a mesh has, for each of its blocks that has some."""
+    for block in mesh.blocks:
+        rows = cell_rows(cells, block)
+        if (kept := rows[rows >= 0]).size:
+            yield kept
 
 
 def _picked(cells: CellBlock, rows: np.ndarray) -> CellBlock:
@@ -207,11 +212,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
     """Blocks of a field in cells restricted to the cells of a mesh."""
     blocks = []
     for block in field.blocks:
-        for wanted in mesh.blocks:
-            rows = cell_rows(block.cells, wanted)
-            kept = rows[rows >= 0]
-            if not len(kept):
-                continue
+        for kept in _rows_in(mesh, block.cells):
             full = {
                 n: np.broadcast_to(v, (len(block.cells), v.shape[1]))[kept]
                 for n, v in block.components.items()
