@@ -605,7 +605,7 @@ def try_all(
             apart = compiled(fault) or fault.path.startswith(SERVED)
             (cold if apart else warm).append((fault, tests, words))
     for (fault, tests, words), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
-        if once or WORDS.get(said.split()[0]) == "noticed":
+        if (once and said != NOT_SO) or WORDS.get(said.split()[0]) == "noticed":
             tell(fault, said)
         else:
             cold.append((fault, tests, words))

@@ -99,8 +99,8 @@ def assert_field(field, wanted):
 def test_a_phrase_gives_its_value(sessions, group, phrase):
     session = sessions(group)
     said, _, asked = phrase.rpartition(";")
-    execute(session, Source("phrase", f"{said + ' ; ' if said else ''}R = {asked} ;"))
-    found = session.root.find("R")
+    execute(session, Source("phrase", f"{said + ' ; ' if said else ''}ZZ = {asked} ;"))
+    found = session.root.find("ZZ")
     wanted = eval(GROUPS[group][phrase], KNOWN)
     if isinstance(found, NodeField | CellField):
         assert_field(found, wanted)
