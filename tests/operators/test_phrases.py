@@ -25,7 +25,7 @@ from ssilang.language.values import Table
 from ssilang.operators.workspace import workspace
 
 GROUPS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special}
+KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
 ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
 
 
@@ -74,10 +74,10 @@ def assert_plain(found, wanted):
         assert len(found) == len(wanted), found
         for one, other in zip(found, wanted, strict=True):
             assert_plain(one, other)
-    elif isinstance(wanted, str | bool):
-        assert found == wanted
-    else:
+    elif isinstance(wanted, int | float | np.number) and not isinstance(wanted, bool):
         assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+    else:
+        assert found == wanted
 
 
 def assert_field(field, wanted):
