@@ -189,10 +189,18 @@ def test_lists_of_objects_join_objects_of_their_type(found, refused):
     assert "one type" in refused("L = (ENUM (PROG 1.)) «ET» 'a' ;")
 
 
-def test_lists_of_objects_that_would_fill_the_memory_are_refused(refused, monkeypatch):
-    monkeypatch.setattr(progressions, "LONGEST", 1_000_000)  # objects take a while to be made
-    told = refused("L = ENUM (PROG 1.) ; REPE B 60 ; L = L «ET» L ; FIN B ;")
-    assert "too long, the limit is 1000000" in told
+@pytest.mark.parametrize(
+    "phrase",
+    ["PROG 3. 6 * 1.", "PROG 3. PAS 1. 9.", "PROG 3. PAS 1. NPAS 6", "LECT 6 * 1", "MOTS 6 * 'a'",
+     "ENUM 6 * 1", "L «ET» L", "L «ET» (LECT 1 2)", "I «ET» I", "I ET 1 ET 2", "W «ET» W",
+     "(ENUM L L) «ET» (ENUM L L L L)", "(SUIT U U U) «ET» (SUIT U U U)", "CHAI 'abc' 1234",
+     "CHAI 'ab' >6 'c'"],
+)  # fmt: skip
+def test_lists_and_words_that_would_fill_the_memory_are_refused(refused, monkeypatch, phrase):
+    before = "L = PROG 1. 2. 3. 4. ; I = LECT 1 2 3 4 ; W = MOTS 'a' 'b' 'c' ; "
+    before += "U = MANU CHPO (0. 0.) 1 UX 1. ; "
+    monkeypatch.setattr(progressions, "LONGEST", 5)
+    assert "too long, the limit is 5" in refused(f"OPTI DIME 2 ; {before}Z = {phrase} ;")
 
 
 def test_steps_at_the_head_of_a_list_start_from_a_zero_left_out(found):
