@@ -285,7 +285,9 @@ def drawn(count: int, seed: int, under: list[str]) -> tuple[list[Fault], str]:
             if fault.is_one():
                 chosen.append(fault)
                 break
-    share = f"{len(places)} of {total} lines of {' '.join(under)} ({100 * len(places) / total:.0f} %)"
+    share = (
+        f"{len(places)} of {total} lines of {' '.join(under)} ({100 * len(places) / total:.0f} %)"
+    )
     return chosen, share
 
 
