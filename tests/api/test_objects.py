@@ -205,7 +205,8 @@ def test_examples_in_docstrings_run(module):
 
 SHOWN = """
 OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; P = 2. 3. ; L = DROI 2 (0. 0.) (4. 0.) ;
-S = TRAN 3 L (0. 3.) ; S = S ET (MANU 'TRI3' (0. 0.) (1. 0.) P) ; M = MODE S 'MECANIQUE' 'ELASTIQUE' ; U = COOR 1 S ;
+S = TRAN 3 L (0. 3.) ; S = S ET (MANU 'TRI3' (0. 0.) (1. 0.) P) ;
+M = MODE S 'MECANIQUE' 'ELASTIQUE' ; U = COOR 1 S ;
 C = (MANU 'CHML' M 'A' 2.) ET (MANU 'CHML' M 'B' 3.) ; R = PROG 3. -1.25 ; W = MOTS 'one' 'two' ;
 E = EVOL 'MANU' 't' (PROG 1. 3.) 'y' (PROG 5. 0.25) ; T = TABL 'KIND' ; T . 7 = R ; T . 'x' = VRAI ;
 T . 2.5 = 'word' ; T . P = -3 ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.) ; V = TABL ; F = SUIT U U ;
