@@ -16,7 +16,10 @@ that imports the module with the fault. A mutant that all pass is a survivor and
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
 what calls it, or the word of the operator or procedure that does; rare names count more. What the
-data of a file of tests name (`.toml` of its name, a folder that it names) is named by that file.
+data of a file of tests name (`.toml` of its name, a folder that it names) is named by that file; a
+further form of an operator is found by the operator's word. Where nothing is near, the tests of the
+room are taken; a mutant that no test tried is told as NONE and not counted. Faults of the language
+server get a process of their own, since its tests speak to a server that imports the copy.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
