@@ -15,7 +15,9 @@ def test_long_curves_keep_their_extremes_and_ends(monkeypatch):
     y = np.sin(3 * x) + x
     y[[37, 64]] = -50.0, 90.0
     y[[12, 13]] = np.nan
-    made = thinned_drawing({"title": "t"}, [{"name": "b", "x": x, "y": y}, {"name": "a", "x": x[:3], "y": y[:3]}])
+    made = thinned_drawing(
+        {"title": "t"}, [{"name": "b", "x": x, "y": y}, {"name": "a", "x": x[:3], "y": y[:3]}]
+    )
     long, short = made["curves"]
     assert (made["title"], long["name"], short["name"]) == ("t", "b", "a")
     assert short["x"] == pytest.approx(x[:3], rel=1e-6)
@@ -28,7 +30,9 @@ def test_long_curves_keep_their_extremes_and_ends(monkeypatch):
     for edge in range(10):  # ten equal stretches: each has its lowest and highest point
         at = slice(edge * 101 // 10, (edge + 1) * 101 // 10)
         for extreme in (np.nanmin(y[at]), np.nanmax(y[at])):
-            assert extreme == pytest.approx(min(long["y"], key=lambda v: abs(v - extreme)), rel=1e-6)
+            assert extreme == pytest.approx(
+                min(long["y"], key=lambda v: abs(v - extreme)), rel=1e-6
+            )
 
 
 def test_a_curve_as_long_as_allowed_stays_whole(monkeypatch):

@@ -11,7 +11,7 @@ TIME = np.array([0.0, 0.5, 2.0])
 
 
 def _told(code, **data):
-    return code + "".join(f"/{v}" for v in data.values())
+    return f"@{data['number']}" if "number" in data else code + "".join(data.values())
 
 
 def _column(number):
@@ -41,12 +41,12 @@ def _calculation(**changed):
 @pytest.mark.parametrize(
     ("title", "y", "names", "factor"),
     [
-        ("report.share · report.footing-number/1", "report.share (%)", ["share_1"], 100),
-        ("report.share · report.footing-number/2", "report.share (%)", ["share_2"], 100),
-        ("report.toe-pressure · report.footing-number/2", "report.toe-pressure (Pa)", ["pressure_2"], 1),
-        ("report.footing-opening · report.footing-number/1", "report.footing-opening (m)", ["opening_1"], 1),
-        ("report.force · report.footing-number/2", "report.force (N)", ["force_2"], 1),
-        ("report.rotation · report.footing-number/1", "report.rotation (rad)", ["rotation_Y_1", "rotation_X_1"], 1),
+        ("report.share · @1", "report.share (%)", ["share_1"], 100),
+        ("report.share · @2", "report.share (%)", ["share_2"], 100),
+        ("report.toe-pressure · @2", "report.toe-pressure (Pa)", ["pressure_2"], 1),
+        ("report.footing-opening · @1", "report.footing-opening (m)", ["opening_1"], 1),
+        ("report.force · @2", "report.force (N)", ["force_2"], 1),
+        ("report.rotation · @1", "report.rotation (rad)", ["rotation_Y_1", "rotation_X_1"], 1),
         ("report.energies", "report.energy (J)", ["CINETIQUE", "DISSIPEE"], 1),
     ],
 )  # fmt: skip
@@ -65,7 +65,7 @@ def test_loops_are_moments_over_rotations_of_their_own_axis():
     charts = charts_of(_results([_calculation()]), _told)
     (loops,) = [c for c in charts if c.title.startswith("report.loops")]
     assert (loops.x, loops.y, loops.loop) == ("report.rotation (rad)", "report.moment (N.m)", True)
-    assert [line.name for line in loops.lines] == ["report.about/Y", "report.about/X"]
+    assert [line.name for line in loops.lines] == ["report.aboutY", "report.aboutX"]
     for line, axis in zip(loops.lines, "YX", strict=True):
         assert np.array_equal(line.x, COLUMNS[f"rotation_{axis}_1"])
         assert np.array_equal(line.y, COLUMNS[f"moment_{axis}_1"])
@@ -78,7 +78,7 @@ def test_one_instant_is_no_history_and_two_calculations_are_numbered():
     one = _calculation(footings=FOOTINGS[1:], name="Z")
     titles = [c.title for c in charts_of(_results([one, _calculation(name="A")], system=""), _told)]
     assert "report.share · Z 1" in titles
-    assert "report.share · A 2 · report.footing-number/1" in titles
+    assert "report.share · A 2 · @1" in titles
 
 
 def test_drawings_keep_their_axes_and_names():
@@ -87,7 +87,9 @@ def test_drawings_keep_their_axes_and_names():
                 "curves": [{"name": None, "x": [1, 2], "y": [3, None]},
                            {"name": "n", "x": [2, 1], "y": [5, 6]}]} | more  # fmt: skip
 
-    results = _results([], [drawing("Z"), drawing(""), drawing("gone", curves=[])], [[drawing("V", loop=True)]])
+    results = _results(
+        [], [drawing("Z"), drawing(""), drawing("gone", curves=[])], [[drawing("V", loop=True)]]
+    )
     charts = charts_of(results, _told)
     assert [(c.title, c.group, c.log, c.loop) for c in charts] == [
         ("Z", "curves", (True, False), False), ("z.png", "curves", (True, False), False),

@@ -1,4 +1,4 @@
-"""Ground motions of every format from texts as databases write them; what a suite has not in common."""
+"""Ground motions of every format as databases write them; what suites have not in common."""
 
 import numpy as np
 import pytest
@@ -52,7 +52,8 @@ def test_the_first_motion_of_a_file(tmp_path, name):
 def test_two_records_of_one_file(tmp_path):
     from ssilang.io.ground_motions.cosmos import read_cosmos
 
-    second = COSMOS.replace("NEAR", "FAR").replace("7 veloc", "5 displ").replace("2.0000E-02", "5.0000E-02").replace("2.000000E-02", "5.000000E-02")  # fmt: skip
+    second = COSMOS.replace("NEAR", "FAR").replace("7 veloc", "5 displ")
+    second = second.replace("2.000000E-02", "5.000000E-02")
     (tmp_path / "m.v1").write_text(COSMOS + second)
     first, other = read_cosmos(tmp_path / "m.v1")
     assert (first.event, other.event) == ("NEAR QUAKE", "FAR QUAKE")

@@ -126,7 +126,9 @@ def test_med_has_a_family_for_each_set_of_groups(tmp_path: Path) -> None:
     write_mesh_file(path, _mesh("flat"), 2)
     read = meshio.read(path)
     assert np.allclose(read.points, POINTS[:, :2])
-    tags = {b.type: t.tolist() for b, t in zip(read.cells, read.cell_data["cell_tags"], strict=True)}
+    tags = {
+        b.type: t.tolist() for b, t in zip(read.cells, read.cell_data["cell_tags"], strict=True)
+    }
     names = {k: [set(read.cell_tags.get(t, ())) for t in row] for k, row in tags.items()}
     assert names == {
         "quad": [{"MIXED"}, {"ZONE"}],

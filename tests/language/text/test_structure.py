@@ -79,7 +79,8 @@ def _shape(nodes):
 @pytest.mark.parametrize(
     ("text", "shape"),
     [
-        ("SI (A > 1) ; B ; SINON ; C ; D ; FINSI ; E ;", [["SI", "(A > 1)", ["B"], ["C", "D"]], "E"]),
+        ("SI (A > 1) ; B ; SINON ; C ; D ; FINSI ; E ;",
+         [["SI", "(A > 1)", ["B"], ["C", "D"]], "E"]),
         ("SI A ; SI B ; C ; FINSI ; 3 SINON ; D ; FINSI ;",
          [["SI", "A", [["SI", "B", ["C"], []]], ["D"]]]),
         ("REPE ZB 3 ; A ; REPE 2 AB ; B ; FIN AB ; C ; FIN ZB ; D ;",
