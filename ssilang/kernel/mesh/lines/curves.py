@@ -27,6 +27,14 @@ def unit_vector(vector: FloatArray, code: str) -> FloatArray:
     return unit
 
 
+def plane_normal(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    """Unit normal of the plane through three points (3,); an error where they are in line."""
+    arms = [unit_vector(p - a, "kernel.mesh.three-points-plane-line") for p in (b, c)]
+    normal = np.cross(*arms)
+    off = np.linalg.norm(normal) > 1e-12
+    return unit_vector(normal * off, "kernel.mesh.three-points-plane-line")
+
+
 @dataclass(frozen=True, slots=True)
 class Arc:
     """A circular arc.
