@@ -94,7 +94,7 @@ def test_a_size_is_linear_between_points_and_never_below_the_least():
     w = np.random.default_rng(1).dirichlet(np.ones(3), 9)
     np.testing.assert_allclose(size(w @ p[:3]), w @ [0.2, 1.0, 0.5])
     far = size(np.array([[-2.0, -2.0], [9.0, 9.0]]))
-    assert (far >= 0.2).all() and (far < 1.4).all() and far[1] > far[0]
+    assert 1.4 > far[1] > far[0] >= 0.2
     found = fill.boundary_sizes(p[:3], np.array([[0, 1], [1, 2], [2, 0]]))
     np.testing.assert_allclose(found, [3.5, 4.5, 4.0])
 
@@ -114,7 +114,7 @@ def test_triangles_fill_a_triangle_on_its_lattice():
     rim = along(6 * np.array([[0, 0], [1, 0], [0.5, 0.75**0.5]]), 1.0)
     size = fill.SizeField(rim, np.ones(len(rim)))
     points, triangles = fill.fill_contour(rim, ring(len(rim)), size, False)
-    assert len(points) == 28 and len(triangles) == 36
+    assert (len(points), len(triangles)) == (28, 36)
     for i, j in sides(triangles):
         assert np.linalg.norm(points[i] - points[j]) == pytest.approx(1.0)
 
@@ -130,7 +130,8 @@ def test_a_crooked_contour_is_filled_by_its_sizes(squares):
     points, triangles = fill.fill_contour(rim, segments, size, squares)
     np.testing.assert_array_equal(points[: len(rim)], rim)
     areas = doubled_areas(points, triangles)
-    assert (areas > 0).all() and areas.sum() / 2 == pytest.approx(shoelace(corners))
+    assert (areas > 0).all()
+    assert areas.sum() / 2 == pytest.approx(shoelace(corners))
     assert {tuple(sorted(s)) for s in segments.tolist()} <= sides(triangles)
     h = size(points[triangles].mean(axis=1))
     usual = h**2 * (1.0 if squares else 0.75**0.5)
@@ -292,7 +293,8 @@ def test_triangles_are_refined_to_the_sizes_asked_for_below_a_number_of_nodes():
     for made in (fine, few):
         x = made.single_block().coordinates
         area = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])[:, 2] / 2
-        assert (area > 0).all() and area.sum() == pytest.approx(12.0)
+        assert (area > 0).all()
+        assert area.sum() == pytest.approx(12.0)
         assert set(ids.tolist()) <= set(made.node_ids.tolist())
     x = fine.single_block().coordinates[..., :2]
     size = fill.SizeField(nodes.coordinates[ids, :2], sizes)
@@ -315,7 +317,8 @@ def test_points_are_triangulated_as_delaunay_says(dimension):
     made = delaunay_mesh(Mesh.of(nodes, "POI1", ids[3:][:, None]), dimension, 5).single_block()
     p = made.coordinates[..., :dimension]
     arms = p[:, 1:] - p[:, :1]
-    assert (np.linalg.det(arms) > 0).all() and set(made.colours.tolist()) == {5}
+    assert (np.linalg.det(arms) > 0).all()
+    assert set(made.colours.tolist()) == {5}
     half = 0.5 * (arms**2).sum(axis=2)
     centre = np.linalg.solve(arms, half[..., None])[..., 0]
     radius = np.linalg.norm(centre, axis=1)
