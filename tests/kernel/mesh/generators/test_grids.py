@@ -115,7 +115,7 @@ def test_faces_that_close_no_block_are_refused(changed, match):
         fill_block(changed(Brick().faces(0)))
 
 
-# --- surfaces --------------------------------------------------------------------------------------
+# --- surfaces --------------------------------------------------------------------------------
 
 
 def four_sides(quadratic):
@@ -208,7 +208,7 @@ def test_polynomial_surfaces_have_their_nodes_on_them(kind, regular):
         mesh_polynomial_surface(nodes, flat, 0.5, kind)
 
 
-# --- sweeps ----------------------------------------------------------------------------------------
+# --- sweeps --------------------------------------------------------------------------------
 
 
 def floor(degree=1):
