@@ -215,7 +215,7 @@ def test_sides_loaded_by_a_field_are_the_outer_ones_that_it_covers(mode):
         loads.loaded_faces(b.model, inside)
 
 
-# --- what a field in cells says on a zone -----------------------------------------------------------
+# --- what a field in cells says on a zone --------------------------------------------------
 
 
 def test_values_of_several_blocks_are_put_together_cell_by_cell():
