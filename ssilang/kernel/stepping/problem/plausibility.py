@@ -198,11 +198,12 @@ def swings(problem: Problem) -> list[Swing]:
     if not K.any() or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
     try:
-        motions = np.linalg.solve(K, forces)
+        motions, share = np.linalg.solve(K, forces), 1.0
     except np.linalg.LinAlgError:
+        share = UNHELD
         motions = np.linalg.solve(K + FREE * np.abs(K).max() * np.eye(len(K)), forces)
     soft = np.abs(motions).max(axis=0) * np.abs(K).max() * FREE
-    free = soft > UNHELD * np.abs(forces).max(axis=0)
+    free = soft > share * np.abs(forces).max(axis=0)
     found = []
     for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
