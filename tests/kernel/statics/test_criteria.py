@@ -8,6 +8,9 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface import family as _joints  # noqa: F401
+from ssilang.kernel.interface.laws.columns import N_STATE
+from ssilang.kernel.interface.laws.law_table import LAWS as LAW_TABLE
+from ssilang.kernel.interface.laws.law_table import shown_variables, state_of
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -166,3 +169,24 @@ def test_dilatant_joints_slide_on_coulombs_line(space):
     shear, normal = np.linalg.norm(t[0, : d - 1], axis=0), t[0, d - 1]
     sliding = shear + normal * np.tan(np.pi / 6) - 2.0
     np.testing.assert_allclose(found[0], np.maximum(sliding, normal - 0.7))
+
+
+@pytest.mark.parametrize("word", [w for w, law in LAW_TABLE.items() if law.variables])
+def test_states_are_what_their_variables_show(word):
+    """Of a variable that sums several columns the first one takes what the others leave."""
+    zone, _ = joint(word, True)
+    law = LAW_TABLE[word]
+    state = np.random.default_rng(3).uniform(0.1, 1.0, (1, 3, N_STATE))
+    shown = shown_variables(law, state, 3)
+    back = state_of(law, zone_field(zone, field_of(zone, shown)), (1, 3))
+    again = shown_variables(law, back.reshape(1, 3, N_STATE), 3)
+    for name, values in shown.items():
+        single = len(law.variables[name]) == 1
+        np.testing.assert_allclose(again[name] if single else values, values)
+        if single:
+            np.testing.assert_allclose(back[:, law.variables[name][0]], values.ravel())
+    for first, *others in law.variables.values():
+        if others:
+            own = [columns for columns in law.variables.values() if columns[0] == first][-1]
+            total = state[0][:, list(own)].sum(axis=1) - back[:, list(own[1:])].sum(axis=1)
+            np.testing.assert_allclose(back[:, first], total)

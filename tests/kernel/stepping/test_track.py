@@ -434,6 +434,7 @@ def test_multipliers_of_relations_are_followed(rule, monkeypatch):
     integrate(problem, [recorder, few, every])
     exact = np.array([s.displacement.components["LX"].at(marks) for s in recorder.snapshots])
     assert (np.abs(exact).max(axis=0) > 0.0).all()
+    assert np.isfinite(exact).all()
     scale = np.abs(exact).max()
     for j, mark in enumerate(marks.tolist()):
         for track in (few, every):
