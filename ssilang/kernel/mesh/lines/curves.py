@@ -29,10 +29,9 @@ def unit_vector(vector: FloatArray, code: str) -> FloatArray:
 
 def plane_normal(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     """Unit normal of the plane through three points (3,); an error where they are in line."""
-    arms = [unit_vector(p - a, "kernel.mesh.three-points-plane-line") for p in (b, c)]
-    normal = np.cross(*arms)
-    off = np.linalg.norm(normal) > 1e-12
-    return unit_vector(normal * off, "kernel.mesh.three-points-plane-line")
+    code = "kernel.mesh.three-points-plane-line"
+    normal = np.cross(unit_vector(b - a, code), unit_vector(c - a, code))
+    return unit_vector(normal * (np.linalg.norm(normal) > 1e-12), code)
 
 
 @dataclass(frozen=True, slots=True)
