@@ -24,7 +24,6 @@ MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS = 400  # free motions up to which a dense solve costs nothing beside the steps
 PRESSED = 0.02  # mean force of a weight beside the largest one
 FREE = 1e-13  # stiffness beside the largest one that holds nothing
-UNHELD = 1e-3  # share of a force that a motion without stiffness takes, at least
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
 SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
 
@@ -198,12 +197,11 @@ def swings(problem: Problem) -> list[Swing]:
     if not K.any() or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
     try:
-        motions, share = np.linalg.solve(K, forces), 1.0
+        motions = np.linalg.solve(K, forces)
     except np.linalg.LinAlgError:
-        share = UNHELD
-        motions = np.linalg.solve(K + FREE * np.abs(K).max() * np.eye(len(K)), forces)
-    soft = np.abs(motions).max(axis=0) * np.abs(K).max() * FREE
-    free = soft > share * np.abs(forces).max(axis=0)
+        # held by less than nothing: a load that moves a part of what is free is seen, too
+        motions = np.linalg.solve(K + 0.01 * FREE * np.abs(K).max() * np.eye(len(K)), forces)
+    free = np.abs(motions).max(axis=0) * np.abs(K).max() * FREE > np.abs(forces).max(axis=0)
     found = []
     for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
