@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
@@ -166,7 +166,7 @@ def sweep_of(system: System) -> Sweep:
     return Sweep(r, du, np.zeros(len(system.rows)), load0, load1, v0, past, product, old)
 
 
-@compiled
+@compiled_fast
 def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
     for i in range(A.shape[0]):
         total = 0.0
@@ -175,7 +175,7 @@ def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
         out[i] = total
 
 
-@compiled
+@compiled_fast
 def _form(A: FloatArray, x: FloatArray) -> float:
     """x^T A x."""
     total = 0.0
