@@ -271,8 +271,7 @@ def _restart_held(joints: Joints, condensed: Condensed, now: InterfaceState, tri
     """Start again with the shear held that a step's start has, where no other shear is possible."""
     interface_response(joints, now.state, now.delta, trial)
     if hold_shear(joints, trial.t, now.state):
-        for i in range(len(trial.y)):
-            trial.y[i] = trial.y0[i]
+        copy_state(trial.y0, trial.y)
     return evaluate(joints, condensed, now, trial)
 
 

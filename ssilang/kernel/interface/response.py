@@ -257,9 +257,8 @@ def _mean_point(joints: Joints, now: InterfaceState, end: Trial, point: int) -> 
     k, fc, xi0, xi1 = p[Parameter.KN], p[Parameter.FC], state[Variable.XI], new[Variable.XI]
     before, after = _branch(w0[n], xi0, xi0, k, fc), _branch(w1[n], xi0, xi1, k, fc)
     step = w1[n] - w0[n]
-    if before == after and after != OPENING:
-        return
-    if abs(k * step) <= TINY * max(abs(t0[n]), abs(t1[n])) or step == 0.0:
+    straight = before == after and after != OPENING
+    if straight or abs(k * step) <= TINY * max(abs(t0[n]), abs(t1[n])):
         return
     # elsewhere work over path; its tangent is kept below that which Newton could not leave
     fu, gf = p[Parameter.FU], p[Parameter.GF]
