@@ -50,15 +50,7 @@ class _Step:
     def increment(self, zone: Zone) -> FloatArray:
         """Step of strain."""
         names = family_of(zone).strain_names(zone)
-        seen = zone_field(zone, self.end)
-        if not any(n in seen for n in names):
-            raise FieldError(
-                "operators.statics.second-field-has-no-strain",
-                names=names,
-                element=zone.element,
-                seen=seen.names,
-            )
-        return seen.matrix(names, "STRESSES") - self._begun(zone, names)
+        return components_of(zone, self.end, names) - self._begun(zone, names)
 
     def _begun(self, zone: Zone, names: tuple[str, ...]) -> FloatArray:
         """Components of the start, zero where it has none: a start may be unloaded."""
