@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -190,7 +190,7 @@ def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, floa
                 "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place
             )
         part = value.parts[place - 1]
-        parts.append(replace(part, ordinates=np.clip(part.ordinates, low, high)))
+        parts.append(dataclasses.replace(part, ordinates=np.clip(part.ordinates, low, high)))
     return Curve(tuple(parts), value.title, value.kind)
 
 
