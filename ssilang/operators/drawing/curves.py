@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
-from ssilang.language.registry import Keyword, Select, words_in
+from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from ssilang.io.recording import Recording
 
 
-def _corner() -> Keyword:
+def _corner() -> Any:
     return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner")
 
 
-def _bounds(name: str, word: str, en: str) -> Keyword:
+def _bounds(name: str, word: str, en: str) -> Any:
     return key(
         name,
         word,

@@ -75,15 +75,12 @@ _ODD = {
 """Components that go with the sine of a symmetric harmonic; the others go with the cosine."""
 
 
-@operator(
-    "DFOU",
-    arg("field", "CHPOINT", "MCHAML", en="field of a harmonic"),
-    arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
-    gives=Like("field"),
-    family="fields",
-    full_name="DFOURIER",
-)
-def dfou(call: Call, field: NodeField | CellField, angle: float) -> NodeField | CellField:
+@operator("DFOU", gives=Like("field"), family="fields", full_name="DFOURIER")
+def dfou(
+    call: Call,
+    field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="field of a harmonic"),
+    angle: float = Arg("FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
+) -> NodeField | CellField:
     """Sum a harmonic."""
     n = workspace(call.session).fourier
     turn = np.radians(abs(n) * angle)

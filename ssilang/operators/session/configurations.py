@@ -23,20 +23,16 @@ class Configuration:
 
 @operator(
     "FORM",
-    opt("start", "CONFIGUR", en="coordinates to begin with"),
-    opt("field", "CHPOINT", en="displacements", unit="m"),
-    opt("model", "MMODEL", en="model of the parameters"),
-    opt("material", "MCHAML", en="parameters whose local axes follow"),
     gives=by("model", {None: "CONFIGUR"}, ("CONFIGUR", "MCHAML")),
     family="mesh",
     full_name="FORME",
 )
 def form(
     call: Call,
-    start: Configuration | None,
-    field: NodeField | None,
-    model: Model | None,
-    material: CellField | None,
+    start: Configuration | None = Opt("CONFIGUR", en="coordinates to begin with"),
+    field: NodeField | None = Opt("CHPOINT", en="displacements", unit="m"),
+    model: Model | None = Opt("MMODEL", en="model of the parameters"),
+    material: CellField | None = Opt("MCHAML", en="parameters whose local axes follow"),
 ) -> Configuration | tuple[Configuration, CellField]:
     """Move the nodes."""
     nodes = workspace(call.session).nodes

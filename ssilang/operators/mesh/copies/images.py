@@ -23,7 +23,6 @@ from ssilang.kernel.mesh.changes.transform import (
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.surfaces.facets import facet_shape
-from ssilang.language.registry import Argument
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
@@ -180,7 +179,7 @@ def _shifted(
     return tuple(copier(v) for v in objects)
 
 
-def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
+def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Any:
     return many(
         "objects", *types, leaving=leaving, left=left, en="objects to copy", range=ANY_NUMBER
     )
@@ -210,11 +209,12 @@ def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
     return _shifted(call, objects, by, -1.0)
 
 
-@moin.form(
-    arg("after", "MAILLAGE", en="mesh after the motion"),
-    arg("before", "MAILLAGE", en="mesh before it"),
-)
-def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
+@moin.form()
+def motion(
+    session: Session,
+    after: Mesh = Arg("MAILLAGE", en="mesh after the motion"),
+    before: Mesh = Arg("MAILLAGE", en="mesh before it"),
+) -> NodeField:
     """The displacements between two meshes."""
     target = corresponding_nodes(before, after)
     ids = before.node_ids

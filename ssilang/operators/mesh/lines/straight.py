@@ -38,13 +38,13 @@ from ssilang.operators.mesh.lines.ends import (
 from ssilang.operators.prelude import *
 
 
-@operator("DROI", COUNT, START, END, SIZES, family="mesh", full_name="DROIT", aliases=("D",))
+@operator("DROI", family="mesh", full_name="DROIT", aliases=("D",))
 def droi(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a straight line."""
     cuts = cuts_of(call, count, sizes)
@@ -53,26 +53,15 @@ def droi(
     return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
 
 
-@operator(
-    "LIGN",
-    said("ROTA"),
-    COUNT,
-    ANGLE,
-    arg("centre", "POINT", "MAILLAGE", en="centre, a point"),
-    START,
-    opt("normal", "POINT", en="normal to the plane of the arc, in space"),
-    SIZES,
-    family="mesh",
-    full_name="LIGNE",
-)
+@operator("LIGN", said("ROTA"), family="mesh", full_name="LIGNE")
 def lign(
     call: Call,
-    count: int | None,
-    angle: float | None,
-    centre: Point | Mesh,
-    start: Point | Mesh,
-    normal: Point | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    angle: float | None = ANGLE,
+    centre: Point | Mesh = Arg("POINT", "MAILLAGE", en="centre, a point"),
+    start: Point | Mesh = START,
+    normal: Point | None = Opt("POINT", en="normal to the plane of the arc, in space"),
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw an arc from a point."""
     if isinstance(centre, Mesh):
@@ -93,21 +82,14 @@ def lign(
     return drawn_from(call, start, way, cuts)
 
 
-@lign.form(
-    said("TRAN"),
-    COUNT,
-    START,
-    arg("vector", "POINT", en="vector to the end", usual=NOT_ZERO),
-    SIZES,
-    opt("angle", "FLOTTANT", en="of 'ROTA' alone, refused", range=ANY_NUMBER),
-)
+@lign.form(said("TRAN"))
 def segment(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    vector: Point,
-    sizes: Sizes,
-    angle: float | None,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    vector: Point = Arg("POINT", en="vector to the end", usual=NOT_ZERO),
+    sizes: Sizes = SIZES,
+    angle: float | None = Opt("FLOTTANT", en="of 'ROTA' alone, refused", range=ANY_NUMBER),
 ) -> Mesh:
     """Draw a segment from a point along a vector."""
     if angle is not None:
@@ -120,16 +102,18 @@ def segment(
     return drawn_from(call, start, way, cuts_of(call, count, sizes), vector.density)
 
 
-@operator(
-    "QUEL",
-    choice("cell_type", ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"),
-    many("lists", "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER),
-    many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
-    family="mesh",
-    full_name="QUELCONQUE",
-)
+@operator("QUEL", family="mesh", full_name="QUELCONQUE")
 def quel(
-    call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]
+    call: Call,
+    cell_type: str | None = Choice(
+        ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"
+    ),
+    lists: Sequence[ListReel] = Many(
+        "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER
+    ),
+    points: Sequence[Point | Mesh] = Many(
+        "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"
+    ),
 ) -> Mesh:
     """Draw a broken line."""
     ws = workspace(call.session)
@@ -190,26 +174,20 @@ _SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray],
         optional=False,
         repeated=True,
         en="the two surfaces that cross, both through the start",
-    ),
-    main("start", "POINT", "MAILLAGE", en=START.en),
-    COUNT,
-    SIZES,
-    key(
-        "length",
-        "LONG",
-        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
-        en="length of the curve, then the end only shows the way",
-    ),
-    END,
+    )
 )
 def crossing(
     call: Call,
     surfaces: Sequence[Chosen],
-    start: Point | Mesh,
-    count: int | None,
-    sizes: Sizes,
-    length: float | None,
-    end: Point | Mesh | None,
+    start: Point | Mesh = Main("POINT", "MAILLAGE", en=START.en),
+    count: int | None = COUNT,
+    sizes: Sizes = SIZES,
+    length: float | None = Key(
+        "LONG",
+        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
+        en="length of the curve, then the end only shows the way",
+    ),
+    end: Point | Mesh | None = END,
 ) -> Mesh:
     """The line along which two surfaces cross, from a point or a line to another."""
     cuts = cuts_of(call, count, sizes)
