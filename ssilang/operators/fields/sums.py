@@ -1,7 +1,8 @@
-"""RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations of fields and lists."""
+"""RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations; DFOU: a harmonic at an angle."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -195,3 +196,38 @@ def somt(field: NodeField = Arg("CHPOINT", en="field of one component")) -> floa
     if len(field.components) != 1:
         raise KernelError("operators.lists.single-component")
     return float(next(iter(field.components.values())).values.sum())
+
+
+# ---- Fourier series ------------------------------------------------------------------------------
+
+_ODD = {
+    "UT", "FT", "SMRT", "SMZT", "GART", "GAZT", "EPRT", "EPZT", "GAST", "RTST", "NSST", "MSST",
+    "NST", "MST", "RR", "RZ", "MR", "MZ",
+}  # fmt: skip
+"""Components that go with the sine of a symmetric harmonic; the others go with the cosine."""
+
+
+@operator("DFOU", gives=Like("field"), family="fields", full_name="DFOURIER")
+def dfou(
+    call: Call,
+    field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="field of a harmonic"),
+    angle: float = Arg("FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
+) -> NodeField | CellField:
+    """Sum a harmonic."""
+    n = workspace(call.session).fourier
+    turn = np.radians(abs(n) * angle)
+    even, odd = (np.cos(turn), np.sin(turn)) if n >= 0 else (np.sin(turn), np.cos(turn))
+    if n == 0:
+        odd = 1.0  # harmonic 0: uniform stretching and uniform torsion, uncoupled
+
+    def factor(name: str) -> float:
+        return float(odd if name in _ODD else even)
+
+    if isinstance(field, NodeField):
+        made = {k: NodeValues(v.nodes, factor(k) * v.values) for k, v in field.components.items()}
+        return replace(field, components=made)
+    blocks = tuple(
+        replace(b, components={k: factor(k) * v for k, v in b.components.items()})
+        for b in field.blocks
+    )
+    return replace(field, blocks=blocks)
