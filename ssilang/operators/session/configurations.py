@@ -17,7 +17,7 @@ class Configuration:
 
     def moved(self, field: NodeField) -> Configuration:
         """Where these nodes are once a field of displacements has moved them."""
-        moves = displacements(field.table, field)[: len(self.coordinates)]
+        moves = displacements(field)[: len(self.coordinates)]
         return Configuration(self.coordinates + moves)
 
 
@@ -44,7 +44,7 @@ def form(
         nodes.coordinates[: len(start.coordinates)] = start.coordinates
     if field is not None:
         ids = field.node_ids
-        nodes.coordinates[ids] += displacements(nodes, field)[ids]
+        nodes.coordinates[ids] += displacements(field, ids)
     made = Configuration(nodes.coordinates.copy())
     if model is None or material is None or field is None:
         return made

@@ -7,12 +7,12 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements, moving_components
 from ssilang.kernel.mesh.changes.follow import followed
 from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
-from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.prelude import *
 
 _EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
@@ -59,8 +59,8 @@ def extended(
     start = mesh.nodes.coordinates
     nodes, places = followed(mesh, given, start[given] + displacements(field, given), even)
     motion = places - start[nodes]
-    axes = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
-    kept = {n: motion[:, k] for k, n in enumerate(axes) if n in field.components}
+    axes = enumerate(moving_components(field))
+    kept = {n: motion[:, k] for k, n in axes if n in field.components}
     return NodeField.of(mesh.nodes, nodes, kept, "DIFFUS")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.mesh.changes.transform import (
@@ -37,7 +38,6 @@ from ssilang.operators.mesh.copies.maps import (
     projection_on,
     rotation_matrix,
 )
-from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.prelude import *
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affine_through,
@@ -49,15 +50,6 @@ def _ids(moved: Mesh | Point) -> IntArray:
 
 def _move(moved: Mesh | Point, image: PointMap) -> None:
     move(moved.nodes, _ids(moved), image)
-
-
-def displacements(field: NodeField, ids: IntArray) -> FloatArray:
-    """Displacements (n, 3) of nodes (n,) from components UX UY UZ or UR UZ, zero where absent."""
-    names = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
-    step = np.zeros((len(ids), 3))
-    for k, name in enumerate(names):
-        step[:, k] = field.values_at(name, ids)
-    return step
 
 
 @operator("DEPL", said("PLUS", "MOINS"), family="mesh", full_name="DEPLACER")
