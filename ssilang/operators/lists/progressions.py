@@ -354,13 +354,8 @@ def mots(call: Call) -> ListMots:
         words.append(str(found.value))
 
 
-@operator(
-    "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
-    family="lists",
-    full_name="SUITE",
-)
-def suit(fields: tuple[Any, ...]) -> ListChpo:
+@operator("SUIT", family="lists", full_name="SUITE")
+def suit(fields: tuple[Any, ...] = Many("CHPOINT", "LISTCHPO", en="fields, in order")) -> ListChpo:
     """Collect fields."""
     flat: list[Any] = []
     for field in fields:

@@ -71,8 +71,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
-def zpas(call: Call, table: Table) -> None:
+@operator("ZPAS", family="statics")
+def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
