@@ -96,7 +96,7 @@ def test_deformed_shapes_move_by_their_own_axes(table, round_body):
     parts = {n: NodeValues(np.array([1, 2]), v) for n, v in zip(names, ([0.1, 0.2], [0.3, -0.4]),
                                                                 strict=True)}  # fmt: skip
     field = NodeField(table, {k: NodeValues(v.nodes, np.array(v.values)) for k, v in parts.items()})
-    moved = deformed.displacements(table, field)
+    moved = deformed.displacements(field)
     expected = np.zeros((5, 3))
     expected[1:3, 0] = [0.1, 0.2]
     expected[1:3, 1 if round_body else 2] = [0.3, -0.4]
