@@ -214,7 +214,8 @@ class Call:
     def tell_odd(self, a: Argument, operand: Operand) -> None:
         """Tell of a number outside of what is usual, of a curve over something else."""
         if odd := a.usual.flaw(operand.value, a.name):
-            self.session.report(self.flaw("unusual", a, operand, odd[1]))
+            code = "out-of-order" if odd[0] == "not-increasing" else "unusual"
+            self.session.report(self.flaw(code, a, operand, odd[1]))
         over = getattr(operand.value, "over", "") if a.over else ""
         if over and over != a.over:
             self.session.report(self.flaw("over-other", a, operand, {"axis": over, "over": a.over}))

@@ -165,7 +165,12 @@ class Session:
         self.report(warning)
 
     def report(self, warning: Any) -> None:
-        """Keep a warning, or an error that does not stop the run, and show it."""
+        """Keep a warning, or an error that does not stop the run, and show it.
+
+        One of inside a procedure of the library stands where the script calls it.
+        """
+        if warning.span is not None:
+            warning.span = self.own_place(warning.span)
         self.warnings.append(warning)
         if self.on_warning is None:
             return
@@ -175,6 +180,15 @@ class Session:
             raise ReaderLeft from closed
         except OSError:  # nobody can be told; it is in the summary
             self.on_warning = None
+
+    def own_place(self, place: Span) -> Span:
+        """A place in what runs, as the script's own line: not one of the library."""
+        frame = self.frame
+        while frame.pending is not None and frame.procedure in self.library.standard_names:
+            place = frame.pending.span
+            assert frame.caller is not None
+            frame = frame.caller
+        return place
 
     def doubt(self, level: int = 1) -> None:
         """Raise the flag that SOUC reads: it only grows."""

@@ -6,6 +6,7 @@ errors; an entry that nobody reads is a warning that names the one that was mean
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.say.errors import SsiError
@@ -37,6 +38,10 @@ _TRUTH_WORDS = {"VRAI": True, "FAUX": False}
 _OF_ENTRIES = {
     "out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing",
     "not-finite": "entry-not-finite",
+}  # fmt: skip
+_ODD = {
+    "out-of-range": "entry-unusual", "not-increasing": "entry-out-of-order",
+    "of-noughts": "entry-of-noughts",
 }  # fmt: skip
 
 MADE_BY = {
@@ -244,11 +249,12 @@ class TableCheck:
             error.span = self.place
             raise
         usual = entry.usual
-        if usual is UNSAID:
-            usual = usual_of_entry(entry.index, entry.unit, self.session.units())
+        if usual is UNSAID or usual.increasing:
+            by_unit = usual_of_entry(entry.index, entry.unit, self.session.units())
+            usual = replace(by_unit, increasing=True) if usual.increasing else by_unit
         said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
-            self._warn("entry-unusual", **told, fr=entry.fr, **said[1])
+            self._warn(_ODD[said[0]], **told, fr=entry.fr, **said[1])
         curves = value.parts if self.aloud and type_of(value) == "EVOLUTIO" else ()
         if curves and not any(p.words or p.ordinates.any() for p in curves):
             self._warn("entry-of-noughts", **told, fr=entry.fr)

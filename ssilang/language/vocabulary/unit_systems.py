@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ssilang.language import vocabulary
@@ -107,11 +107,11 @@ def usual_of_entry(index: str, unit: str, system: UnitSystem | None) -> Range:
     powers = UNITS.get(unit)
     if not unit or powers is None or (system is None and (powers.mass or powers.length)):
         return UNSAID
-    usual, size = Range(*powers.usual), 1.0 if system is None else system.factor(unit)
+    usual, size = Range(*powers.usual, nought=True), 1.0 if system is None else system.factor(unit)
     if not math.isfinite(usual.high):
         meant = [w for w in vocabulary.meanings("parameter", index) if isinstance(w, Quantity)]
         usual = next((w.usual for w in meant if w.unit == unit), UNSAID)
-    return Range(usual.low / size, usual.high / size)
+    return replace(usual, low=usual.low / size, high=usual.high / size)
 
 
 WAVES = Range(20.0, 4000.0)

@@ -38,8 +38,10 @@ _PARTS = (
     arg("first", "LISTREEL", en="first parts", range=CARRIED),
     arg("second", "LISTREEL", en="second parts", range=CARRIED),
 )
-TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER)
-_ITS_TIMES = arg("times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER)
+TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER, usual=IN_ORDER)
+_ITS_TIMES = arg(
+    "times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER, usual=IN_ORDER
+)
 STEPS = opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE)
 COUNT = opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it")
 SHAPES = opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE)
@@ -387,7 +389,9 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
     said = call.peek_word()
     if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()
-    return (*results_in_time(table, index, unmade), index)
+    fields, times = results_in_time(table, index, unmade)
+    call.tell_odd(_ITS_TIMES, Operand(ListReel.of(times), operand.span))
+    return fields, times, index
 
 
 def _holds(table: Table, index: str) -> bool:
