@@ -88,6 +88,11 @@ class Interface:
         return Joints(self.pairs, self.B, self.weights, self.codes, p)
 
     @property
+    def conserved(self) -> bool:
+        """Whether 'CONSERVATIF' keeps the energy of all points."""
+        return bool((self.codes == LawCode.SDM).all())
+
+    @property
     def size(self) -> int:
         """Number of interface unknowns."""
         return int(self.J.shape[0])

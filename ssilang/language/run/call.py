@@ -422,13 +422,14 @@ class Call:
 
     def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""
-        return SsiError(code, self._place(value), **{"operator": self.name, **data})
+        return SsiError(code, self.place_of(value), **{"operator": self.name, **data})
 
     def warn(self, code: str, value: object = None, /, **data: object) -> None:
         """A warning placed as an error is."""
-        self.session.warn(code, self._place(value), **{"operator": self.name, **data})
+        self.session.warn(code, self.place_of(value), **{"operator": self.name, **data})
 
-    def _place(self, value: object) -> Span:
+    def place_of(self, value: object) -> Span:
+        """Where the operand that holds `value` stands, else the operator."""
         return next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
 
 

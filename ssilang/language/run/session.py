@@ -113,6 +113,8 @@ class Session:
     flaw_of : function
         Code of the refusal of a value that no calculation can use, '' if there is none; set by
         the operators' package.
+    apart : function
+        The fields among operands that have no node of the model beside them; set likewise.
     """
 
     script_directory: Path = field(default_factory=Path.cwd)
@@ -127,6 +129,7 @@ class Session:
     dimension: Callable[[], int] = lambda: 0
     units: Callable[[], UnitSystem | None] = lambda: None
     flaw_of: Callable[[Any], str] = lambda value: ""
+    apart: Callable[[Sequence[Any]], list[Any]] = lambda values: []
     warnings: list[Any] = field(default_factory=list)
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)

@@ -16,6 +16,7 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.stepping.node_track import NodeTrack
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
@@ -26,6 +27,7 @@ MISSED = 0.2  # part of a curve's largest value by which steps may pass over its
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
+FAR = 3.0  # sizes of the model
 
 
 def warn_of_start(
@@ -74,11 +76,10 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
 
 def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
     joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
-    if joints is not None and problem.scheme.conserving:
+    if joints is not None and problem.scheme.conserving and not joints.conserved:
         laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
         names = [n for n, law in LAWS.items() if law in laws and law.code is not LawCode.SDM]
-        if names:
-            yield "operators.dynamics.conserving-other-laws", {"laws": names}
+        yield "operators.dynamics.conserving-other-laws", {"laws": names}
 
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
@@ -132,6 +133,17 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
+
+
+def warn_of_motion(entries: Entries, problem: Problem, track: NodeTrack) -> None:
+    """Warn where the last instant kept has displacements of many times the model's size."""
+    from ssilang.kernel.stepping.problem.plausibility import farthest
+
+    if not len(track) or not len(track.unknowns):
+        return
+    way, size = farthest(problem, track.last("u"), track.unknowns)
+    if way > FAR * size > 0.0:
+        entries.warn("operators.dynamics.moves-far", way=way, size=size, times=way / size)
 
 
 def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:

@@ -84,10 +84,10 @@ def _odd(
                 {"value": value, "range": meant.usual.text(name)},
             )
     for other, usual in meant.beside.items():
-        base = given.get(other, np.empty(0))
+        base = given.get(other.removesuffix("**2"), np.empty(0))
         if base.dtype == float and base.size and base.all():
-            ratio = float((given[name] / base.mean(axis=1, keepdims=True)).max())
-            if ratio not in usual:
+            base = base.mean(axis=1, keepdims=True) ** (1 + other.endswith("**2"))
+            if (ratio := float((given[name] / base).max())) not in usual:
                 told = {"other": other, "range": usual.text(f"{name}/{other}")}
                 yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
