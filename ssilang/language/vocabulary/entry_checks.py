@@ -6,12 +6,11 @@ errors; an entry that nobody reads is a warning that names the one that was mean
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import meant as near_word
-from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
+from ssilang.language.values import Annule, Mot, Procedure, Table, is_of_noughts, type_of
 from ssilang.language.vocabulary.entries import (
     NUMBER,
     REFUSED,
@@ -20,8 +19,7 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.language.vocabulary.terms import UNSAID
-from ssilang.language.vocabulary.unit_systems import SOIL, usual_of_entry, wave_flaw
+from ssilang.language.vocabulary.unit_systems import SOIL, usual_of, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
@@ -248,15 +246,11 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
-        usual = entry.usual
-        if usual is UNSAID or usual.increasing:
-            by_unit = usual_of_entry(entry.index, entry.unit, self.session.units())
-            usual = replace(by_unit, increasing=True) if usual.increasing else by_unit
+        usual = usual_of(entry.usual, entry.index, entry.unit, self.session.units())
         said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
             self._warn(_ODD[said[0]], **told, fr=entry.fr, **said[1])
-        curves = value.parts if self.aloud and type_of(value) == "EVOLUTIO" else ()
-        if curves and not any(p.words or p.ordinates.any() for p in curves):
+        if self.aloud and is_of_noughts(value):
             self._warn("entry-of-noughts", **told, fr=entry.fr)
         if isinstance(value, Table) and self.declared.inside(entry.path):
             self.run(value, entry.path, where)

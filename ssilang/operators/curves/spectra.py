@@ -82,7 +82,7 @@ def osci(
     key(
         "frequencies",
         "FREQ",
-        arg("f", "LISTREEL", range=POSITIVE, unit="Hz"),
+        arg("f", "LISTREEL", range=POSITIVE, usual=IN_ORDER, unit="Hz"),
         en="frequencies; usual ones without it",
     ),
     _TIMES,

@@ -27,7 +27,7 @@ MISSED = 0.2  # part of a curve's largest value by which steps may pass over its
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
-FAR = 3.0  # sizes of the model
+FAR = 100.0  # sizes of the model; what slides may go far
 
 
 def warn_of_start(

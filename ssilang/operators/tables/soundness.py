@@ -35,6 +35,18 @@ def apart(values: Sequence[object]) -> list[Any]:
     return [f for f in fields if not any(np.isin(n, nodes).any() for n in _nodes_of(f))]
 
 
+def other_values(first: CellField, second: CellField) -> list[str]:
+    """Components of which two fields have other values in the same cells."""
+    pairs = ((a, b) for a in first.blocks for b in second.blocks if a.cells is b.cells)
+    return [
+        name
+        for a, b in pairs
+        for name in a.components.keys() & b.components.keys()
+        if (a.element, a.constituent) == (b.element, b.constituent)
+        and not np.array_equal(a.components[name], b.components[name])
+    ]
+
+
 def _nodes_of(field: NodeField | CellField) -> list[Any]:
     if isinstance(field, CellField):
         return [b.cells.connectivity for b in field.blocks]
