@@ -176,7 +176,8 @@ class NodeTrack(Track):
 
     def last(self, name: str) -> FloatArray:
         """`u`, `v` or `a` (n,) of its unknowns at the last instant kept."""
-        return self.instant(len(self) - 1).values(name)[0]
+        found: FloatArray = self.instant(len(self) - 1).values(name)[0]
+        return found
 
     def node_field(self, row: int, name: str) -> NodeField:
         """`u`, `v` or `a` of an instant; displacements with multipliers LX."""

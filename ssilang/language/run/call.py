@@ -213,7 +213,7 @@ class Call:
             raise self.flaw(wrong[0], a, operand, wrong[1])
 
     def tell_odd(self, a: Argument, operand: Operand) -> None:
-        """Tell of a number outside of what is usual, of a curve over something else or of noughts."""
+        """Tell of a number that is unusual, of a curve over something else or of noughts."""
         usual = usual_of(a.usual, "", a.unit, self.session.units())
         if odd := usual.flaw(operand.value, a.name):
             code = "out-of-order" if odd[0] == "not-increasing" else "unusual"

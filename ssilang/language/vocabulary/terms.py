@@ -149,7 +149,7 @@ class Range:
 
 
 def read_range(text: str) -> Range:
-    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0', 'any', 'some'."""
+    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing >= 0', 'any', 'some'."""
     if text in _NAMED:
         return _NAMED[text]
     increasing = text.startswith("increasing")

@@ -114,19 +114,11 @@ def _warn(call: Call, meant: Quantity, value: float, said: Any, system: UnitSyst
     unit, low, high = meant.unit or "", meant.usual.low, meant.usual.high
     here, likely = system.factor(unit), likely_units(value, unit, meant.usual, system)
     warning = call.error(
-        _CODE,
-        said,
-        name=meant.name,
-        value=value,
-        unit=system.written(unit),
-        small=abs(value) * here < min(abs(low), abs(high)),
-        system=system.name,
-        low=low / here,
-        high=high / here,
-        meaning=meant.meaning(call.session.language),
-        likely=list(likely),
+        _CODE, said, name=meant.name, value=value, unit=system.written(unit),
+        small=abs(value) * here < min(abs(low), abs(high)), system=system.name, low=low / here,
+        high=high / here, meaning=meant.meaning(call.session.language), likely=list(likely),
         written=[f"{v:g}" for v in likely.values()],
-    )
+    )  # fmt: skip
     warning.warns = True
     before = [w for w in call.session.warnings if w.code == _CODE and w.span == warning.span]
     if not any(w.data["name"] == meant.name for w in before):

@@ -106,13 +106,9 @@ class Entries:
         if len(wrong):
             i = int(wrong[0])
             raise self.error(
-                "operators.tables.instants-not-increasing",
-                index=index,
-                value=values[i + 1],
-                before=values[i],
-                place=i + 1,
-                next_place=i + 2,
-            )
+                "operators.tables.instants-not-increasing", index=index, value=values[i + 1],
+                before=values[i], place=i + 1, next_place=i + 2,
+            )  # fmt: skip
 
     @contextmanager
     def about(self, index: str) -> Iterator[None]:
