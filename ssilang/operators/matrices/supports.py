@@ -299,9 +299,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg(
-    "stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER, usual=NOT_NEGATIVE
-)
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER)
 
 
 @operator(
