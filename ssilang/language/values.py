@@ -451,7 +451,7 @@ _HOLDERS = ("blocks", "relations", "components", "zones", "parts", "categories",
 
 def is_of_noughts(value: Any) -> bool:
     """Whether it is a curve that is zero all along."""
-    parts = value.parts if type_of(value) == "EVOLUTIO" else ()
+    parts = getattr(value, "parts", ()) if type_of(value) == "EVOLUTIO" else ()
     return bool(parts) and not any(p.words or p.ordinates.any() for p in parts)
 
 
