@@ -174,11 +174,6 @@ class NodeTrack(Track):
         place = row - (self._ends[piece - 1] if piece else 0)
         return rows.chosen(np.arange(len(rows)) == place, self.unknowns)
 
-    def last(self, name: str) -> FloatArray:
-        """`u`, `v` or `a` (n,) of its unknowns at the last instant kept."""
-        found: FloatArray = self.instant(len(self) - 1).values(name)[0]
-        return found
-
     def node_field(self, row: int, name: str) -> NodeField:
         """`u`, `v` or `a` of an instant; displacements with multipliers LX."""
         rows, numbering = self.instant(row), self.problem.numbering

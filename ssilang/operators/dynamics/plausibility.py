@@ -16,6 +16,7 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.node_track import NodeTrack
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
@@ -74,9 +75,14 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
 
 
+def conserved(joints: Interface) -> bool:
+    """Whether 'CONSERVATIF' keeps the energy of joints."""
+    return bool((joints.codes == LawCode.SDM).all())
+
+
 def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
     joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
-    if joints is not None and problem.scheme.conserving and not joints.conserved:
+    if joints is not None and problem.scheme.conserving and not conserved(joints):
         laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
         names = [n for n, law in LAWS.items() if law in laws and law.code is not LawCode.SDM]
         yield "operators.dynamics.conserving-other-laws", {"laws": names}
@@ -137,11 +143,16 @@ OF_STIFFNESS = (_masses_alone, _loose, _swings)
 
 def warn_of_motion(entries: Entries, problem: Problem, track: NodeTrack) -> None:
     """Warn where the last instant kept has displacements of many times the model's size."""
-    from ssilang.kernel.stepping.problem.plausibility import farthest
+    from ssilang.kernel.stepping.problem.plausibility import AXES
 
-    if not len(track) or not len(track.unknowns):
+    numbering = problem.numbering
+    codes = [numbering.code(a) for a in AXES if a in numbering.unknowns]
+    along = np.isin(numbering.codes, codes)
+    if not len(track) or not along[track.unknowns].any():
         return
-    way, size = farthest(problem, track.last("u"), track.unknowns)
+    u = track.instant(len(track) - 1).values("u")[0]
+    way = float(np.abs(u[along[track.unknowns]]).max())
+    size = float(np.ptp(numbering.table.coordinates[numbering.nodes[along]], axis=0).max())
     if way > FAR * size > 0.0:
         entries.warn("operators.dynamics.moves-far", way=way, size=size, times=way / size)
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
+from ssilang.operators.dynamics.plausibility import conserved
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
@@ -125,8 +126,8 @@ def _causes(problem: Problem, added: bool) -> list[str]:
     contact, options = problem.contact is not None, problem.contact_options
     joints, kept = problem.interface, problem.scheme.conserving
     found = {
-        "operators.dynamics.imbalance-joint": joints is not None and joints.conserved and not kept,
-        "operators.dynamics.imbalance-law": joints is not None and not joints.conserved,
+        "operators.dynamics.imbalance-joint": joints is not None and conserved(joints) and not kept,
+        "operators.dynamics.imbalance-law": joints is not None and not conserved(joints),
         "operators.dynamics.imbalance-stops": contact and not kept,
         "operators.dynamics.imbalance-velocities": contact
         and (options.correction != "FAUX" or options.persistent),
@@ -166,9 +167,9 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
         return
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
-    conserved = joints is not None and joints.conserved
-    kept = conserved and problem.scheme.conserving
-    entries.warn(code, **told, kept=kept, conserved=conserved)
+    keeps = joints is not None and conserved(joints)
+    kept = keeps and problem.scheme.conserving
+    entries.warn(code, **told, kept=kept, conserved=keeps)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:

@@ -262,15 +262,6 @@ def masses_alone(problem: Problem) -> IntArray:
     return np.setdiff1d(np.setxor1d(heavy, damped), nodes[used])
 
 
-def farthest(problem: Problem, u: FloatArray, unknowns: IntArray) -> tuple[float, float]:
-    """The largest displacement along an axis among unknowns (n,), and the model's size."""
-    numbering = problem.numbering
-    along = np.isin(numbering.codes, [numbering.code(a) for a in AXES if a in numbering.unknowns])
-    placed = numbering.table.coordinates[numbering.nodes[along]]
-    size = float(np.ptp(placed, axis=0).max()) if len(placed) else 0.0
-    return float(np.abs(u[along[unknowns]]).max(initial=0.0)), size
-
-
 # Whether a step resolves contact: the half period of the mass that a joint carries.
 
 STEPS_WANTED = 30
