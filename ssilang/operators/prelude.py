@@ -15,9 +15,18 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import (
     ANY,
+    Arg,
+    Choice,
     Chosen,
     Entry,
+    Flag,
+    Key,
+    Lead,
     Like,
+    Main,
+    Many,
+    Name,
+    Opt,
     arg,
     by,
     choice,
@@ -50,6 +59,7 @@ from ssilang.language.values import (
 from ssilang.language.vocabulary.terms import (
     ANY_NUMBER,
     CARRIED,
+    IN_ORDER,
     NOT_NEGATIVE,
     NOT_ZERO,
     POSITIVE,

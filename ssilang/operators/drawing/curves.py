@@ -5,9 +5,11 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
-from ssilang.language.registry import Keyword, Select, words_in
+from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -21,11 +23,11 @@ if TYPE_CHECKING:
     from ssilang.io.recording import Recording
 
 
-def _corner() -> Keyword:
+def _corner() -> Any:
     return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner")
 
 
-def _bounds(name: str, word: str, en: str) -> Keyword:
+def _bounds(name: str, word: str, en: str) -> Any:
     return key(
         name,
         word,
@@ -35,9 +37,9 @@ def _bounds(name: str, word: str, en: str) -> Keyword:
     )
 
 
-def _title_place(name: str, word: str, en: str) -> Select:
+def _title_place(name: str, word: str) -> Select:
     at_end = choice("at", ("EXCE", "CENT"), en="at the end or in the middle")
-    return select(name, {word: [at_end]}, en=en)
+    return select(name, {word: [at_end]}, en="where that stands")
 
 
 _OPTIONS: tuple[Entry, ...] = (
@@ -78,8 +80,8 @@ _OPTIONS: tuple[Entry, ...] = (
     key("title", "TITR", arg("t", "MOT"), en="title"),
     key("x_title", "TITX", arg("t", "MOT"), en="title of the abscissas"),
     key("y_title", "TITY", arg("t", "MOT"), en="title of the ordinates"),
-    _title_place("x_place", "POSX", "where that stands"),
-    _title_place("y_place", "POSY", "where that stands"),
+    _title_place("x_place", "POSX"),
+    _title_place("y_place", "POSY"),
     key("x_format", "XFMT", arg("f", "MOT"), en="format of abscissas"),
     key("y_format", "YFMT", arg("f", "MOT"), en="format of ordinates"),
     flag("axes", "AXES", en="axes through the origin"),
@@ -118,9 +120,14 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     curve = Curve(tuple(parts), first.title, first.kind)
     refuse_rest(call, words_in(_OPTIONS))
     found = _settings(**said)
-    for name in ("x_limits", "y_limits"):
-        if name in found and found[name][0] == found[name][1]:
-            raise call.error("operators.drawing.equal-bounds", low=found[name][0])
+    for name, word, along in (("x_limits", "XBOR", "abscissas"), ("y_limits", "YBOR", "ordinates")):
+        low, high = sorted(found.get(name, (-np.inf, np.inf)))
+        if low == high:
+            raise call.error("operators.drawing.equal-bounds", low=low)
+        drawn = np.concatenate([getattr(p, along) for p in parts])
+        if drawn.size and (drawn.max() < low or drawn.min() > high):
+            told = {"low": float(drawn.min()), "high": float(drawn.max())}
+            call.warn("operators.drawing.nothing-within", word=word, **told)
     for axis in "XY":
         if {f"log_{axis.lower()}", f"{axis.lower()}_format"} <= {*found}:
             raise call.error(

@@ -24,7 +24,7 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
-from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
+from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_motion, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
@@ -51,8 +51,8 @@ MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
 
 
-@operator("ZDYN", arg("table", "TABLE", en="table of DYNAMIC"), family="dynamics")
-def zdyn(call: Call, table: Table) -> Table:
+@operator("ZDYN", family="dynamics")
+def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     with lasting():
         import ssilang.kernel.stepping.run  # noqa: F401 - used further down
@@ -72,10 +72,10 @@ def zdyn(call: Call, table: Table) -> Table:
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
-    asked = nodes_asked(entries.get("MAILLAGE_SAUVE"))
+    asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
-    vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
+    vtk, csv = vtk_observer(entries, problem), csv_observer(entries, problem)
     forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     record = calculation_record(entries, problem, inputs)
@@ -105,6 +105,7 @@ def zdyn(call: Call, table: Table) -> Table:
     elif not whole:
         again = partial(_step_again, entries.get("REDUCTION"), problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
+    warn_of_motion(entries, problem, results.track)
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))

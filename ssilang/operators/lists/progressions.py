@@ -126,7 +126,7 @@ def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
             i += 1
             continue
         behind: Any = operands[i + 2].value if i + 2 < len(operands) else None
-        if type(value) is not int or value < 0 or type(behind) not in plain:
+        if type(value) is not int or value <= 0 or type(behind) not in plain:
             break  # what is wrong is told where each is read by itself
         check_length(len(items) + value)
         items.extend([behind] * value)
@@ -138,7 +138,14 @@ def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if not 0 <= count < math.inf or count != int(count):
         raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
+    _tell_no_time(call, count)
     return [call.given(_ITEM[kinds[-1]])] * int(count)
+
+
+def _tell_no_time(call: Call, count: float) -> None:
+    """Warn of an item that is written no time; a count that was computed may be nought."""
+    if not count and call.used[-2].span.text.isdigit():
+        call.warn("operators.lists.repeated-no-time", count)
 
 
 def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatArray:
@@ -200,8 +207,8 @@ _SAME = 1e-12  # relative distance of two reals that rounding alone makes differ
 def real_steps(start: float, step: float, end: float, ratio: float | None = None) -> list[float]:
     """Reals behind `start` up to `end`, the step being adjusted so that `end` is hit.
 
-    Without `ratio` the number of steps is the nearest that fits; with it, the smallest geometric
-    number of steps that reaches `end`, all scaled alike.
+    Without `ratio` the number of steps is the nearest that fits; with it, the first step is the
+    nearest above `step` that fits, so that a row is stretched and never shrunk.
 
     Raises
     ------
@@ -229,15 +236,13 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
     distance = end - start
     if ratio <= 0:
         return [end]
-    wanted, total = distance / step, 0.0
-    lengths: list[float] = []
-    while total < wanted * (1 - 1e-9):
-        length = ratio ** len(lengths)
-        if length < 1e-12 * max(total, 1.0) or len(lengths) > 10**6:
+    wanted, length = distance / step, 1.0
+    lengths, total = [length], length
+    while (total := total + (length := ratio ** len(lengths))) <= wanted * (1 + 1e-9):
+        if length < 1e-12 * total or len(lengths) > 10**6:
             return [end]
         lengths.append(length)
-        total += length
-    values: list[float] = (start + distance * np.cumsum(lengths) / total).tolist()
+    values: list[float] = (start + distance * np.cumsum(lengths) / sum(lengths)).tolist()
     values[-1] = end
     return values
 
@@ -348,6 +353,7 @@ def mots(call: Call) -> ListMots:
             if not _star(call):
                 raise call.error("operators.lists.number-among-words", count)
             check_length(len(words) + count)
+            _tell_no_time(call, count)
             words += [str(call.required("MOT"))] * count
             continue
         found = call.read("MOT")
@@ -356,13 +362,8 @@ def mots(call: Call) -> ListMots:
         words.append(str(found.value))
 
 
-@operator(
-    "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
-    family="lists",
-    full_name="SUITE",
-)
-def suit(fields: tuple[Any, ...]) -> ListChpo:
+@operator("SUIT", family="lists", full_name="SUITE")
+def suit(fields: tuple[Any, ...] = Many("CHPOINT", "LISTCHPO", en="fields, in order")) -> ListChpo:
     """Collect fields."""
     flat: list[Any] = []
     for field in fields:

@@ -8,6 +8,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -20,26 +21,21 @@ _ENTRIES = {
     "RH10": "relaxation",
 }
 
+PULLED = between(0.02, 1.0)
+"""Of its strength: what cables are pulled to."""
 
-@operator(
-    "PREC",
-    arg("model", "MMODEL", en="cables, bars"),
-    arg("material", "MCHAML", en="their parameters"),
-    opt("table", "TABLE", en="losses"),
-    arg("force", "FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
-    opt("ends", "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"),
-    opt("before", "MCHAML", en="not built"),
-    family="model",
-    full_name="PRECONTRAINTE",
-)
+
+@operator("PREC", family="model", full_name="PRECONTRAINTE")
 def prec(
     call: Call,
-    model: Model,
-    material: CellField,
-    table: Table | None,
-    force: float,
-    ends: Mesh | Point | None,
-    before: CellField | None,
+    model: Model = Arg("MMODEL", en="cables, bars"),
+    material: CellField = Arg("MCHAML", en="their parameters"),
+    table: Table | None = Opt("TABLE", en="losses"),
+    force: float = Arg("FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
+    ends: Mesh | Point | None = Opt(
+        "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"
+    ),
+    before: CellField | None = Opt("MCHAML", en="not built"),
 ) -> CellField:
     """Tensions of all cables of a model."""
     if before is not None:
@@ -78,6 +74,9 @@ def _zone(
     seen = zone_field(zone, material)
     section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
     stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
+    share = force / float(section.min()) / losses.strength
+    if losses.relaxation and force > 0.0 and share not in PULLED:
+        call.warn("operators.models.cable-strength", force, share=share, strength=losses.strength)
     found = np.zeros(len(cells))
     for cable in cables_of(zone.cells.nodes, cells):
         b = cable.bars
@@ -101,7 +100,7 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
     return found
 
 
-@operator("IMPF", arg("mesh", "MAILLAGE", en="mesh"), family="model", full_name="IMPF")
-def impf(mesh: Mesh) -> Mesh:
+@operator("IMPF", family="model", full_name="IMPF")
+def impf(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     """The mesh, unchanged."""
     return mesh

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices
@@ -21,7 +22,6 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
-from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
@@ -70,8 +70,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
-def zpas(call: Call, table: Table) -> None:
+@operator("ZPAS", family="statics")
+def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
@@ -242,7 +242,7 @@ def _other_times(
     saved = np.ones(len(times), bool)
     if chosen is not None and len(times) > 1:
         later = (chosen.values > times[0]) & (chosen.values <= times[-1])
-        saved = nearest(times, chosen.values[later])
+        saved = entries.nearest("TEMPS_SAUVES", times, chosen.values[later])
     saved[0] = False
     return times, saved
 
@@ -344,7 +344,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
     if chosen is None:
         return times, np.ones(len(times), bool)
     later = chosen.values[(chosen.values > first) & (chosen.values <= times[-1])]
-    saved = nearest(times, later)
+    saved = entries.nearest("TEMPS_SAUVES", times, later)
     saved[0] = True
     return times, saved
 
@@ -364,6 +364,8 @@ def _inputs(
     free = tuple(z for z in bodies if not is_joint(z))
     check_strains(forces, free, bool(finite_zones(entries)))
     load, thermal = split_strains(forces, solids)
+    if material is not None and forces and any(p.name.strip() == "T" for p in forces.parts):
+        refuse_expanding([z for z in bodies if is_joint(z)], material)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")

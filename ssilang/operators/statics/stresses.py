@@ -11,6 +11,7 @@ from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.language.vocabulary import meanings
 from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
 from ssilang.operators.prelude import *
 
@@ -40,7 +41,16 @@ def displacement_of(call: Call, fields: Fields) -> NodeField:
     nodal = nodal_of(fields)
     if not nodal:
         raise call.missing(("CHPOINT",))
+    tell_no_unknown(call, nodal[0])
     return nodal[0]
+
+
+def tell_no_unknown(call: Call, field: NodeField) -> None:
+    """Warn of a field for displacements that has other components alone."""
+    names = [n for n in field.components if n != "LX"]
+    meant = (w for n in names for w in meanings("component", n))
+    if names and not any(w.kind == "unknown" for w in meant):
+        call.warn("operators.statics.no-displacements", field, names=names)
 
 
 def joined_cells(call: Call, fields: Fields) -> CellField:
@@ -126,6 +136,7 @@ def epsi(
     if not nodal:
         grad, by_displacement = joined(cells), gradient == "DEPL"
         return on_zones(zones, "DEFORMATIONS", lambda z: _logarithmic(z, grad, by_displacement))
+    tell_no_unknown(call, nodal[0])
     material = joined(cells) if cells else None
     compute = green_strain if measure == "QUAD" else families.strain
     return on_zones(zones, "DEFORMATIONS", lambda z: compute(z, nodal[0], material))
@@ -162,14 +173,14 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     return total(forces[0].table, forces)
 
 
-@operator(
-    "ELAS",
-    MODEL,
-    many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
-    family="stress",
-    full_name="ELASTICITE",
-)
-def elas(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
+@operator("ELAS", family="stress", full_name="ELASTICITE")
+def elas(
+    call: Call,
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = Many(
+        "MCHAML", at_least=1, en="stresses or strains, and parameters"
+    ),
+) -> CellField:
     """Hooke's law, either way."""
     zones = present(call, model)
     state = next((f for f in fields if _state(zones, f)), None)
@@ -204,8 +215,8 @@ def _state(model: Model, field: CellField) -> str:
     return ""
 
 
-@operator("EPTH", MODEL, _THERMAL, family="stress")
-def epth(call: Call, model: Model, fields: Fields) -> CellField:
+@operator("EPTH", family="stress")
+def epth(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal strains."""
     material, field = _thermal(call, fields)
     zones = present(call, model)
@@ -226,8 +237,8 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
     return cell_block(zone, families.family_of(zone).strain_names(zone), values)
 
 
-@operator("THET", MODEL, _THERMAL, family="stress", full_name="THETA")
-def thet(call: Call, model: Model, fields: Fields) -> CellField:
+@operator("THET", family="stress", full_name="THETA")
+def thet(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal stresses."""
     material, field = _thermal(call, fields)
     zones = present(call, model)
