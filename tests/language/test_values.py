@@ -100,6 +100,9 @@ def test_rows_become_tables_when_they_are_asked_for(source):
     assert (second.get("ROW"), made) == ("b", ["b"])
     assert rows.get(n + 2) is second
     assert not rows.untouched
+    rows.append("d")
+    assert rows.indices()[-1] == n + 4
+    rows.remove(n + 4)
     rows.set(n + 1, "mine")
     rows.remove(n + 3)
     rows.set(Mot("Z"), 5)
