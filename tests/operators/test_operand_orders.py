@@ -23,7 +23,7 @@ _FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 2 'UX' 1. 'UY' 9. ; L = SU
         ("", "ENTI 'PROCHE' -3.5", "ENTI -3.5 'PROCHE'"),
         ("", "MASQ (PROG 1. 5.) 'EGIN' 4", "4. MASQ (PROG 1. 5.) 'EGIN'"),
         ("", "MASQ (PROG 1. 5.) 'SUPE' 'SOMM' 4.", "MASQ (PROG 1. 5.) 'SUPE' 4. 'SOMM'"),
-        (_CURVES, "BORN F 1 'MAXI' 1. 2 'MINI' 0.", "BORN F 'MAXI' 1. 2 'MINI' 0."),
+        (_CURVES, "BORN F 1 'MAXI' 1. 2 'MINI' 0.", "BORN 1 'MAXI' 1. F 2 'MINI' 0."),
         (_CURVES, "E COUL ROUG", "COUL 'ROUG' E"),
     ],
 )

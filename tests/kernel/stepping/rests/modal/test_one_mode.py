@@ -1,7 +1,5 @@
 """The loop of one coordinate against steps by the law, one by one and over long runs."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from references.assembled import Bench
@@ -140,7 +138,7 @@ def test_light_modes_step_by_the_law(mass):
 
 
 def test_a_motion_beyond_all_numbers_is_told():
-    unstable = SimpleNamespace(alpha_m=0.0, alpha_f=0.0, beta=0.1, gamma=0.5)
+    unstable = Scheme(0.0, 0.0, 0.1, 0.5)
     (one, *_), (two, *_) = both(unstable, SPRINGS["none"], 20_000, 0.2)
     assert two[0] < 20_000
     assert two[1] <= 0
