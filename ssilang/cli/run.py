@@ -74,6 +74,7 @@ class RunOptions:
     """What the command line sets for a run."""
 
     output_directory: Path | None = None
+    shared: Path | None = None  # what all runs of a sweep share
     allowed: list[Path] = field(default_factory=list)
     language: str = "en"
     debug: bool = False
@@ -100,6 +101,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
         Session(
             script_directory=folder,
             output_directory=target,
+            shared=options.shared,
             allowed=options.allowed,
             out=out,
             language=options.language,

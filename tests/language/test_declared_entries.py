@@ -24,7 +24,7 @@ from ssilang.language.vocabulary.entries import (
     declared_names,
     read_declaration,
 )
-from ssilang.language.vocabulary.entries_table import entries_markdown, entries_text
+from ssilang.language.vocabulary.entries_table import entries_text
 from ssilang.operators.loader import load_operators
 
 load_operators()
@@ -167,8 +167,8 @@ def test_words_that_name_operators_are_shown_behind_mot(name):
 
 
 @pytest.mark.parametrize("language", ["en", "fr"])
-def test_the_tables_of_the_manual_have_a_row_for_each_entry(language):
-    text = "\n".join(entries_markdown(DECLARED["DYNAMIC"], language))
+def test_the_tables_of_the_manual_have_a_row_for_each_entry(language, build):
+    text = "\n".join(build.entries_markdown(DECLARED["DYNAMIC"], language))
     for entry in DECLARED["DYNAMIC"].entries:
         if entry.index not in (NUMBER, ANYTHING):
             assert entry.index in text

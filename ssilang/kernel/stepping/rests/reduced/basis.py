@@ -2,9 +2,9 @@
 
 The vectors are those of a block rational Krylov space: initial displacement, velocity and
 acceleration; static answers to the loads and to the interface's forces; answers of the step's own
-matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces, or of the damped
-operator (see `reduced_damping`). In the space, M, K and a Rayleigh damping become diagonal together
-(Galerkin), so a step costs a few products with the interface's rows, and with those of dashpots.
+matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces. In the space, M, K
+and a Rayleigh damping become diagonal together (Galerkin), so a step costs a few products with the
+interface's rows, and with those of dashpots.
 
 References: A. Ruhe (1984), rational Krylov; R. W. Freund (2004), structure-preserving projection;
 block orthogonalisation by two passes of Gram-Schmidt.
@@ -13,7 +13,6 @@ block orthogonalisation by two passes of Gram-Schmidt.
 from __future__ import annotations
 
 import math
-from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,63 +26,13 @@ from ssilang.kernel.stepping.problem.initial import (
     initial_acceleration,
     joint_state,
 )
-from ssilang.kernel.stepping.problem.moving_supports import MOST, Columns, MovingSupports
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.damping import States, split
-from ssilang.kernel.stepping.state import Motion
-from ssilang.messages.message import Refusal, Sentence
-
-# Moving supports of a reduced problem: their loads, and the motion that they add.
-
-
-@dataclass(frozen=True, eq=False)
-class ReducedSupports:
-    """Supports whose motions `X c(t)` come on top of what the vectors describe.
-
-    Attributes
-    ----------
-    columns : Columns
-        On the motions y that the supports leave.
-    start : array (3, m)
-        c, c', c'' at the start.
-    """
-
-    moving: MovingSupports
-    columns: Columns
-    start: FloatArray
-
-    @property
-    def count(self) -> int:
-        """Number m of motions."""
-        return int(self.columns.X.shape[1])
-
-    def during(self, problem: Problem, dt: float) -> MovingSupports:
-        """The same supports in another motion (its scheme, its loads), for steps dt."""
-        moving = copy(self.moving)
-        moving.problem, moving.dt = problem, dt
-        return moving
-
-
-def reduced_supports(
-    problem: Problem, T: sp.csr_array, u: FloatArray, v: FloatArray, a: FloatArray
-) -> ReducedSupports | Sentence:
-    """The supports of a problem whose motion starts with u, v, a (n,); or why they are too much."""
-    dt = float(problem.times[1] - problem.times[0])
-    moving = MovingSupports(problem, dt, T)
-    if len(moving.chosen) > MOST:
-        return Sentence("kernel.stepping.supports-move-by-too-many", most=MOST)
-    none, table = np.zeros(0), np.zeros((0, 1))
-    motion = Motion(u, v, a, none, none, table, table, table, none, none, none)
-    columns, course = moving.begin(motion, problem.loading.at(problem.times[:2]))
-    if columns.X.shape[1] > len(moving.chosen):
-        return Sentence("kernel.stepping.initial-motion-of-supports")
-    start = np.array([course.c[0], course.v[0], course.a[0]])
-    return ReducedSupports(moving, columns, start)
-
+from ssilang.kernel.stepping.rests.reduced.damping import split
+from ssilang.messages.message import Refusal
 
 DEPENDENT = 1e-12
 """Squared length, of one, below which what is left of a vector is rounding: it is dropped."""
-SHIFT = 4.0  # times the lowest frequency: the shift sqrt(sigma) of the Krylov space, 1/s
+SHIFT = 4.0  # times about the lowest frequency: the shift sqrt(sigma) of the Krylov space, 1/s
 HIGHEST_SHIFT = 0.25  # of 2/dt
 
 
@@ -103,13 +52,11 @@ class ReducedModel:
         Diagonals of mass, damping and stiffness.
     J : array (n_interface, r)
         Jumps of the interface.
-    forces : array (r, n_loads + 3 m)
-        Last, those of m moving supports.
+    forces : array (r, n_loads)
     start : array (r, 3)
         Displacement, velocity and acceleration at the start.
     B, sense : arrays (d, r), (d,)
         Dashpots: what of the damping is not in c is `B^T sense B`.
-    supports : ReducedSupports
     """
 
     T: sp.csr_array
@@ -123,7 +70,6 @@ class ReducedModel:
     start: FloatArray
     B: FloatArray
     sense: FloatArray
-    supports: ReducedSupports
 
     @property
     def size(self) -> int:
@@ -191,6 +137,20 @@ def refuse_reduction(problem: Problem) -> None:
         raise KernelError("kernel.stepping.reduction-steps")
 
 
+def on_motions(T: sp.csr_array, fields: FloatArray) -> FloatArray:
+    """Fields (n, k) that the supports allow on the motions y that they leave, (n_y, k)."""
+    found: FloatArray = invert(sp.csr_array(T.T @ T), True).solve(T.T @ fields)
+    return found
+
+
+def closed_stiffness(problem: Problem) -> sp.csr_array:
+    """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
+    T, joints, K = problem.constraints.T, problem.interface, problem.K
+    if joints is not None:
+        K = K + joints.J.T @ sp.csr_array(joints.closed_stiffness()) @ joints.J
+    return sp.csr_array(T.T @ K @ T)
+
+
 class Basis:
     """A growing basis, on the motions y that the supports leave (`u = T y`).
 
@@ -198,41 +158,45 @@ class Basis:
     """
 
     def __init__(self, problem: Problem, dt: float, largest: int) -> None:
-        T = problem.constraints.T
+        self._project(problem, largest)
+        q = self.J.shape[0]
+        if min(2 * q, self.T.shape[1]) > largest:  # static answers and the step's own
+            raise NoReduction("kernel.stepping.interface-of-too-many", q=q, n_vectors=largest)
+        self.meet(problem)
+        self.inputs = np.column_stack([self.J.T.toarray(), self.F])
+        static = invert(closed_stiffness(problem), True, problem.solver)
+        answers = self.inputs[:, :0] if static.singular else static.solve(self.inputs)
+        work = np.maximum(np.sum(answers * self.inputs, 0), 1e-300)
+        soft = np.sum(answers * (self.M @ answers), 0) / work
+        lowest = 1.0 / math.sqrt(soft.max(initial=0.0) or 1e-300)  # Rayleigh's quotient
+        self._shift(min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * lowest))
+        self._inverse = self._inverted(self.shift**2)
+        self._first_vectors(answers, 2.0 / dt)
+
+    def _project(self, problem: Problem, largest: int) -> None:
+        """Matrices on the motions, and room for vectors."""
+        T, joints = problem.constraints.T, problem.interface
         self.problem, self.T = problem, T
         self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
         damping = split(C, self.M, self.K, largest)
         if damping is None:
             raise NoReduction("kernel.stepping.damping-not-symmetric")
         self.damping = damping
-        joints = problem.interface
-        ports = sp.csr_array((0, T.shape[1])) if joints is None else sp.csr_array(joints.J @ T)
-        if (
-            min(2 * ports.shape[0], T.shape[1]) > largest
-        ):  # static answers and the step's own, before any is made
-            raise NoReduction(
-                "kernel.stepping.interface-of-too-many", q=ports.shape[0], n_vectors=largest
-            )
+        self.J = sp.csr_array((0, T.shape[1]) if joints is None else joints.J @ T)
+        self._store = np.zeros((largest, T.shape[1]))  # one vector a row
+        self._KV, self._CV = np.zeros((2, largest, largest))
+        self.size = self._fixed = 0
+
+    def _shift(self, s: float) -> None:
+        """Measure vectors by the shift s, 1/s."""
+        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
+
+    def meet(self, problem: Problem) -> None:
+        """Take the loads and the start of a motion."""
         v = admissible_velocity(problem)
         a = initial_acceleration(problem, v, joint_state(problem))
-        supports = reduced_supports(problem, T, problem.u, v, a)
-        if isinstance(supports, Sentence):
-            raise NoReduction(supports.code, **supports.data)
-        self.supports = supports
-        forces = T.T @ problem.loading.forces
-        self.J, self.F = ports, np.hstack([forces, supports.columns.forces.T])
-        self.inputs = np.column_stack([ports.T.toarray(), self.F])
-        self._store = np.zeros((largest, T.shape[1]))  # one vector a row
-        self._KV = np.zeros((largest, largest))
-        self.size = self._fixed = 0
-        static = self._static()
-        s = self.shift = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
-        self.N = sp.csr_array(self.M + self.K / s**2)
-        self._inverse = self._inverted(s**2)
-        self._last = np.zeros((T.shape[1], 0))
-        self._start = self._initial(np.column_stack([problem.u, v, a]))
-        self._states: States | None = None
-        self._first_vectors(static, 2.0 / dt)
+        self.F = self.T.T @ problem.loading.forces
+        self._start = on_motions(self.T, np.column_stack([problem.u, v, a]))
 
     @property
     def vectors(self) -> FloatArray:
@@ -249,67 +213,16 @@ class Basis:
             raise NoReduction("kernel.stepping.massless-body-on-joints")
         return inverse
 
-    def _initial(self, fields: FloatArray) -> FloatArray:
-        """Displacement, velocity, acceleration at the start (n, 3) on the motions y, (n_y, 3)."""
-        fields = fields - self.supports.columns.X @ self.supports.start.T
-        gram = invert(sp.csr_array(self.T.T @ self.T), True)
-        found: FloatArray = gram.solve(self.T.T @ fields)
-        return found
-
-    def _static(self) -> Inverse:
-        """Inverse of the stiffness with closed joints."""
-        joints, closed = self.problem.interface, self.K
-        if joints is not None:
-            R = sp.csr_array(joints.closed_stiffness())
-            closed = sp.csr_array(closed + self.J.T @ R @ self.J)
-        return invert(closed, True, self.problem.solver)
-
-    def _lowest(self, static: Inverse) -> float:
-        """About the lowest frequency with closed joints, rad/s; infinite if a body is free."""
-        if static.singular or self.inputs.shape[1] == 0:
-            return math.inf
-        x = self.inputs @ np.random.default_rng(0).standard_normal(self.inputs.shape[1])
-        size = 0.0
-        for _ in range(6):
-            x = static.solve(self.M @ x if size else x)
-            size = float(np.sqrt(x @ (self.M @ x)))
-            if not size > 0.0:
-                return math.inf
-            x = x / size
-        return 1.0 / math.sqrt(size)
-
-    def _first_vectors(self, static: Inverse, rate: float) -> None:
+    def _first_vectors(self, answers: FloatArray, rate: float) -> None:
         """Initial fields; static answers (joints closed), answers of the step's matrix."""
         self._add(self._start[:, self._start.any(axis=0)])
-        if not static.singular:
-            self._add(static.solve(self.inputs))
+        self._add(answers)
         self._add(self._inverted(rate**2, rate).solve(self.inputs))
         self._fixed = self.size
-        if self.damping.rest.nnz:
-            self._states = States(self.shift)
-            self._inverse = self._inverted(self.shift**2, self.shift)
-            self._enter(self._states, self._inverse.solve(self.inputs), None)
-            return
         self._last = self._add(self._inverse.solve(self.inputs))
-
-    def _enter(self, states: States, u: FloatArray, old: FloatArray | None) -> None:
-        """States with displacements u (n_y, b) made from those of coefficients `old`."""
-        self._add(u)
-        states.add(self.vectors @ (self.N @ u), old)
-
-    def _grow_damped(self, states: States) -> None:
-        s, V, (u, w) = self.shift, self.vectors, states.last
-        if u.shape[1] == 0:
-            return
-        U, W = (V[: len(u)].T @ x for x in (u, w))
-        r = self.damping.C @ U + s * (self.M @ (U + W))
-        self._enter(states, self._inverse.solve(r), u)
 
     def grow(self) -> None:
         """One more power of the Krylov space."""
-        if self._states is not None:
-            self._grow_damped(self._states)
-            return
         if self._last.shape[1] == 0:
             return
         self._last = self._add(self._inverse.solve(self.M @ self._last))
@@ -323,7 +236,6 @@ class Basis:
         """
         W = W / np.sqrt(np.maximum(np.einsum("ij,ij->j", W, self.N @ W), 1e-300))
         V, late = self.vectors, max(self.size - 2 * W.shape[1], self._fixed)
-        late = self._fixed if self._states is not None else late
         NW = self.N @ W
         for part in (V[: self._fixed], V[late:]):
             W = W - part.T @ (part @ NW)
@@ -334,9 +246,9 @@ class Basis:
         if r + b > len(self._store):
             raise NoReduction("kernel.stepping.vectors-not-enough", n_vectors=len(self._store))
         self._store[r : r + b] = W.T
-        part = self._store[: r + b] @ (self.K @ W)
-        self._KV[: r + b, r : r + b] = part
-        self._KV[r : r + b, : r + b] = part.T
+        for A, kept in ((self.K, self._KV), (self.damping.rest, self._CV)):
+            part = self._store[: r + b] @ (A @ W)
+            kept[: r + b, r : r + b], kept[r : r + b, : r + b] = part, part.T
         self.size = r + b
         return W
 
@@ -351,10 +263,10 @@ class Basis:
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
         J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
         d = self.damping
-        B, sense = d.on(V)
+        B, sense = d.on(V, self._CV[:r, :r])
         return ReducedModel(
             self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
-            X.T @ F, X.T @ start, B @ X, sense, self.supports,
+            X.T @ F, X.T @ start, B @ X, sense,
         )  # fmt: skip
 
 
