@@ -74,7 +74,6 @@ class RunOptions:
     """What the command line sets for a run."""
 
     output_directory: Path | None = None
-    shared: Path | None = None  # what all runs of a sweep share
     allowed: list[Path] = field(default_factory=list)
     language: str = "en"
     debug: bool = False
@@ -88,6 +87,7 @@ class RunOptions:
     on_form: FormsRan | None = None  # collects the forms of operators that run
     petsc: str = field(default_factory=lambda: os.environ.get("SSILANG_PETSC", ""))
     """What starts PETSc, '' if there is none."""
+    shared: Path | None = None  # what all runs of a sweep share
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:

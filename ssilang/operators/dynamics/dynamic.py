@@ -106,8 +106,8 @@ def zdyn(call: Call, table: Table) -> Table:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
         reduced = history.reduction is not None and history.reduction.vectors
-        asked_for = (entries.get("REDUCTION"), training_file(entries)) if reduced else (None, None)
-        again = partial(_step_again, *asked_for, problem, steps_of_reprise(entries))
+        tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
+        again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)

@@ -231,7 +231,7 @@ class Basis:
         """Orthonormalise W (n_y, b) against the basis and itself, append; the new vectors.
 
         A first pass takes off what exact arithmetic leaves: the parts along the first vectors and
-        the last two blocks (the Krylov operator is symmetric in N, but for the damped one); a
+        the last two blocks (the Krylov operator is symmetric in N); a
         second one takes off the rounding along all.
         """
         W = W / np.sqrt(np.maximum(np.einsum("ij,ij->j", W, self.N @ W), 1e-300))

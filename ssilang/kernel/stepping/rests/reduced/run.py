@@ -209,7 +209,7 @@ class ReducedIntegration:
         p, n, sampled = self.problem, len(self.problem.times), self._sampled
         poor = Trace(p, pair.poor, sampled)
         rich = Trace(p, pair.rich, sampled | wanted)
-        difference, chunks = Difference(p), []
+        difference, chunks = Difference(p), list[Chunk]()
         for run in comparing(p.times):
             a = pair.ahead.pop(0) if pair.ahead else poor.advance(run)
             b = rich.advance(run) if a is not None else None

@@ -60,7 +60,10 @@ class Training:
 class Shelf(Protocol):
     """Where a training stands."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """As messages call it."""
+        ...
 
     def stamp(self) -> str:
         """Another one for each state of what stands there."""
@@ -158,13 +161,13 @@ class Learner:
         """Train what stands on the shelf by the run."""
         p, old = self.problem, read_for(self.problem, model, shelf)
         record = digest([], [p.loading.forces, p.loading.at(p.times), p.u, p.v])
-        taught, Y = (record,), on_motions(p.constraints.T, np.array(self.columns).T).T
-        if old is not None:
-            if record in old.taught:
-                return
-            taught, Y = (*old.taught, record), np.vstack([old.vectors, Y])
+        Y = on_motions(p.constraints.T, np.array(self.columns).T).T
+        taught = () if old is None else old.taught
+        if record in taught:
+            return
+        Y = Y if old is None else np.vstack([old.vectors, Y])
         gram = Y @ (closed_stiffness(p) @ Y.T)
         values, mixed = np.linalg.eigh(0.5 * (gram + gram.T))
         kept = np.flatnonzero(values > ROUNDING * values[-1])[-VECTORS:]
         dt = float(p.times[1] - p.times[0])
-        shelf.write(Training(model, dt, taught, mixed[:, kept].T @ Y))
+        shelf.write(Training(model, dt, (*taught, record), mixed[:, kept].T @ Y))
