@@ -16,7 +16,10 @@ that imports the module with the fault. A mutant that all pass is a survivor and
 
 Near are the tests of the mirrored folder, and those that import the module or name what is changed,
 what calls it, or the word of the operator or procedure that does; rare names count more. What the
-data beside a file of tests names (`.toml` of its name) is named by that file.
+data of a file of tests name (`.toml` of its name, a folder that it names) is named by that file; a
+further form of an operator is found by the operator's word. Where nothing is near, the tests of the
+room are taken; a mutant that no test tried is told as NONE and not counted. Faults of the language
+server get a process of their own, since its tests speak to a server that imports the copy.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
@@ -61,10 +64,13 @@ FILES = 30  # of tests, at most, for a mutant
 WORD = 1.6  # what naming the operator counts, of naming the function
 OFTEN = 6  # operators that may share a word of theirs
 COMPILES = 3.0  # times the limit: what a fault changes, and all that calls it, is compiled first
+DATA = (".forms", ".ssi", ".toml", ".txt")
+SERVED = "ssilang/cli/editor/"  # its tests speak to a server, a process that imports the copy
 CASE = 4  # files whose tests go before one more case of a test
+NONE = "none is near"
 NOT_SO = "untried: it is in no function of a process"
 WORDS = dict.fromkeys(("assertion", "crash", "time"), "noticed")
-WORDS |= {word: word.upper() for word in ("equivalent", "gone", "untried")}
+WORDS |= {word: word.upper() for word in ("equivalent", "gone", "none", "untried")}
 LIBRARIES = ("hypothesis", "numba", "numpy", "scipy.linalg", "scipy.sparse.linalg", "xdist")
 GOOD = """
 import sys
@@ -264,11 +270,11 @@ def faults(path: Path) -> list[Fault]:
     return found
 
 
-def drawn(count: int, seed: int, under: str = "ssilang") -> tuple[list[Fault], str]:
-    """Faults at lines drawn over a folder of the package, and what share of it has such lines."""
+def drawn(count: int, seed: int, under: list[str]) -> tuple[list[Fault], str]:
+    """Faults at lines drawn over folders of the package, and what share of them has such lines."""
     places: dict[tuple[str, int], list[Fault]] = {}
     total = 0
-    for path in sorted((ROOT / under).rglob("*.py")):
+    for path in sorted(path for folder in under for path in (ROOT / folder).rglob("*.py")):
         lines = path.read_text(encoding="utf-8").split("\n")
         total += sum(1 for line in lines if line.strip() and not line.strip().startswith("#"))
         for fault in faults(path):
@@ -282,7 +288,9 @@ def drawn(count: int, seed: int, under: str = "ssilang") -> tuple[list[Fault], s
             if fault.is_one():
                 chosen.append(fault)
                 break
-    share = f"{len(places)} of {total} lines of {under} ({100 * len(places) / total:.0f} %)"
+    share = (
+        f"{len(places)} of {total} lines of {' '.join(under)} ({100 * len(places) / total:.0f} %)"
+    )
     return chosen, share
 
 
@@ -305,6 +313,7 @@ class Callers:
         self.uses: dict[tuple[str, str], set[str]] = {}  # 'module.name' for what is imported
         self.words: dict[tuple[str, str], set[str]] = {}
         self.spans: dict[str, list[tuple[int, int, str]]] = {}
+        self.forms: list[tuple[str, str, str, dict[str, str]]] = []  # of which operator
         self.library = {
             path.stem.upper().lstrip("@"): set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
             for path in (ROOT / "stdlib").glob("*.ssi")
@@ -323,6 +332,9 @@ class Callers:
         often = Counter(word for words in self.words.values() for word in words)
         for words in self.words.values():  # a word of many operators is that of a type
             words -= {word for word in words if often[word] > OFTEN}
+        for module, name, operator, imported in self.forms:
+            own = (module, operator), tuple(imported.get(operator, ".").rsplit(".", 1))
+            self.words[module, name] |= {w for key in own for w in self.words.get(key, ())}
 
     def _put(self, module: str, node: Any, imported: dict[str, str]) -> None:
         names = {getattr(n, "id", getattr(n, "attr", "")) for n in ast.walk(node)}
@@ -331,6 +343,8 @@ class Callers:
         said = " ".join(ast.unparse(d) for d in node.decorator_list)
         found = re.findall(r"'([A-Z][A-Z0-9_*]{2,})'|^([A-Z]{3,})\.form", said)
         self.words.setdefault(key, set()).update(a or b for a, b in found)
+        for operator in re.findall(r"\b([a-z_]+)\.form\(", said):
+            self.forms.append((module, node.name, operator, imported))
         self.spans.setdefault(module, []).append((node.lineno, node.end_lineno or 0, node.name))
 
     def names(self, fault: Fault) -> dict[str, float]:
@@ -368,7 +382,8 @@ def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str
             rank[file] += 6.0 + 12.0 * (module.name in Path(file).stem)
         elif folder in mirror.parents[:-2] or mirror in folder.parents:  # rooms around and within
             rank[file] += 1.0
-    return [f for f in sorted(rank, key=lambda f: (-rank[f], f)) if rank[f] > 0.0][:FILES]
+    found = [f for f in sorted(rank, key=lambda f: (-rank[f], f)) if rank[f] > 0.0][:FILES]
+    return found or [f for f in texts if Path(f).parts[1:2] == mirror.parts[1:2]]
 
 
 def compiled(fault: Fault) -> bool:
@@ -493,7 +508,7 @@ class _Judge:
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=after)
             if self.said or time.process_time() > self.seconds:
                 return self.said or f"passed {i + 1} tests, the limit"
-        return f"passed {len(items)} tests"
+        return f"passed {len(items)} tests" if items else NONE
 
 
 def verdicts(copy_of: Path, asked: list[Asked], seconds: float) -> Iterator[str]:
@@ -544,9 +559,13 @@ def unchanged(copy_of: Path) -> set[str]:
 
 
 def written(test: Path) -> str:
-    """A file of tests and the data beside it that have its name."""
-    beside = [path for path in (test, test.with_suffix(".toml")) if path.is_file()]
-    return "\n".join(path.read_text(encoding="utf-8") for path in beside)
+    """A file of tests, the data beside it that have its name, and folders of data that it names."""
+    own = test.read_text(encoding="utf-8")
+    beside = [path for path in (test.with_suffix(".toml"),) if path.is_file()]
+    for folder in test.parent.iterdir():
+        if folder.is_dir() and f'"{folder.name}"' in own:
+            beside += [path for path in folder.iterdir() if path.suffix in DATA]
+    return "\n".join([own, *(path.read_text(encoding="utf-8") for path in beside)])
 
 
 def warm_up(kept: Path) -> None:
@@ -584,12 +603,14 @@ def try_all(
         tests = near(fault, texts, callers)
         reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
         if reason or not fault.source() or not tests:
-            tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else "none is near")
+            tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else NONE)
         else:
             words = frozenset(re.findall("[a-z]+", fault.path[len("ssilang/") : -len(".py")]))
-            (cold if compiled(fault) else warm).append((fault, tests, words))
+            words |= {name.lower() for name in callers.names(fault) if name.isupper()}
+            apart = compiled(fault) or fault.path.startswith(SERVED)
+            (cold if apart else warm).append((fault, tests, words))
     for (fault, tests, words), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
-        if once or WORDS.get(said.split()[0]) == "noticed":
+        if (once and said != NOT_SO) or WORDS.get(said.split()[0]) == "noticed":
             tell(fault, said)
         else:
             cold.append((fault, tests, words))
@@ -616,7 +637,7 @@ def main() -> None:
     parser.add_argument("count", nargs="?", type=int, default=100, help="mutants")
     parser.add_argument("seed", nargs="?", type=int, default=1, help="of the draw of lines")
     parser.add_argument("--seconds", type=float, default=60.0, help="of tests for a mutant")
-    parser.add_argument("--under", default="ssilang", metavar="FOLDER", help="draw from it alone")
+    parser.add_argument("--under", nargs="+", default=["ssilang"], help="folders to draw from")
     parser.add_argument("--once", action="store_true", help="survivors get no process of their own")
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")

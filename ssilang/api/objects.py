@@ -67,7 +67,7 @@ class TableView(View[Table], Mapping[Any, Any]):
     def _missing(self, index: object) -> Exception:
         known = [i for i in self.held.indices() if isinstance(i, str | int | float)]
         near = nearest(str(index), [k for k in known if isinstance(k, str)], SHORT_LIKE)
-        shown = [repr(_plain(k)) for k in known[:_MOST_SHOWN]]
+        shown = [repr(seen(k, self.language)) for k in known[:_MOST_SHOWN]]
         return refused(
             "api.no-such-index", self.language, MissingKey,
             index=repr(index), near=repr(str(near)) if near else "", known=shown,
@@ -99,7 +99,7 @@ class TableView(View[Table], Mapping[Any, Any]):
 
     def __repr__(self) -> str:
         subtype = f"{self.held.subtype}, " if self.held.subtype else ""
-        shown = [repr(_plain(i)) for i in self.held.indices()[:8]]
+        shown = [repr(seen(i, self.language)) for i in self.held.indices()[:8]]
         more = ", ..." if len(self) > len(shown) else ""
         return f"<TABLE {subtype}{len(self)}: {', '.join(shown)}{more}>"
 
@@ -109,10 +109,6 @@ class OpaqueView(View[Any]):
 
     def __repr__(self) -> str:
         return f"<{type_of(self.held)}>"
-
-
-def _plain(value: object) -> object:
-    return str(value) if isinstance(value, str) else value
 
 
 _VALUES: dict[type, Callable[[Any], Any]] = {

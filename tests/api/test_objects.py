@@ -3,6 +3,8 @@
 import doctest
 import importlib
 import pkgutil
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -199,3 +201,54 @@ def modules():
 def test_examples_in_docstrings_run(module):
     tried = doctest.testmod(module)
     assert tried.failed == 0
+
+
+SHOWN = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; P = 2. 3. ; L = DROI 2 (0. 0.) (4. 0.) ;
+S = TRAN 3 L (0. 3.) ; S = S ET (MANU 'TRI3' (0. 0.) (1. 0.) P) ;
+M = MODE S 'MECANIQUE' 'ELASTIQUE' ; U = COOR 1 S ;
+C = (MANU 'CHML' M 'A' 2.) ET (MANU 'CHML' M 'B' 3.) ; R = PROG 3. -1.25 ; W = MOTS 'one' 'two' ;
+E = EVOL 'MANU' 't' (PROG 1. 3.) 'y' (PROG 5. 0.25) ; T = TABL 'KIND' ; T . 7 = R ; T . 'x' = VRAI ;
+T . 2.5 = 'word' ; T . P = -3 ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.) ; V = TABL ; F = SUIT U U ;
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "shown", "cells"),
+    [
+        ("P", r"<POINT .*\(2\. 3\.\)>", None),
+        ("S", "<MAILLAGE 6 QUA4, 1 TRI3, 15 nodes>", None),
+        ("U", "<CHPOINT SCAL, 15 nodes>", ["", "x", "y", "z", "SCAL"]),
+        ("C", "<MCHAML .*A B, 7 cells>", None),
+        ("E", r"<EVOLUTION y \(2\)>", None),
+        ("T", "<TABLE KIND, 5: 'SOUSTYPE', 7, 'x', 2.5, <POINT .*>>",
+         ["KIND", "", "'SOUSTYPE'", "KIND", "7", "LISTREEL (2)", "'x'", "VRAI", "2.5", "word",
+          "POINT", "-3"]),
+        ("K", "<RIGIDITE>", None),
+        ("V", "<TABLE 0: >", ["TABLE", ""]),
+    ],
+)  # fmt: skip
+def test_objects_show_what_they_are(name, shown, cells):
+    root = ssilang.run(SHOWN)
+    value = root[name]
+    assert re.fullmatch(shown, repr(value)), repr(value)
+    assert f"{name}, " in repr(root) or name in list(root)[12:]
+    html = getattr(value, "_repr_html_", str)()
+    found = re.findall("<t[hd]>(.*?)</t[hd]>", html)
+    assert cells is None or found[: len(cells)] == [c.replace("'", "&#x27;") for c in cells]
+
+
+def test_views_give_numbers_in_their_own_order():
+    r = ssilang.run(SHOWN)
+    assert (r["P"].node, r["P"].coordinates.tolist()) == (1, [2.0, 3.0, 0.0])
+    assert np.asarray(r["P"]).tolist() == [2.0, 3.0, 0.0]
+    assert (len(r["S"]), len(r["F"]), len(list(r)), len(r)) == (7, 2, 13, 13)
+    assert r["F"][1]["SCAL"].tolist() == r["U"].points[:, 0].tolist()
+    assert np.asarray(r["E"]).tolist() == [5.0, 0.25]
+    assert sorted(r["C"].mesh.cells) == ["QUA4", "TRI3"]
+    assert len(r["C"].mesh) == 7
+    assert r["C"].values("B", 2).tolist() == [[3.0]]
+    with pytest.raises(ssilang.Error, match="component"):
+        r["C"].values("Q", 2)
+    assert r["R"].tolist() == [3.0, -1.25]
+    assert ssilang.api.objects.held(Path("a") / "b") == "a/b"

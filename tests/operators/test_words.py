@@ -98,36 +98,10 @@ def test_errors_ignored_are_shown_and_the_run_goes_on(printed):
     assert printed("OPTI ERRE IGNORE ; X = 1 / 0 ; OPTI ERRE NORMALE ; MESS 'on' ;") == ["on"]
 
 
-def test_existence(found):
-    names = "A B C D E F"
-    values = found(
-        "DEBP P1 X/ENTIER ; L = EXIS X ; FINP L ; A = P1 ; B = P1 3 ; T = TABL ; T . 'K' = 1 ; "
-        "C = EXIS T 'K' ; D = EXIS T 'L' ; E F = EXIS (MOTS 'UX' 'UY') (MOTS 'UY' 'UZ') ;",
-        *names.split(),
-    )
-    assert values == (False, True, True, False, True, False)
-
-
 def test_forgotten_index_and_name(found):
     size, known = found("T = TABL ; T . 1 = 5 ; OUBL T 1 ; N = DIME T ; X = 2 ; OUBL X ;", "N", "X")
     assert size == 0
     assert known is ANNULE
-
-
-def test_computed_name(found):
-    a, b = found("REPE B 2 ; NOMM (CHAI 'v' &B) (10 * &B) ; FIN B ;", "V1", "V2")
-    assert (a, b) == (10, 20)
-
-
-def test_object_with_methods_keeps_its_state(found):
-    values = found(
-        "DEBM NAIT X*ENTIER ; %N = X ; %METHODE AJOUTE PLUS ; FINM ; "
-        "DEBM PLUS M*ENTIER ; %N = %N + M ; FINM %N ; "
-        "O = OBJE NAIT 10 ; A = O%AJOUTE 2 ; B = O%AJOUTE 3 ; "
-        "Q = OBJE NAIT 0 ; C = EXIS Q 'N' ; ",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert values == (12, 15, True)
 
 
 def test_inherited_method_runs_on_the_heir(found):

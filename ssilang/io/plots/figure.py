@@ -170,11 +170,26 @@ def figure_bytes(figure: Figure, form: str) -> bytes:
     buffer = io.BytesIO()
     metadata = {"Date": None} if form == "svg" else None
     with mpl.rc_context(_style()):
+        _number_plainly(figure)
         if (engine := figure.get_layout_engine()) is not None:
             engine.execute(figure)
             figure.set_layout_engine(None)
         figure.savefig(buffer, format=form, metadata=metadata)
     return buffer.getvalue()
+
+
+def _number_plainly(figure: Figure) -> None:
+    """Let axes have plain numbers, not formulas: reading those took a fifth of a picture's time."""
+    from matplotlib.ticker import ScalarFormatter
+
+    class Plain(ScalarFormatter):
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return super().__call__(x, pos).removeprefix(r"$\mathdefault{").removesuffix("}$")
+
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if type(axis.get_major_formatter()) is ScalarFormatter:
+                axis.set_major_formatter(Plain())
 
 
 def slug(title: str) -> str:

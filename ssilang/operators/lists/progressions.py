@@ -53,7 +53,7 @@ def _items(kind: str) -> tuple[Entry, ...]:
 
 _FACTORS = (
     key("a", "A", _SETTINGS["A"], en="slope, 1 by default"),
-    key("b", "B", _SETTINGS["B"], en="constant, 1 by default"),
+    key("b", "B", _SETTINGS["B"], en="constant, 0 by default"),
 )
 
 

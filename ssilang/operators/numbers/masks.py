@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from typing import Any
 
@@ -187,16 +188,7 @@ def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, floa
                 "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place
             )
         part = value.parts[place - 1]
-        parts.append(
-            CurvePart(
-                part.abscissas,
-                np.clip(part.ordinates, low, high),
-                part.abscissa_name,
-                part.ordinate_name,
-                part.legend,
-                part.colour,
-            )
-        )
+        parts.append(dataclasses.replace(part, ordinates=np.clip(part.ordinates, low, high)))
     return Curve(tuple(parts), value.title, value.kind)
 
 

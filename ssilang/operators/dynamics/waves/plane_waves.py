@@ -66,24 +66,21 @@ def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
 def _ground(entries: Entries) -> HalfSpace:
     from ssilang.kernel.waves.layered_half_space import HalfSpace
 
+    entries.needed("COUCHES")
     layers = entries.inside("COUCHES")
-    if layers is None:
-        raise entries.error("operators.dynamics.layers-of-wave")
+    assert layers is not None
+    layers.needed(1)
     rows: list[tuple[float, ...]] = []
     thickness: list[float | None] = []
     while (layer := layers.inside(len(rows) + 1)) is not None:
         young, poisson, density = (
             float(layer.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
         )
-        if young <= 0 or density <= 0 or not -1 < poisson < 0.5:
-            raise entries.error("operators.dynamics.layer-not-elastic", number=len(rows) + 1)
         shear = young / (2 * (1 + poisson))
         primary = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
         damping = float(layer.get("AMORTISSEMENT") or 0.0)
         rows.append((density, np.sqrt(shear / density), np.sqrt(primary / density), damping))
         thickness.append(layer.get("EPAISSEUR"))
-    if not rows:
-        raise entries.error("operators.dynamics.layers-of-wave")
     if any(h is None for h in thickness[:-1]):
         raise entries.error(
             "operators.dynamics.thickness-of-layer", number=thickness.index(None) + 1

@@ -1,0 +1,109 @@
+"""What a phrase gives is the value beside it (`test_phrases.toml`), reckoned without the package.
+
+A group is said behind its `before` in one session. What stands before the last `;` of a phrase is
+said first, what stands behind it gives the value: numbers, words and lists as they are, a point by
+its coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
+tables by what they hold, fields by functions of x, y and z for each component.
+"""
+
+import io
+import math
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy import special
+
+from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.kernel.curves.curve import Curve
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.language.text.source import Source
+from ssilang.language.values import Table
+from ssilang.operators.workspace import workspace
+
+GROUPS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
+ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory):
+    made = {}
+
+    def of(group):
+        if group not in made:
+            folder = tmp_path_factory.mktemp(group)
+            made[group] = make_session(Source("before", ""), RunOptions(folder), io.StringIO())
+            execute(made[group], Source("before", GROUPS[group].get("before", "")))
+        return made[group]
+
+    return of
+
+
+def plain(value, dimension=2):
+    """What tests compare of an object of the language."""
+    match value:
+        case Curve():
+            return [[plain(p.abscissa_words or p.abscissas.tolist()),
+                     plain(p.words or p.ordinates.tolist())] for p in value.parts]  # fmt: skip
+        case Mesh():
+            at = value.nodes.coordinates[:, :dimension]
+            return [[b.cell_type, at[b.connectivity].tolist()] for b in value.blocks]
+        case Table():
+            return {key: plain(item, dimension) for key, item in value.items()}
+        case list() | tuple():
+            return [plain(item, dimension) for item in value]
+        case str():
+            return value.rstrip()
+    if hasattr(value, "coordinates") and hasattr(value, "node"):
+        return value.coordinates[:dimension].tolist()
+    if hasattr(value, "values") and not isinstance(value, NodeField | CellField):
+        return plain(list(value.values), dimension)
+    return value
+
+
+def assert_plain(found, wanted):
+    if isinstance(wanted, dict):
+        assert set(found) == set(wanted)
+        for key, item in wanted.items():
+            assert_plain(found[key], item)
+    elif isinstance(wanted, list | tuple | np.ndarray):
+        assert len(found) == len(wanted), found
+        for one, other in zip(found, wanted, strict=True):
+            assert_plain(one, other)
+    elif isinstance(wanted, int | float | np.number) and not isinstance(wanted, bool):
+        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+    else:
+        assert found == wanted
+
+
+def assert_field(field, wanted):
+    """Every component is its function of the place, in all nodes or points."""
+    if isinstance(field, NodeField):
+        at = field.table.coordinates
+        parts = [(n, at[p.nodes], p.values) for n, p in field.components.items()]
+    else:
+        parts = [(n, b.cells.coordinates, v) for b in field.blocks for n, v in b.components.items()]
+    assert {n for n, *_ in parts} == set(wanted)
+    for name, place, values in parts:
+        if values.shape[1:] != place.shape[1:-1]:
+            place = place.mean(axis=1, keepdims=True)
+        exact = wanted[name](*np.moveaxis(place, -1, 0))
+        np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-9, 1e-12)
+
+
+@pytest.mark.parametrize(("group", "phrase"), ROWS)
+def test_a_phrase_gives_its_value(sessions, group, phrase):
+    session = sessions(group)
+    said, _, asked = phrase.rpartition(";")
+    execute(session, Source("phrase", f"{said + ' ; ' if said else ''}ZZ = {asked} ;"))
+    found = session.root.find("ZZ")
+    wanted = eval(GROUPS[group][phrase], KNOWN)
+    if isinstance(found, NodeField | CellField):
+        assert_field(found, wanted)
+    else:
+        dimension = workspace(session).dimension
+        assert_plain(plain(found, dimension), wanted)
