@@ -10,7 +10,7 @@ from ssilang.cli.checking.scope import assigned_names
 from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.run import RunOptions, allow_nesting, make_session
-from ssilang.cli.terminal.colour import coloured
+from ssilang.cli.terminal.screen import coloured
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source

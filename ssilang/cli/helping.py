@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TextIO
 
-from ssilang.cli.terminal.colour import show
+from ssilang.cli.terminal.screen import show
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.diagnostics import elsewhere
 from ssilang.language.say.reference import overview

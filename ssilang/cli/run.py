@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from ssilang import private
 from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
-from ssilang.cli.terminal.colour import coloured
 from ssilang.cli.terminal.loop_progress import follow_loops
+from ssilang.cli.terminal.screen import coloured
 from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session

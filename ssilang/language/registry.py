@@ -10,11 +10,11 @@ from __future__ import annotations
 import sys
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from inspect import signature
 from types import FunctionType
-from typing import Any, Literal
+from typing import Any, Concatenate, Literal, ParamSpec
 
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.filled import Filled
@@ -26,6 +26,7 @@ NAME = "NOM"
 """Type word of an entry that takes the name of the next operand, whatever object bears it."""
 
 Function = Callable[..., Any]
+P = ParamSpec("P")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -161,7 +162,7 @@ def arg(
     above: str = "",
     distinct: bool = False,
     over: str = "",
-) -> Argument:
+) -> Any:
     """A mandatory operand of one of the types (none: any type)."""
     return Argument(
         name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual, above=above,
@@ -169,7 +170,7 @@ def arg(
     )  # fmt: skip
 
 
-def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Argument:
+def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Any:
     """A mandatory operand that is read before any keyword: the first one, or right behind `said`.
 
     Words such as names of files or items of lists may be spelt like a keyword.
@@ -177,12 +178,12 @@ def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = 
     return Argument(name, types or (ANY,), en=en, kind=kind, leads=True, whole=whole)
 
 
-def named(name: str, optional: bool = False, en: str = "") -> Argument:
+def named(name: str, optional: bool = False, en: str = "") -> Any:
     """The name that the next operand is written as, whatever object bears it: a str."""
     return Argument(name, (NAME,), optional, en=en, leads=True)
 
 
-def main(name: str, *types: str, en: str = "") -> Argument:
+def main(name: str, *types: str, en: str = "") -> Any:
     """The operand whose type decides which form of an operator runs; of numbers, any."""
     return Argument(name, types, en=en, main=True, range=CARRIED)
 
@@ -197,7 +198,7 @@ def opt(
     range: Range = UNSAID,
     usual: Range = UNSAID,
     distinct: bool = False,
-) -> Argument:
+) -> Any:
     """An optional operand."""
     return Argument(
         name, types or (ANY,), optional=True, default=default, en=en, unit=unit, kind=kind,
@@ -221,7 +222,7 @@ def many(
     range: Range = UNSAID,
     usual: Range = UNSAID,
     distinct: bool = False,
-) -> Argument:
+) -> Any:
     """All operands of one of the types that can be read, as a tuple.
 
     With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
@@ -256,13 +257,13 @@ def key(
     default: Any = None,
     length: int = 4,
     en: str = "",
-) -> Keyword:
+) -> Any:
     """A keyword with what follows it; `repeated` collects a list."""
     words = (word,) if isinstance(word, str) else tuple(word)
     return Keyword(name, words, arguments, optional, repeated, default, length, en)
 
 
-def flag(name: str, word: str, length: int = 4, en: str = "") -> Keyword:
+def flag(name: str, word: str, length: int = 4, en: str = "") -> Any:
     """A keyword alone: True when it stands there, else False."""
     return Keyword(name, (word,), default=False, length=length, en=en)
 
@@ -279,9 +280,25 @@ def choice(
     optional: bool = True,
     en: str = "",
     length: int = 4,
-) -> Keyword:
+) -> Any:
     """One of several words; the function gets the full word as declared here."""
     return Keyword(name, tuple(words), optional=optional, default=default, length=length, en=en)
+
+
+def _of_parameter(make: Callable[Concatenate[str, P], Any]) -> Callable[P, Any]:
+    return partial(make, "")
+
+
+Arg = _of_parameter(arg)
+"""`arg` as the default of the parameter that gets it, by whose name it goes; so the others."""
+Opt = _of_parameter(opt)
+Many = _of_parameter(many)
+Main = _of_parameter(main)
+Lead = _of_parameter(lead)
+Name = _of_parameter(named)
+Key = _of_parameter(key)
+Flag = _of_parameter(flag)
+Choice = _of_parameter(choice)
 
 
 def select(
@@ -564,8 +581,8 @@ class Operator:
         Parameters
         ----------
         *entries : Entry
-            What the form reads, in reading order. Keywords are looked for before and after each
-            operand is read.
+            What the form reads, in reading order, before what stands as defaults of the function's
+            parameters. Keywords are looked for before and after each operand is read.
         gives : str, sequence of str, Like, or By, optional
             Types of the results; by default what the function's annotation says.
         by_hand : str
@@ -580,8 +597,9 @@ class Operator:
         """
 
         def add(function: Function) -> Function:
+            read = (*entries, *_of_parameters(function))
             made = Form(
-                tuple(entries) if entries or not by_hand else None,
+                read if read or not by_hand else None,
                 function,
                 _injected(function),
                 _gives(gives),
@@ -655,8 +673,8 @@ def operator(
     name : str
         First four letters, such as 'DROI', or a sign.
     *entries : Entry
-        What the form reads, in reading order. Keywords are looked for before and after each
-        operand is read.
+        What the form reads, in reading order, before what stands as defaults of the function's
+        parameters. Keywords are looked for before and after each operand is read.
     family : str
         Page of the manual: 'mesh', 'field', 'model', 'list', ...
     tables : callable, optional
@@ -717,6 +735,15 @@ def _name_of(function: Function) -> str:
     while isinstance(function, partial):
         function = function.func
     return str(getattr(function, "__name__", ""))
+
+
+def _of_parameters(function: Function) -> tuple[Entry, ...]:
+    """Entries that stand as defaults of a function's parameters, called as these."""
+    if not isinstance(function, FunctionType) or function.__defaults__ is None:
+        return ()
+    names = function.__code__.co_varnames[: function.__code__.co_argcount]
+    given = zip(reversed(names), reversed(function.__defaults__), strict=False)
+    return tuple(reversed([replace(e, name=n) for n, e in given if isinstance(e, Entry)]))
 
 
 def _injected(function: Function) -> tuple[str, ...]:

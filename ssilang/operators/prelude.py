@@ -15,9 +15,18 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.language.registry import (
     ANY,
+    Arg,
+    Choice,
     Chosen,
     Entry,
+    Flag,
+    Key,
+    Lead,
     Like,
+    Main,
+    Many,
+    Name,
+    Opt,
     arg,
     by,
     choice,

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, TextIO
 from ssilang import __version__
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.run import RunOptions, execute, make_session
-from ssilang.cli.terminal.colour import coloured, show
 from ssilang.cli.terminal.loop_progress import follow_loops
+from ssilang.cli.terminal.screen import coloured, show
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Session
 from ssilang.language.say.diagnostics import render

@@ -208,12 +208,12 @@ class SeriesWriter(Series):
         """Names of the parts of the last step."""
         return tuple(e.part for e in self._entries if e.time == self.last_time)
 
-    def write_single(self, part: Part, time: float = 0.0) -> None:
+    def write_single(self, part: Part) -> None:
         """Write the only file of a series: BASE.vtu, without a step's number."""
         path = self.base.with_name(self.base.name + ".vtu")
         write_vtu(path, self._labelled("", part), self.encoding, constants=self._told(part))
         self.files.append(path)
-        self._entries = [Entry(time, "", path.name)]
+        self._entries = [Entry(0.0, "", path.name)]
         self.close()
 
     def position(self) -> Any:

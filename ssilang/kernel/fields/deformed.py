@@ -11,7 +11,6 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.nodes import NodeTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,20 +82,21 @@ class Deformed:
     parts: tuple[DeformedPart, ...]
 
 
-# coordinate that a displacement component moves; UR is the first in axisymmetric modes
-_AXES = {"UX": 0, "UY": 1, "UZ": 2}
-_AXIAL_AXES = {"UR": 0, "UZ": 1}
+def displacements(field: NodeField, ids: IntArray | None = None) -> FloatArray:
+    """Displacements (n, 3) of nodes (n,), by default all of the field's table; 0 where not given.
 
-
-def displacements(table: NodeTable, field: NodeField) -> FloatArray:
-    """Displacement of every node of the table, shape (len(table), 3); 0 where not given."""
-    axes = _AXIAL_AXES if "UR" in field.components else _AXES
-    moved = np.zeros((len(table), 3))
-    for name, axis in axes.items():
-        part = field.components.get(name)
-        if part is not None:
-            moved[part.nodes, axis] = part.values
+    Their components are UX UY UZ, or UR UZ where there is UR: along the first two coordinates.
+    """
+    nodes = np.arange(len(field.table)) if ids is None else ids
+    moved = np.zeros((len(nodes), 3))
+    for axis, name in enumerate(moving_components(field)):
+        moved[:, axis] = field.values_at(name, nodes)
     return moved
+
+
+def moving_components(field: NodeField) -> tuple[str, ...]:
+    """Names of the displacements along the coordinates."""
+    return ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
 
 
 def automatic_scale(mesh: Mesh, field: NodeField, share: float = 0.1) -> float:
@@ -108,7 +108,7 @@ def automatic_scale(mesh: Mesh, field: NodeField, share: float = 0.1) -> float:
     if len(ids) == 0:
         return 1.0
     size = float(np.ptp(mesh.nodes.coordinates[ids], axis=0).max())
-    largest = float(np.linalg.norm(displacements(mesh.nodes, field)[ids], axis=1).max())
+    largest = float(np.linalg.norm(displacements(field, ids), axis=1).max())
     return round_down(share * size / largest) if largest > 0.0 and size > 0.0 else 1.0
 
 

@@ -32,8 +32,8 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import ROTATIONS, component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws.law import Law
 from ssilang.kernel.interface.laws.law_table import (
-    Law,
     elastic_tangent,
     law_of,
     shown_variables,

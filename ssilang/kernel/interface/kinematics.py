@@ -58,8 +58,10 @@ class JointCells:
         return found
 
 
-def joint_cells(zone: Zone, given: ZoneField | None = None, rule: str = "") -> JointCells:
+def joint_cells(zone: Zone, given: ZoneField | None = None) -> JointCells:
     """Local axes, interpolation and weights of a zone of joints.
+
+    Points are those of the zone's option 'INTEGRATION' (GAUSS or LOBATTO), else the element's.
 
     Parameters
     ----------
@@ -67,8 +69,6 @@ def joint_cells(zone: Zone, given: ZoneField | None = None, rule: str = "") -> J
         Characteristics: DIM3 (thickness out of the plane), V1X V1Y V1Z and V2X V2Y V2Z (axes
         imposed by the user: for a joint of two points V1 is n and V2 is t1; for a surface V1 is
         t1).
-    rule : str
-        'GAUSS' or 'LOBATTO'; default: the zone's option 'INTEGRATION', else the element's.
 
     Raises
     ------
@@ -80,9 +80,8 @@ def joint_cells(zone: Zone, given: ZoneField | None = None, rule: str = "") -> J
     _refuse_merged(zone, *half)
     if element.face == "POI1":
         return _two_points(zone, element, given, *half)
-    return _surface(
-        zone, element, given, *half, rule or str(zone.options.get("INTEGRATION", element.rule))
-    )
+    rule = str(zone.options.get("INTEGRATION", element.rule))
+    return _surface(zone, element, given, *half, rule)
 
 
 def element_sides(zone: Zone) -> tuple[IntArray, IntArray]:

@@ -6,6 +6,7 @@ from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
+from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT", "LIAISON")
@@ -35,9 +36,8 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
 """Linear elasticities and the families of elements that have them."""
 
 JOINT_WORDS = (
-    "JOINT_SDM", "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE", "JOINT_DILATANT",
-    "COULOMB", "MACRO_SEMELLE", "MACRO_DISQUE", "MACRO_RESSORTS",
-    "APPUI_PLOMB", "APPUI_PENDULE",
+    *(name for name in LAWS if name != "ELASTIQUE"),
+    "CISAILLEMENT_ELASTIQUE", "FROTTEMENT_SYMETRIQUE", "PLASTIQUE",
 )  # fmt: skip
 """Further words of joints; `ssilang.kernel.interface.laws.point_laws` says what they mean."""
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
@@ -185,19 +186,9 @@ def hooked(
     MeshError
         If no node lies in a cell.
     """
-    from ssilang.kernel.matrices.location import locate
-
     own = np.setdiff1d(nodes, mesh.sorted_node_ids)
-    found = locate(mesh, mesh.nodes.coordinates[own], tolerance)
     rows = []
-    for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
-        inside = which >= 0
-        if not inside.any():
-            continue
-        slaves, masters = own[inside], block.connectivity[which[inside]]
-        weights = np.where(np.abs(shapes[inside]) < 1e-10, 0.0, -shapes[inside])
-        table = np.concatenate([slaves[:, None], masters], axis=1)
-        values = np.concatenate([np.ones((len(slaves), 1)), weights], axis=1)
+    for _, table, values in _held(own, mesh, tolerance):
         rows += [
             rows_from_table(mesh.nodes, table, (u,) * table.shape[1], values) for u in unknowns
         ]
@@ -216,21 +207,11 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
     MeshError
         If the first mesh is no line or no node of it lies in a cell.
     """
-    from ssilang.kernel.matrices.location import locate
-
     dim = len(unknowns)
     own = np.setdiff1d(line.sorted_node_ids, mesh.sorted_node_ids)
     tangents = _line_tangents(line)[own, :dim]
-    found = locate(mesh, mesh.nodes.coordinates[own], tolerance)
     rows = []
-    for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
-        inside = which >= 0
-        if not inside.any():
-            continue
-        masters = block.connectivity[which[inside]]
-        weights = np.concatenate([np.ones((len(masters), 1)), -shapes[inside]], axis=1)
-        weights[np.abs(weights) < 1e-10] = 0.0
-        nodes = np.concatenate([own[inside][:, None], masters], axis=1)
+    for inside, nodes, weights in _held(own, mesh, tolerance):
         for normal in _across(tangents[inside]):
             values = (normal[:, :, None] * weights[:, None, :]).reshape(len(nodes), -1)
             names = tuple(u for u in unknowns for _ in range(nodes.shape[1]))
@@ -238,6 +219,21 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
     if not rows:
         raise MeshError("kernel.matrices.no-node-line-lies")
     return joined(rows)
+
+
+def _held(
+    nodes: IntArray, mesh: Mesh, tolerance: float
+) -> Iterator[tuple[NDArray[np.bool_], IntArray, FloatArray]]:
+    """Nodes in cells, block by block: which of them, they and their cells' nodes, their weights."""
+    from ssilang.kernel.matrices.location import locate
+
+    found = locate(mesh, mesh.nodes.coordinates[nodes], tolerance)
+    for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
+        inside = which >= 0
+        if inside.any():
+            table = np.column_stack([nodes[inside], block.connectivity[which[inside]]])
+            weights = np.column_stack([np.ones(len(table)), -shapes[inside]])
+            yield inside, table, np.where(np.abs(weights) < 1e-10, 0.0, weights)
 
 
 def _line_tangents(line: Mesh) -> FloatArray:

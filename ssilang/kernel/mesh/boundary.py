@@ -10,6 +10,7 @@ from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def faces_of(mesh: Mesh, dimension: int) -> dict[str, tuple[IntArray, IntArray]]:
@@ -151,12 +152,7 @@ def edges(mesh: Mesh) -> Mesh:
     flat += [(b.cell_type, b.connectivity) for b in mesh.blocks if b.kind.dimension == 1]
     for name, table in flat:
         tables.setdefault(name, []).append(table)
-    blocks = []
-    for name, parts in tables.items():
-        table = np.concatenate(parts)
-        _, first = np.unique(np.sort(table, axis=1), axis=0, return_index=True)
-        blocks.append(CellBlock.make(mesh.nodes, name, table[np.sort(first)]))
-    return Mesh(mesh.nodes, tuple(blocks))
+    return _each_once(mesh.nodes, tables)
 
 
 def faces(mesh: Mesh) -> Mesh:
@@ -165,12 +161,17 @@ def faces(mesh: Mesh) -> Mesh:
     for block in mesh.blocks:
         if block.kind.dimension == 2 and not block.kind.joint:
             tables.setdefault(block.cell_type, []).append(block.connectivity)
+    return _each_once(mesh.nodes, tables)
+
+
+def _each_once(nodes: NodeTable, tables: dict[str, list[IntArray]]) -> Mesh:
+    """Cells of tables by type, those with the same nodes once, in order of their first."""
     blocks = []
     for name, parts in tables.items():
         table = np.concatenate(parts)
         _, first = np.unique(np.sort(table, axis=1), axis=0, return_index=True)
-        blocks.append(CellBlock.make(mesh.nodes, name, table[np.sort(first)]))
-    return Mesh(mesh.nodes, tuple(blocks))
+        blocks.append(CellBlock.make(nodes, name, table[np.sort(first)]))
+    return Mesh(nodes, tuple(blocks))
 
 
 def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:

@@ -18,7 +18,7 @@ from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 ROUNDING = 1e-9
 TRANSLATIONS = ({"UX", "UR"}, {"UY"}, {"UZ"})
 FREE = 1e-14
-"""Share of the terms of u K u below which their sum is rounding: the mode is a free motion."""
+"""Share of the terms of u K u, added as errors are, under which their sum is a free motion's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +91,7 @@ def modes_between(
 
 def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     directions = unit_translations(problem.numbering)
-    sizes, found = abs(problem.stiffness), []
+    squares, found = problem.stiffness.multiply(problem.stiffness), []
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):
         u = problem.T @ q
         u = u / largest_displacement(problem.numbering, u)
@@ -100,7 +100,7 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
         shape = vector_to_field(u, problem.numbering, multipliers=multipliers)
         x, y, z = (float(inertia @ d) for d in directions.T)
         mass = float(inertia @ u)
-        rounding = FREE * float(np.abs(u) @ (sizes @ np.abs(u))) / abs(mass or 1.0)
+        rounding = FREE * float(np.sqrt(u**2 @ (squares @ u**2))) / abs(mass or 1.0)
         frequency = frequency_of(value) if abs(value) > rounding else 0.0
         found.append(Mode(frequency, mass, shape, (x, y, z)))
     return found

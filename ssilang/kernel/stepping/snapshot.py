@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -123,10 +122,6 @@ def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
     u, v, a, reaction, w, t, state, contact = (x.copy() for x in parts)
     time = float(problem.times[step])
     return Snapshot(problem, step, time, u, v, a, reaction, w, t, state, contact)
-
-
-Instants = Callable[[int, int], Snapshot]
-"""Gives a kept instant by its row among those of some steps and its step."""
 
 
 def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> Snapshot:

@@ -11,6 +11,7 @@ from lark import Lark, Token, Transformer, UnexpectedInput
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.reader import (
+    attribute_name,
     integer_of,
     name_of,
     quoted_of,
@@ -67,10 +68,10 @@ class _Builder(Transformer[Token, Any]):
         return tree.Path(c[0], tuple(c[1:]), self._span(c[0], c[-1]))
 
     def attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(c[0], str(c[2]).upper(), self._span(c[0], c[2]))
+        return tree.Attribute(c[0], attribute_name(c[2]), self._span(c[0], c[2]))
 
     def own_attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(None, str(c[1]).upper(), self._span(c[0], c[1]))
+        return tree.Attribute(None, attribute_name(c[1]), self._span(c[0], c[1]))
 
     def empty(self, c: list[Any]) -> None:
         return None

@@ -52,7 +52,8 @@ def _path(item: tree.Path) -> str:
 
 
 def _attribute(item: tree.Attribute) -> str:
-    return f"{_item(item.base)}%{item.name}" if item.base is not None else f"%{item.name}"
+    base = "" if item.base is None else _item(item.base)
+    return f"{base}%{_word(item.name)}"
 
 
 _ITEMS: dict[type, Callable[[Any], str]] = {

@@ -60,6 +60,11 @@ def symbol_of(text: str, span: Span) -> tree.Symbol:
     return tree.Symbol(text.upper(), span)
 
 
+def attribute_name(text: str) -> str:
+    """What an attribute is called that `text` writes, with or without quotes."""
+    return text.strip("'").upper()
+
+
 def statement_of(targets: tuple[tree.Item, ...] | None, items: list[tree.Item]) -> tree.Statement:
     """A statement from the items on both sides of its `=`; targets None without `=`."""
     first = targets[0] if targets else items[0]
@@ -115,12 +120,12 @@ class _Assembly:
             path = (base.base, (*base.indices, item)) if isinstance(base, tree.Path) else None
             self.items[-1] = tree.Path(*(path or (base, (item,))), span)
             return
-        if not isinstance(item, tree.Name):
+        if not isinstance(item, tree.Name | tree.Quoted):
             raise Unsound
         base_of = None if joint == "own" else self.items.pop()
         start = base_of.span.start if base_of else self.sign
         span = Span(self.source, start, item.span.end)
-        self.items.append(tree.Attribute(base_of, item.spelling.upper(), span))
+        self.items.append(tree.Attribute(base_of, attribute_name(item.span.text), span))
 
     def _symbol(self, text: str, start: int, end: int) -> None:
         self._free()

@@ -37,7 +37,6 @@ NUMBER, ANYTHING = "I", "*"
 """Stand in a path for any integer index, and for any index."""
 
 WRITTEN, READ, BOTH, UNUSED, REFUSED = "written", "read", "both", "unused", "refused"
-ROLES = (READ, WRITTEN, BOTH, UNUSED, REFUSED)
 """`unused` entries are accepted and change nothing, `refused` ones are not available."""
 
 THEMES = (

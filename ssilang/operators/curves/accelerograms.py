@@ -34,8 +34,8 @@ _RULE = choice(
 )
 
 
-@operator("INSI", RECORD, _RULE, family="signals")
-def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
+@operator("INSI", family="signals")
+def insi(call: Call, curve: Curve = RECORD, rule: str = _RULE) -> tuple[Curve, Curve]:
     """Integrate records."""
     warn_of_motions(call, curve)
     linear = rule == "LINE"
@@ -47,19 +47,17 @@ def insi(call: Call, curve: Curve, rule: str) -> tuple[Curve, Curve]:
     return Curve(tuple(moved), curve.title), Curve(tuple(fast), curve.title)
 
 
-@operator(
-    "COSI",
-    RECORD,
-    _RULE,
-    key(
-        "degree",
+@operator("COSI", family="signals")
+def cosi(
+    call: Call,
+    curve: Curve = RECORD,
+    rule: str = _RULE,
+    degree: int | None = Key(
         "POLY",
         arg("degree", "ENTIER", en="from 1 to 6", range=between(1, 6)),
         en="degree of the velocity's polynomial",
     ),
-    family="signals",
-)
-def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
+) -> Curve:
     """Correct records."""
     warn_of_motions(call, curve)
     linear = rule == "LINE"
@@ -76,27 +74,18 @@ def cosi(call: Call, curve: Curve, rule: str, degree: int | None) -> Curve:
     return Curve(tuple(parts), curve.title)
 
 
-@operator(
-    "CHSP",
-    arg("spectrum", "EVOLUTIO", en="spectra over frequencies", over="Hz"),
-    key(
-        "given",
-        "ENTR",
-        arg("kind", "MOT", en="DEPL, VITE or ACCE"),
-        optional=False,
-        en="what they are",
+@operator("CHSP", family="signals")
+def chsp(
+    call: Call,
+    spectrum: Curve = Arg("EVOLUTIO", en="spectra over frequencies", over="Hz"),
+    given: str = Key(
+        "ENTR", arg("kind", "MOT", en="DEPL, VITE or ACCE"), optional=False, en="what they are"
     ),
-    key(
-        "wanted",
-        "SORT",
-        arg("kind", "MOT", en="DEPL, VITE or ACCE"),
-        optional=False,
-        en="what they become",
+    wanted: str = Key(
+        "SORT", arg("kind", "MOT", en="DEPL, VITE or ACCE"), optional=False, en="what they become"
     ),
-    key("colour", "COUL", arg("c", "MOT", kind="colour"), en="colour"),
-    family="signals",
-)
-def chsp(call: Call, spectrum: Curve, given: str, wanted: str, colour: str | None) -> Curve:
+    colour: str | None = Key("COUL", arg("c", "MOT", kind="colour"), en="colour"),
+) -> Curve:
     """Change the unit of spectra."""
     names = [w.strip().upper()[:4] for w in (given, wanted)]
     for name in names:
@@ -156,30 +145,19 @@ PERIODS = opt(
 )
 
 
-@operator(
-    "PSRS",
-    arg("curve", "EVOLUTIO", en="power density per hertz", over="Hz"),
-    arg("duration", "FLOTTANT", range=POSITIVE, en="duration", unit="s"),
-    arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="dampings"),
-    PERIODS,
-    ABSCISSA,
-    KIND,
-    choice(
-        "law", ("CRAM", "NEWG"), default="CRAM", en="law of rare crossings (default), or of Gumbel"
-    ),
-    COLOUR,
-    family="signals",
-)
+@operator("PSRS", family="signals")
 def psrs(
     call: Call,
-    curve: Curve,
-    duration: float,
-    dampings: ListReel,
-    periods: ListReel | None,
-    abscissa: str,
-    kind: str,
-    law: str,
-    colour: str | None,
+    curve: Curve = Arg("EVOLUTIO", en="power density per hertz", over="Hz"),
+    duration: float = Arg("FLOTTANT", range=POSITIVE, en="duration", unit="s"),
+    dampings: ListReel = Arg("LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="dampings"),
+    periods: ListReel | None = PERIODS,
+    abscissa: str = ABSCISSA,
+    kind: str = KIND,
+    law: str = Choice(
+        ("CRAM", "NEWG"), default="CRAM", en="law of rare crossings (default), or of Gumbel"
+    ),
+    colour: str | None = COLOUR,
 ) -> Curve:
     """Response spectra of a power spectrum."""
     part = one_part(call, curve)

@@ -29,59 +29,33 @@ def _drawn(call: Call, seed: int | None) -> np.random.Generator:
     return session_generator(call, None) if seed is None else np.random.default_rng(abs(seed))
 
 
-@operator(
-    "SIAR",
-    arg("spectrum", "EVOLUTIO", en="power density per hertz", over="Hz"),
-    opt("modulation", "EVOLUTIO", en="modulations in time by bands of frequencies"),
-    opt("limits", "LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
-    opt("duration", "FLOTTANT", range=POSITIVE, en="end of the signals", unit="s"),
-    key(
-        "start",
-        "TINI",
-        arg("start", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
-        en="start of the signals",
+@operator("SIAR", family="signals", full_name="SIAR", gives=ANY)
+def siar(
+    call: Call,
+    spectrum: Curve = Arg("EVOLUTIO", en="power density per hertz", over="Hz"),
+    modulation: Curve | None = Opt("EVOLUTIO", en="modulations in time by bands of frequencies"),
+    limits: ListReel | None = Opt("LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
+    duration: float | None = Opt("FLOTTANT", range=POSITIVE, en="end of the signals", unit="s"),
+    start: float | None = Key(
+        "TINI", arg("start", "FLOTTANT", range=NOT_NEGATIVE, unit="s"), en="start of the signals"
     ),
-    flag("acceleration", "ACCE", en="acceleration"),
-    flag("velocity", "VITE", en="velocity"),
-    flag("displacement", "DEPL", en="displacement"),
-    key(
-        "n_signals",
-        "NCOU",
-        arg("n", "ENTIER", range=POSITIVE),
-        default=1,
-        en="number of signals, 1 without it",
+    acceleration: bool = Flag("ACCE", en="acceleration"),
+    velocity: bool = Flag("VITE", en="velocity"),
+    displacement: bool = Flag("DEPL", en="displacement"),
+    n_signals: int = Key(
+        "NCOU", arg("n", "ENTIER", range=POSITIVE), default=1, en="number of signals, 1 without it"
     ),
-    key(
-        "n_instants",
+    n_instants: int | None = Key(
         "NPOI",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of instants, steps of 0.02 s without it",
     ),
-    key(
-        "n_sines",
+    n_sines: int | None = Key(
         "NSIN",
         arg("n", "ENTIER", range=POSITIVE),
         en="number of sines, slices of 0.1 Hz without it",
     ),
-    _SEED,
-    family="signals",
-    full_name="SIAR",
-    gives=ANY,
-)
-def siar(
-    call: Call,
-    spectrum: Curve,
-    modulation: Curve | None,
-    limits: ListReel | None,
-    duration: float | None,
-    start: float | None,
-    acceleration: bool,
-    velocity: bool,
-    displacement: bool,
-    n_signals: int,
-    n_instants: int | None,
-    n_sines: int | None,
-    seed: int | None,
+    seed: int | None = _SEED,
 ) -> Any:
     """Draw signals."""
     part = one_part(call, spectrum)
@@ -152,21 +126,17 @@ def _bands(
     return bands
 
 
-@operator(
-    "PERT",
-    arg("values", "LISTREEL", en="values", range=ANY_NUMBER),
-    flag("signs", "SIGN", en="signs drawn, the default"),
-    key(
-        "degrees",
+@operator("PERT", family="signals")
+def pert(
+    call: Call,
+    values: ListReel = Arg("LISTREEL", en="values", range=ANY_NUMBER),
+    signs: bool = Flag("SIGN", en="signs drawn, the default"),
+    degrees: float | None = Key(
         "AMPL",
         arg("degrees", "FLOTTANT", unit="degree", usual=between(0.0, 90.0)),
         en="largest angle whose sin^2 is the share given to the neighbours",
     ),
-    _SEED,
-    family="signals",
-)
-def pert(
-    call: Call, values: ListReel, signs: bool, degrees: float | None, seed: int | None
+    seed: int | None = _SEED,
 ) -> ListReel:
     """Perturb values."""
     generator = _drawn(call, seed)

@@ -93,8 +93,10 @@ def extr_curve(call: Call, curve: Curve, what: Chosen) -> Any:
     return _PARTS[what.word](call, curve, **what.values)
 
 
-@EXTR.form(_MAIN, arg("name", "MOT", en="name of an axis"), gives="LISTREEL|LISTENTI|LISTMOTS")
-def extr_axis(call: Call, curve: Curve, name: str) -> ListReel | ListEnti | ListMots:
+@EXTR.form(gives="LISTREEL|LISTENTI|LISTMOTS")
+def extr_axis(
+    call: Call, curve: Curve = _MAIN, name: str = Arg("MOT", en="name of an axis")
+) -> ListReel | ListEnti | ListMots:
     """What stands along the axis of a name."""
     wanted = name.rstrip()[:12]
     for part in curve.parts:
@@ -198,24 +200,24 @@ _PARTS: dict[str, Any] = {
 }  # fmt: skip
 
 
-@DIME.form(_MAIN)
-def count_curves(curve: Curve) -> int:
+@DIME.form()
+def count_curves(curve: Curve = _MAIN) -> int:
     """Number of curves."""
     return len(curve.parts)
 
 
-@COPI.form(_MAIN)
-def copy_curves(curve: Curve) -> Curve:
+@COPI.form()
+def copy_curves(curve: Curve = _MAIN) -> Curve:
     """A copy."""
     return dataclasses.replace(curve)
 
 
-@ORDO.form(
-    _MAIN,
-    choice("order", ("CROI", "DECR"), default="CROI", en="increasing (default) or decreasing"),
-    flag("absolute", "ABSO", en="by absolute values"),
-)
-def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
+@ORDO.form()
+def ordered(
+    curve: Curve = _MAIN,
+    order: str = Choice(("CROI", "DECR"), default="CROI", en="increasing (default) or decreasing"),
+    absolute: bool = Flag("ABSO", en="by absolute values"),
+) -> Curve:
     """Points in order of abscissas."""
 
     def choose(part: CurvePart) -> Any:
@@ -228,14 +230,14 @@ def ordered(curve: Curve, order: str, absolute: bool) -> Curve:
 _FIELD_OF = {"LEGE": "legend", "NOMA": "abscissa_name", "NOMO": "ordinate_name"}
 
 
-@CHAN.form(
-    said("TITR", *_FIELD_OF),
-    CURVE,
-    opt("place", "ENTIER", en="number of the curve, all without it", range=POSITIVE),
-    arg("name", "MOT", en="title, legend or name"),
-    of=("EVOLUTIO",),
-)
-def change_names(call: Call, word: str, curve: Curve, place: int | None, name: str) -> Curve:
+@CHAN.form(said("TITR", *_FIELD_OF), of=("EVOLUTIO",))
+def change_names(
+    call: Call,
+    word: str,
+    curve: Curve = CURVE,
+    place: int | None = Opt("ENTIER", en="number of the curve, all without it", range=POSITIVE),
+    name: str = Arg("MOT", en="title, legend or name"),
+) -> Curve:
     """Other titles, legends, names of axes."""
     name = name.rstrip()
     if word == "TITR":
@@ -268,14 +270,14 @@ def _extreme(call: Call, curve: Curve, absolute: bool, pick: Any) -> Any:
     return ListEnti(places), ListReel(xs), ListReel(ys)
 
 
-@MAXI.form(_MAIN, _ABSOLUTE, gives=_EXTREME)
-def largest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
+@MAXI.form(gives=_EXTREME)
+def largest_ordinate(call: Call, curve: Curve = _MAIN, absolute: bool = _ABSOLUTE) -> Any:
     """The largest ordinate."""
     return _extreme(call, curve, absolute, np.argmax)
 
 
-@MINI.form(_MAIN, _ABSOLUTE, gives=_EXTREME)
-def smallest_ordinate(call: Call, curve: Curve, absolute: bool) -> Any:
+@MINI.form(gives=_EXTREME)
+def smallest_ordinate(call: Call, curve: Curve = _MAIN, absolute: bool = _ABSOLUTE) -> Any:
     """The smallest ordinate."""
     return _extreme(call, curve, absolute, np.argmin)
 

@@ -16,21 +16,13 @@ _RECORDS = key(
 )
 
 
-@operator(
-    "ZFRA",
-    _INTENSITIES,
-    arg("exceeded", "LISTREEL", en="runs that exceed at each", range=NOT_NEGATIVE),
-    opt("runs", "LISTREEL", en="runs at each, 1 without it", range=POSITIVE),
-    _RECORDS,
-    family="signals",
-    gives=("EVOLUTIO", "LISTREEL"),
-)
+@operator("ZFRA", family="signals", gives=("EVOLUTIO", "LISTREEL"))
 def zfra(
     call: Call,
-    intensities: ListReel,
-    exceeded: ListReel,
-    runs: ListReel | None,
-    records: ListEnti | None,
+    intensities: ListReel = _INTENSITIES,
+    exceeded: ListReel = Arg("LISTREEL", en="runs that exceed at each", range=NOT_NEGATIVE),
+    runs: ListReel | None = Opt("LISTREEL", en="runs at each, 1 without it", range=POSITIVE),
+    records: ListEnti | None = _RECORDS,
 ) -> tuple[Curve, ListReel]:
     """From counts."""
     of = np.ones(len(exceeded.values)) if runs is None else runs.values
@@ -38,31 +30,21 @@ def zfra(
     return _told(call, of_exceedances(intensities.values, exceeded.values, of, which))
 
 
-@zfra.form(
-    said("NUAG"),
-    _INTENSITIES,
-    arg("demands", "LISTREEL", en="demand of each run", range=ANY_NUMBER),
-    arg("limit", "FLOTTANT", en="demand that counts", range=ANY_NUMBER),
-    flag("below", "DESS", en="lower demands exceed"),
-    key(
-        "capacity",
+@zfra.form(said("NUAG"), gives=("EVOLUTIO", "LISTREEL"))
+def _cloud(
+    call: Call,
+    word: str,
+    intensities: ListReel = _INTENSITIES,
+    demands: ListReel = Arg("LISTREEL", en="demand of each run", range=ANY_NUMBER),
+    limit: float = Arg("FLOTTANT", en="demand that counts", range=ANY_NUMBER),
+    below: bool = Flag("DESS", en="lower demands exceed"),
+    capacity: float = Key(
         "CAPA",
         arg("x", "FLOTTANT", range=NOT_NEGATIVE),
         default=0.0,
         en="dispersion of the capacity",
     ),
-    _RECORDS,
-    gives=("EVOLUTIO", "LISTREEL"),
-)
-def _cloud(
-    call: Call,
-    word: str,
-    intensities: ListReel,
-    demands: ListReel,
-    limit: float,
-    below: bool,
-    capacity: float,
-    records: ListEnti | None,
+    records: ListEnti | None = _RECORDS,
 ) -> tuple[Curve, ListReel]:
     found = of_cloud(
         intensities.values, demands.values, limit, below=below, capacity=capacity,

@@ -97,33 +97,24 @@ def all_values(call: Call, value: float, function: Chosen) -> ListReel:
     return ListReel(crossings(*_points_of(call, function), value))
 
 
-@ipol.form(
-    arg("cloud", "NUAGE", en="function by its points"),
-    arg("field", "CHPOINT", "MCHAML", en="where it is wanted"),
-    choice(
-        "method", ("GAUS", "RATI", "GRIL"), en="weights of the points (default GAUS), or a grid"
+@ipol.form(gives=Like("field"))
+def of_cloud(
+    cloud: Cloud = Arg("NUAGE", en="function by its points"),
+    field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="where it is wanted"),
+    method: str | None = Choice(
+        ("GAUS", "RATI", "GRIL"), en="weights of the points (default GAUS), or a grid"
     ),
-    key(
-        "power",
+    power: float | None = Key(
         "PID",
         opt("power", "FLOTTANT", default=1.0, range=POSITIVE),
         en="weights by powers of the distance",
     ),
-    key(
-        "cut",
+    cut: float = Key(
         "ELIM",
         opt("cut", "FLOTTANT", default=0.0, range=NOT_NEGATIVE),
         default=0.0,
         en="distance within which a point gives its own values",
     ),
-    gives=Like("field"),
-)
-def of_cloud(
-    cloud: Cloud,
-    field: NodeField | CellField,
-    method: str | None,
-    power: float | None,
-    cut: float,
 ) -> NodeField | CellField:
     """A function of several variables."""
     if method is None:
@@ -132,12 +123,12 @@ def of_cloud(
     return interpolate_cloud(cloud, field, method, settings)
 
 
-@ipol.form(
-    arg("table", "TABLE", en="fields by times"),
-    arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER),
-    gives="CHPOINT|MCHAML",
-)
-def in_table(call: Call, table: Table, time: float) -> Any:
+@ipol.form(gives="CHPOINT|MCHAML")
+def in_table(
+    call: Call,
+    table: Table = Arg("TABLE", en="fields by times"),
+    time: float = Arg("FLOTTANT", en="time", unit="s", range=ANY_NUMBER),
+) -> Any:
     """The field between two of a table."""
     pairs = sorted((i, v) for i, v in table.items() if isinstance(i, float))
     if not pairs:
@@ -157,11 +148,12 @@ def in_table(call: Call, table: Table, time: float) -> Any:
     return algebra.added(first, b, share)
 
 
-@ipol.form(
-    arg("field", "CHPOINT", en="curvilinear abscissas"),
-    arg("distance", "FLOTTANT", en="distance along the line", unit="m", range=ANY_NUMBER),
-)
-def on_line(call: Call, field: NodeField, distance: float) -> Point:
+@ipol.form()
+def on_line(
+    call: Call,
+    field: NodeField = Arg("CHPOINT", en="curvilinear abscissas"),
+    distance: float = Arg("FLOTTANT", en="distance along the line", unit="m", range=ANY_NUMBER),
+) -> Point:
     """A point of a line."""
     if len(field.components) != 1:
         raise call.error("operators.curves.abscissas-have-one-component", field)
@@ -196,26 +188,24 @@ _BOUND = ("FLOTTANT", "LISTREEL")
 _PLACE = ("ENTIER", "LISTENTI")
 
 
-@INTG.form(
-    main("curve", "EVOLUTIO", en="curves"),
-    flag("absolute", "ABS", en="of the absolute value"),
-    key(
-        "bounds",
+@INTG.form(gives="FLOTTANT|LISTREEL|NUAGE")
+def integrate(
+    call: Call,
+    curve: Curve = Main("EVOLUTIO", en="curves"),
+    absolute: bool = Flag("ABS", en="of the absolute value"),
+    bounds: Any = Key(
         "BORN",
         arg("low", *_BOUND, en="lower ones", range=ANY_NUMBER),
         arg("high", *_BOUND, en="upper ones", range=ANY_NUMBER),
         en="between abscissas",
     ),
-    key(
-        "places",
+    places: Any = Key(
         "INDI",
         arg("low", *_PLACE, en="first ones", range=POSITIVE),
         arg("high", *_PLACE, en="last ones", range=POSITIVE),
         en="between places",
     ),
-    gives="FLOTTANT|LISTREEL|NUAGE",
-)
-def integrate(call: Call, curve: Curve, absolute: bool, bounds: Any, places: Any) -> Any:
+) -> Any:
     """Integrals of curves."""
     word = "BORN" if bounds is not None else "INDI" if places is not None else ""
     bounds = bounds if bounds is not None else places
@@ -249,7 +239,7 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
     return list(zip(low.tolist(), high.tolist(), strict=True))
 
 
-@operator("PRIM", CURVE, family="curves", full_name="PRIMITIVE")
-def prim(curve: Curve) -> Curve:
+@operator("PRIM", family="curves", full_name="PRIMITIVE")
+def prim(curve: Curve = CURVE) -> Curve:
     """Running integral."""
     return dataclasses.replace(curve, parts=tuple(primitive(p) for p in curve.parts))

@@ -34,15 +34,20 @@ from ssilang.operators.mesh.copies.images import tour
 from ssilang.operators.prelude import *
 
 
-@filt.form(
-    CURVE,
-    key("order", "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it"),
-    key("low", "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off"),
-    key("high", "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off"),
-    flag("causal", "CAUS", en="one pass, as a device does"),
-)
+@filt.form()
 def filtered_records(
-    call: Call, curve: Curve, order: int, low: float | None, high: float | None, causal: bool
+    call: Call,
+    curve: Curve = CURVE,
+    order: int = Key(
+        "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it"
+    ),
+    low: float | None = Key(
+        "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off"
+    ),
+    high: float | None = Key(
+        "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off"
+    ),
+    causal: bool = Flag("CAUS", en="one pass, as a device does"),
 ) -> Curve:
     """Filter records."""
     if low is None and high is None:
@@ -59,13 +64,13 @@ def filtered_records(
     return Curve(tuple(parts), curve.title, curve.kind)
 
 
-@tour.form(
-    arg("first", "EVOLUTIO", en="component along x", over="s"),
-    arg("second", "EVOLUTIO", en="component along y", over="s"),
-    arg("angle", "FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
-    gives=("EVOLUTIO", "EVOLUTIO"),
-)
-def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> tuple[Curve, Curve]:
+@tour.form(gives=("EVOLUTIO", "EVOLUTIO"))
+def turned_components(
+    call: Call,
+    first: Curve = Arg("EVOLUTIO", en="component along x", over="s"),
+    second: Curve = Arg("EVOLUTIO", en="component along y", over="s"),
+    angle: float = Arg("FLOTTANT", "ENTIER", en="angle", unit="deg", range=ANY_NUMBER),
+) -> tuple[Curve, Curve]:
     """Turn two components."""
     x, y = one_part(call, first), one_part(call, second)
     check_together(call, first, second)
@@ -76,29 +81,23 @@ def turned_components(call: Call, first: Curve, second: Curve, angle: float) -> 
     )
 
 
-@operator(
-    "ZOND",
-    arg("record", "EVOLUTIO", en="acceleration", over="s"),
-    arg("target", "EVOLUTIO", en="pseudo-accelerations over Hz", over="Hz"),
-    key(
-        "damping",
+@operator("ZOND", family="signals", gives=("EVOLUTIO", "FLOTTANT"))
+def zond(
+    call: Call,
+    record: Curve = Arg("EVOLUTIO", en="acceleration", over="s"),
+    target: Curve = Arg("EVOLUTIO", en="pseudo-accelerations over Hz", over="Hz"),
+    damping: float = Key(
         "AMOR",
         arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
         default=0.05,
         en="damping",
     ),
-    key(
-        "tolerance",
+    tolerance: float = Key(
         "TOLE",
         arg("x", "FLOTTANT", range=POSITIVE),
         default=0.05,
         en="largest misfit, 0.05 without it",
     ),
-    family="signals",
-    gives=("EVOLUTIO", "FLOTTANT"),
-)
-def zond(
-    call: Call, record: Curve, target: Curve, damping: float, tolerance: float
 ) -> tuple[Curve, float]:
     """Match a record."""
     part, wanted = one_part(call, record), one_part(call, target)
@@ -111,65 +110,50 @@ def zond(
 
 @operator(
     "ONDE",
-    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
-    CURVE,
-    choice(
-        "form",
-        ("CRMO", "CRPH", "REIM", "MOPH"),
-        default="CRMO",
-        en="ridge by the modulus (default) or by the phase, or the transform as a field",
-    ),
-    key(
-        "lowest",
-        "FMIN",
-        arg("lowest", "FLOTTANT", range=NOT_NEGATIVE, unit="Hz"),
-        default=0.0,
-        en="lowest frequency",
-    ),
-    key(
-        "highest",
-        "FMAX",
-        arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
-        default=0.0,
-        en="highest frequency",
-    ),
-    key(
-        "count",
-        ("NFRQ", "DFRQ"),
-        arg("count", "FLOTTANT", range=POSITIVE),
-        default=("NFRQ", 50.0),
-        en="number of frequencies, 50 without it",
-    ),
-    key(
-        "turn",
-        "EPSI",
-        arg("turn", "FLOTTANT", range=POSITIVE),
-        default=1e-4,
-        en="tolerance of the phase, 1.E-4 without it",
-    ),
-    key(
-        "pulsation",
-        "PULS",
-        arg("pulsation", "FLOTTANT", range=POSITIVE),
-        default=5.0,
-        en="pulsation of the wavelet, 5 without it",
-    ),
-    COLOUR,
     family="signals",
     full_name="ONDE",
     gives=by("form", dict.fromkeys(("REIM", "MOPH"), ("CHPOINT", "MAILLAGE")), "EVOLUTIO"),
 )
 def onde(
     call: Call,
-    power: int,
-    curve: Curve,
-    form: str,
-    lowest: float,
-    highest: float,
-    count: tuple[str, float],
-    turn: float,
-    pulsation: float,
-    colour: str | None,
+    power: int = Arg("ENTIER", range=POSITIVE, en="2**N1 points"),
+    curve: Curve = CURVE,
+    form: str = Choice(
+        ("CRMO", "CRPH", "REIM", "MOPH"),
+        default="CRMO",
+        en="ridge by the modulus (default) or by the phase, or the transform as a field",
+    ),
+    lowest: float = Key(
+        "FMIN",
+        arg("lowest", "FLOTTANT", range=NOT_NEGATIVE, unit="Hz"),
+        default=0.0,
+        en="lowest frequency",
+    ),
+    highest: float = Key(
+        "FMAX",
+        arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
+        default=0.0,
+        en="highest frequency",
+    ),
+    count: tuple[str, float] = Key(
+        ("NFRQ", "DFRQ"),
+        arg("count", "FLOTTANT", range=POSITIVE),
+        default=("NFRQ", 50.0),
+        en="number of frequencies, 50 without it",
+    ),
+    turn: float = Key(
+        "EPSI",
+        arg("turn", "FLOTTANT", range=POSITIVE),
+        default=1e-4,
+        en="tolerance of the phase, 1.E-4 without it",
+    ),
+    pulsation: float = Key(
+        "PULS",
+        arg("pulsation", "FLOTTANT", range=POSITIVE),
+        default=5.0,
+        en="pulsation of the wavelet, 5 without it",
+    ),
+    colour: str | None = COLOUR,
 ) -> Any:
     """Wavelet transform."""
     if not 1 <= power <= 20:

@@ -13,20 +13,18 @@ from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "PROL",
-    choice(
-        "rule",
+@operator("PROL", family="curves")
+def prol(
+    call: Call,
+    rule: str = Choice(
         ("BORN", "LINE"),
         default="BORN",
         en="by the value at the end (default), or along the last two points",
     ),
-    CURVE,
-    arg("first", "FLOTTANT", en="abscissa to reach", range=ANY_NUMBER),
-    opt("second", "FLOTTANT", en="another one", range=ANY_NUMBER),
-    family="curves",
-)
-def prol(call: Call, rule: str, curve: Curve, first: float, second: float | None) -> Curve:
+    curve: Curve = CURVE,
+    first: float = Arg("FLOTTANT", en="abscissa to reach", range=ANY_NUMBER),
+    second: float | None = Opt("FLOTTANT", en="another one", range=ANY_NUMBER),
+) -> Curve:
     """Continue curves."""
     wanted = [first] if second is None else [first, second]
     return dataclasses.replace(
@@ -60,14 +58,12 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
     return dataclasses.replace(part, abscissas=made[:, 0], ordinates=made[:, 1])
 
 
-@operator(
-    "CONC",
-    arg("first", "EVOLUTIO", en="curves"),
-    arg("second", "EVOLUTIO", en="as many curves"),
-    family="curves",
-    full_name="CONCAT",
-)
-def conc(call: Call, first: Curve, second: Curve) -> Curve:
+@operator("CONC", family="curves", full_name="CONCAT")
+def conc(
+    call: Call,
+    first: Curve = Arg("EVOLUTIO", en="curves"),
+    second: Curve = Arg("EVOLUTIO", en="as many curves"),
+) -> Curve:
     """Join curves."""
     if len(first.parts) != len(second.parts):
         raise call.error(
@@ -98,19 +94,16 @@ def _start(part: CurvePart) -> float:
     return float(part.abscissas[0]) if len(part.abscissas) else np.inf
 
 
-@operator(
-    "LSQF",
-    CURVE,
-    arg("count", "ENTIER", range=POSITIVE, en="number of intervals"),
-    flag("uniform", "UNIF", en="of equal length, the default"),
-    key("best", "OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available"),
-    key(
-        "size", "REDU", arg("n", "ENTIER", range=POSITIVE), en="steps of the signal in an interval"
-    ),
-    family="curves",
-)
+@operator("LSQF", family="curves")
 def lsqf(
-    call: Call, curve: Curve, count: int, uniform: bool, best: int | None, size: int | None
+    call: Call,
+    curve: Curve = CURVE,
+    count: int = Arg("ENTIER", range=POSITIVE, en="number of intervals"),
+    uniform: bool = Flag("UNIF", en="of equal length, the default"),
+    best: int | None = Key("OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available"),
+    size: int | None = Key(
+        "REDU", arg("n", "ENTIER", range=POSITIVE), en="steps of the signal in an interval"
+    ),
 ) -> Curve:
     """Simplify signals."""
     if best is not None:
@@ -128,15 +121,14 @@ def lsqf(
     return Curve(tuple(parts), curve.title)
 
 
-@operator(
-    "MAPP",
-    COLOUR,
-    arg("force", "EVOLUTIO", en="contact force", unit="N"),
-    arg("moved", "EVOLUTIO", en="displacement", unit="m"),
-    arg("speed", "EVOLUTIO", en="velocity", unit="m/s"),
-    family="curves",
-)
-def mapp(call: Call, colour: str | None, force: Curve, moved: Curve, speed: Curve) -> Curve:
+@operator("MAPP", family="curves")
+def mapp(
+    call: Call,
+    colour: str | None = COLOUR,
+    force: Curve = Arg("EVOLUTIO", en="contact force", unit="N"),
+    moved: Curve = Arg("EVOLUTIO", en="displacement", unit="m"),
+    speed: Curve = Arg("EVOLUTIO", en="velocity", unit="m/s"),
+) -> Curve:
     """Poincaré map."""
     parts = []
     for f in force.parts:
@@ -154,32 +146,26 @@ def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     return np.asarray(np.interp(times, part.abscissas, part.ordinates))
 
 
-@operator(
-    "CMOY",
-    arg("records", "EVOLUTIO", en="records", over="s"),
-    key(
-        "duration",
+@operator("CMOY", family="signals")
+def cmoy(
+    call: Call,
+    records: Curve = Arg("EVOLUTIO", en="records", over="s"),
+    duration: float = Key(
         "ACQU",
         arg("t", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="time that a shock is recorded",
     ),
-    key(
-        "percent",
+    percent: float = Key(
         "DECL",
         arg("p", "FLOTTANT", unit="%", range=between(0.0, 100.0)),
         default=1e-6,
         en="threshold of the largest absolute value, 1.E-6 without it",
     ),
-    key(
-        "count",
-        "NCHO",
-        arg("n", "ENTIER", range=POSITIVE),
-        en="number of shocks kept, all without it",
+    count: int | None = Key(
+        "NCHO", arg("n", "ENTIER", range=POSITIVE), en="number of shocks kept, all without it"
     ),
-    family="signals",
-)
-def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int | None) -> Curve:
+) -> Curve:
     """Mean shock."""
     parts = []
     for p in records.parts:
@@ -189,25 +175,15 @@ def cmoy(call: Call, records: Curve, duration: float, percent: float, count: int
     return Curve(tuple(parts), records.title)
 
 
-@operator(
-    "LAPL",
-    flag("inverse", "INVERSE", en="the inverse transform"),
-    arg("omega", "LISTREEL", en="circular frequencies", unit="rad/s", range=RISING),
-    arg("real", "LISTREEL", en="real parts", range=ANY_NUMBER),
-    arg("imaginary", "LISTREEL", en="imaginary parts", range=ANY_NUMBER),
-    arg("shift", "FLOTTANT", en="real part a of the variable", range=ANY_NUMBER),
-    arg("group", "ENTIER", en="group size", range=POSITIVE),
-    family="signals",
-    full_name="LAPLACE",
-)
+@operator("LAPL", family="signals", full_name="LAPLACE")
 def lapl(
     call: Call,
-    inverse: bool,
-    omega: ListReel,
-    real: ListReel,
-    imaginary: ListReel,
-    shift: float,
-    group: int,
+    inverse: bool = Flag("INVERSE", en="the inverse transform"),
+    omega: ListReel = Arg("LISTREEL", en="circular frequencies", unit="rad/s", range=RISING),
+    real: ListReel = Arg("LISTREEL", en="real parts", range=ANY_NUMBER),
+    imaginary: ListReel = Arg("LISTREEL", en="imaginary parts", range=ANY_NUMBER),
+    shift: float = Arg("FLOTTANT", en="real part a of the variable", range=ANY_NUMBER),
+    group: int = Arg("ENTIER", en="group size", range=POSITIVE),
 ) -> Curve:
     """Inverse Laplace transform."""
     if not inverse:

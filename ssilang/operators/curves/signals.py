@@ -137,8 +137,8 @@ def tfr_of_fields(
     return lists[0], lists[1], ListReel(f[kept])
 
 
-@operator("TFRI", arg("curve", "EVOLUTIO", en="complex curve"), family="signals")
-def tfri(call: Call, curve: Curve) -> Curve:
+@operator("TFRI", family="signals")
+def tfri(call: Call, curve: Curve = Arg("EVOLUTIO", en="complex curve")) -> Curve:
     """Transform back."""
     if not is_complex(curve) or len(curve.parts) != 2:
         raise call.error("operators.curves.complex-curve-wanted", curve)
@@ -199,15 +199,13 @@ def filt(
     return spectrum(f, values, form)
 
 
-@operator(
-    "HANN",
-    CURVE,
-    arg("passes", "ENTIER", range=POSITIVE, en="how many times"),
-    COLOUR,
-    family="signals",
-    full_name="HANNING",
-)
-def hann(call: Call, curve: Curve, passes: int, colour: str | None) -> Curve:
+@operator("HANN", family="signals", full_name="HANNING")
+def hann(
+    call: Call,
+    curve: Curve = CURVE,
+    passes: int = Arg("ENTIER", range=POSITIVE, en="how many times"),
+    colour: str | None = COLOUR,
+) -> Curve:
     """Smooth a spectrum."""
     part = one_part(call, curve)
     made = dataclasses.replace(
@@ -226,17 +224,15 @@ _PERCENT = opt(
 )
 
 
-@operator(
-    "COMT",
-    RECORD,
-    _PERCENT,
-    flag("peaks", "MAXI", en="peaks too"),
-    flag("begins", "DEBU", en="places where they begin too"),
-    flag("ends", "FIN", en="places where they end too"),
-    family="signals",
-    gives=ANY,
-)
-def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, ends: bool) -> Any:
+@operator("COMT", family="signals", gives=ANY)
+def comt(
+    call: Call,
+    curve: Curve = RECORD,
+    percent: float = _PERCENT,
+    peaks: bool = Flag("MAXI", en="peaks too"),
+    begins: bool = Flag("DEBU", en="places where they begin too"),
+    ends: bool = Flag("FIN", en="places where they end too"),
+) -> Any:
     """Count shocks."""
     found = [shocks(p.ordinates, percent) for p in curve.parts]
     if not (peaks or begins or ends):
@@ -250,8 +246,8 @@ def comt(call: Call, curve: Curve, percent: float, peaks: bool, begins: bool, en
     return (len(first), *more)
 
 
-@operator("TOTE", RECORD, _PERCENT, family="signals", full_name="TOTEMP")
-def tote(curve: Curve, percent: float) -> ListReel:
+@operator("TOTE", family="signals", full_name="TOTEMP")
+def tote(curve: Curve = RECORD, percent: float = _PERCENT) -> ListReel:
     """Measure durations."""
     levels = [percent / 100.0 * float(np.abs(p.ordinates).max()) for p in curve.parts]
     pairs = zip(curve.parts, levels, strict=True)
@@ -261,33 +257,33 @@ def tote(curve: Curve, percent: float) -> ListReel:
 _AXIS = arg("name", "MOT", en="name of the ordinates")
 
 
-@operator(
-    "FDT",
-    _AXIS,
-    key(
-        "step",
+@operator("FDT", family="signals")
+def fdt(
+    name: str = _AXIS,
+    step: float = Key(
         "CONS",
         arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
         optional=False,
         en="constant step",
     ),
-    arg("values", "LISTREEL", en="ordinates", range=ANY_NUMBER),
-    family="signals",
-)
-def fdt(name: str, step: float, values: ListReel) -> Curve:
+    values: ListReel = Arg("LISTREEL", en="ordinates", range=ANY_NUMBER),
+) -> Curve:
     """A curve at a constant step."""
     return _in_time(step * np.arange(len(values)), values.values, name)
 
 
-@fdt.form(
-    _AXIS,
-    flag("given", "NOCO", en="times are given"),
-    flag("pairs", "COUP", en="by pairs"),
-    arg("values", "LISTREEL", en="times and ordinates, or the step or 0", range=ANY_NUMBER),
-    opt("second", "LISTREEL", en="ordinates, or pairs of time and ordinate", range=ANY_NUMBER),
-)
+@fdt.form()
 def fdt_of_times(
-    call: Call, name: str, given: bool, pairs: bool, values: ListReel, second: ListReel | None
+    call: Call,
+    name: str = _AXIS,
+    given: bool = Flag("NOCO", en="times are given"),
+    pairs: bool = Flag("COUP", en="by pairs"),
+    values: ListReel = Arg(
+        "LISTREEL", en="times and ordinates, or the step or 0", range=ANY_NUMBER
+    ),
+    second: ListReel | None = Opt(
+        "LISTREEL", en="ordinates, or pairs of time and ordinate", range=ANY_NUMBER
+    ),
 ) -> Curve:
     """A curve over given times."""
     numbers = values.values

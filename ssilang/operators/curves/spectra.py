@@ -24,40 +24,24 @@ _TIMES = key(
 _COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
 
 
-@operator(
-    "OSCI",
-    key(
-        "damping",
-        "AMOR",
-        arg("xi", "FLOTTANT", range=NOT_NEGATIVE),
-        optional=False,
-        en="damping ratio",
-    ),
-    key(
-        "frequency",
-        "FREQ",
-        arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"),
-        optional=False,
-        en="frequency",
-    ),
-    _TIMES,
-    key("start", "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"),
-    key(
-        "speed", "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
-    ),
-    _COLOUR,
-    arg("signal", "EVOLUTIO", en="signal g(t)", over="s"),
-    family="modal",
-)
+@operator("OSCI", family="modal")
 def osci(
     call: Call,
-    signal: Curve,
-    damping: float,
-    frequency: float,
-    times: ListReel | None,
-    start: float,
-    speed: float,
-    colour: str,
+    damping: float = Key(
+        "AMOR", arg("xi", "FLOTTANT", range=NOT_NEGATIVE), optional=False, en="damping ratio"
+    ),
+    frequency: float = Key(
+        "FREQ", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), optional=False, en="frequency"
+    ),
+    times: ListReel | None = _TIMES,
+    start: float = Key(
+        "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"
+    ),
+    speed: float = Key(
+        "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
+    ),
+    colour: str = _COLOUR,
+    signal: Curve = Arg("EVOLUTIO", en="signal g(t)", over="s"),
 ) -> Curve:
     warn_of_motions(call, signal)
     warn_of_damping(call, damping)
@@ -70,49 +54,34 @@ def osci(
     return Curve((made,), signal.title)
 
 
-@operator(
-    "SPO",
-    key(
-        "dampings",
+@operator("SPO", family="modal")
+def spo(
+    call: Call,
+    dampings: ListReel | float = Key(
         "AMOR",
         arg("xi", "LISTREEL", "FLOTTANT", range=NOT_NEGATIVE),
         optional=False,
         en="damping ratios",
     ),
-    key(
-        "frequencies",
+    frequencies: ListReel | None = Key(
         "FREQ",
         arg("f", "LISTREEL", range=POSITIVE, unit="Hz"),
         en="frequencies; usual ones without it",
     ),
-    _TIMES,
-    _COLOUR,
-    choice(
-        "kind",
+    times: ListReel | None = _TIMES,
+    colour: str = _COLOUR,
+    kind: str = Choice(
         ("DEPL", "VITE", "ACCE", "ACCA"),
         optional=False,
         en="displacement, pseudo-velocity, pseudo-acceleration, absolute acceleration",
     ),
-    key(
-        "percentiles",
+    percentiles: ListReel | float | None = Key(
         "ROTD",
         arg("p", "LISTREEL", "FLOTTANT", unit="%", en="50: median", range=between(0.0, 100.0)),
         en="percentiles over all directions of two components",
     ),
-    arg("signal", "EVOLUTIO", en="acceleration", over="s"),
-    opt("second", "EVOLUTIO", en="its other component"),
-    family="modal",
-)
-def spo(
-    call: Call,
-    signal: Curve,
-    second: Curve | None,
-    dampings: ListReel | float,
-    frequencies: ListReel | None,
-    times: ListReel | None,
-    colour: str,
-    kind: str,
-    percentiles: ListReel | float | None,
+    signal: Curve = Arg("EVOLUTIO", en="acceleration", over="s"),
+    second: Curve | None = Opt("EVOLUTIO", en="its other component"),
 ) -> Curve:
     warn_of_motions(call, signal)
     part = signal.parts[0]
@@ -190,25 +159,19 @@ operator(
 )(_valp)
 
 
-@operator(
-    "ZSPP",
-    arg("modes", "LISTREEL", range=POSITIVE, en="frequencies of modes", unit="Hz"),
-    arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="their dampings"),
-    arg("shares", "LISTREEL", en="their participations", range=ANY_NUMBER),
-    arg("frequencies", "LISTREEL", range=POSITIVE, en="frequencies of the spectrum", unit="Hz"),
-    arg("damping", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="its damping"),
-    arg("power", "EVOLUTIO", en="power density", over="Hz"),
-    arg("envelope", "EVOLUTIO", en="envelope", over="s"),
-    family="signals",
-)
+@operator("ZSPP", family="signals")
 def zspp(
-    modes: ListReel,
-    dampings: ListReel,
-    shares: ListReel,
-    frequencies: ListReel,
-    damping: float,
-    power: Curve,
-    envelope: Curve,
+    modes: ListReel = Arg("LISTREEL", range=POSITIVE, en="frequencies of modes", unit="Hz"),
+    dampings: ListReel = Arg(
+        "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="their dampings"
+    ),
+    shares: ListReel = Arg("LISTREEL", en="their participations", range=ANY_NUMBER),
+    frequencies: ListReel = Arg(
+        "LISTREEL", range=POSITIVE, en="frequencies of the spectrum", unit="Hz"
+    ),
+    damping: float = Arg("FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, en="its damping"),
+    power: Curve = Arg("EVOLUTIO", en="power density", over="Hz"),
+    envelope: Curve = Arg("EVOLUTIO", en="envelope", over="s"),
 ) -> tuple[ListReel, ListReel]:
     """Relative displacements of oscillators on a floor."""
     storey = Storey(*(np.asarray(v.values, dtype=float) for v in (modes, dampings, shares)))
@@ -330,8 +293,8 @@ def largest(parts: list[CurvePart]) -> CurvePart:
     return CurvePart(x, y, first.abscissa_name, first.ordinate_name, first.legend, first.colour)
 
 
-@enve.form(arg("table", "TABLE", en="spectra"))
-def envelope_of_spectra(call: Call, table: Table) -> Table:
+@enve.form()
+def envelope_of_spectra(call: Call, table: Table = Arg("TABLE", en="spectra")) -> Table:
     """Envelope of spectra."""
     spectra = _spectra(call, table)
     every = sorted({d for _, dampings in spectra for d in dampings})

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
-from ssilang.language.registry import Keyword, Select, words_in
+from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing.pictures import (
     picture_formats,
     picture_name,
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from ssilang.io.recording import Recording
 
 
-def _corner() -> Keyword:
+def _corner() -> Any:
     return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner")
 
 
-def _bounds(name: str, word: str, en: str) -> Keyword:
+def _bounds(name: str, word: str, en: str) -> Any:
     return key(
         name,
         word,
@@ -35,9 +35,9 @@ def _bounds(name: str, word: str, en: str) -> Keyword:
     )
 
 
-def _title_place(name: str, word: str, en: str) -> Select:
+def _title_place(name: str, word: str) -> Select:
     at_end = choice("at", ("EXCE", "CENT"), en="at the end or in the middle")
-    return select(name, {word: [at_end]}, en=en)
+    return select(name, {word: [at_end]}, en="where that stands")
 
 
 _OPTIONS: tuple[Entry, ...] = (
@@ -78,8 +78,8 @@ _OPTIONS: tuple[Entry, ...] = (
     key("title", "TITR", arg("t", "MOT"), en="title"),
     key("x_title", "TITX", arg("t", "MOT"), en="title of the abscissas"),
     key("y_title", "TITY", arg("t", "MOT"), en="title of the ordinates"),
-    _title_place("x_place", "POSX", "where that stands"),
-    _title_place("y_place", "POSY", "where that stands"),
+    _title_place("x_place", "POSX"),
+    _title_place("y_place", "POSY"),
     key("x_format", "XFMT", arg("f", "MOT"), en="format of abscissas"),
     key("y_format", "YFMT", arg("f", "MOT"), en="format of ordinates"),
     flag("axes", "AXES", en="axes through the origin"),

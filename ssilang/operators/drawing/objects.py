@@ -33,28 +33,16 @@ def is_colour(word: str) -> bool:
     return word.strip().upper()[:4] in COLOURS and " " not in word.strip()
 
 
-@operator(
-    "DEFO",
-    choice("colour", COLOURS, en="colour"),
-    arg("mesh", "MAILLAGE", en="mesh"),
-    arg("displacement", "CHPOINT", en="displacements", unit="m"),
-    opt("scale", "FLOTTANT", en="amplification", range=ANY_NUMBER),
-    opt("arrows", "VECTEUR", en="arrows drawn on it"),
-    opt("field", "CHPOINT", en="field shown on it"),
-    opt("cells", "MCHAML", en="field in cells shown on it"),
-    opt("model", "MMODEL", en="its model"),
-    family="drawing",
-    full_name="DEFORME",
-)
+@operator("DEFO", family="drawing", full_name="DEFORME")
 def defo(
-    colour: str | None,
-    mesh: Mesh,
-    displacement: NodeField,
-    scale: float | None,
-    arrows: Arrows | None,
-    field: NodeField | None,
-    cells: CellField | None,
-    model: Model | None,
+    colour: str | None = Choice(COLOURS, en="colour"),
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+    displacement: NodeField = Arg("CHPOINT", en="displacements", unit="m"),
+    scale: float | None = Opt("FLOTTANT", en="amplification", range=ANY_NUMBER),
+    arrows: Arrows | None = Opt("VECTEUR", en="arrows drawn on it"),
+    field: NodeField | None = Opt("CHPOINT", en="field shown on it"),
+    cells: CellField | None = Opt("MCHAML", en="field in cells shown on it"),
+    model: Model | None = Opt("MMODEL", en="its model"),
 ) -> Deformed:
     """Mesh, displacement and what goes with them."""
     shade = None if colour is None else index_of(colour)
@@ -74,19 +62,14 @@ _SCALE = opt(
 )
 
 
-@VECT.form(
-    main("chpoint", "CHPOINT", en="nodal field"),
-    many(
-        "names",
-        "LISTMOTS",
-        "MOT",
-        en="DEPL, FORC or components, and a colour",
-        kind="component",
-    ),
-    _SCALE,
-)
+@VECT.form()
 def _nodal(
-    call: Call, chpoint: NodeField, names: tuple[ListMots | str, ...], scale: float | None
+    call: Call,
+    chpoint: NodeField = Main("CHPOINT", en="nodal field"),
+    names: tuple[ListMots | str, ...] = Many(
+        "LISTMOTS", "MOT", en="DEPL, FORC or components, and a colour", kind="component"
+    ),
+    scale: float | None = _SCALE,
 ) -> Arrows:
     words: list[str] = []
     colour = 0
@@ -125,28 +108,16 @@ def _columns(call: Call, chpoint: NodeField, words: list[str]) -> tuple[str, str
     return tuple([*list(chpoint.components)[:size], "", "", ""][:3])  # type: ignore[return-value]
 
 
-@VECT.form(
-    main("mchaml", "MCHAML", en="field in cells"),
-    many(
-        "ignored",
-        "MCHAML",
-        "MMODEL",
-        en="characteristics and model: arrows stand in the middle of the cells",
-    ),
-    many(
-        "words",
-        "LISTMOTS",
-        "MOT",
-        en="components, principal stresses or colours",
-        kind="component",
-    ),
-    _SCALE,
-)
+@VECT.form()
 def _in_cells(
-    mchaml: CellField,
-    ignored: tuple[object, ...],
-    words: tuple[ListMots | str, ...],
-    scale: float | None,
+    mchaml: CellField = Main("MCHAML", en="field in cells"),
+    ignored: tuple[object, ...] = Many(
+        "MCHAML", "MMODEL", en="characteristics and model: arrows stand in the middle of the cells"
+    ),
+    words: tuple[ListMots | str, ...] = Many(
+        "LISTMOTS", "MOT", en="components, principal stresses or colours", kind="component"
+    ),
+    scale: float | None = _SCALE,
 ) -> Arrows:
     single = [str(w).strip() for w in words if isinstance(w, str)]
     lists = [[str(v).strip() for v in w.values] for w in words if isinstance(w, ListMots)]
@@ -161,11 +132,12 @@ def _in_cells(
     return principal_strokes(mchaml, scale, tuple(chosen), tuple(colours))
 
 
-@EXTR.form(
-    main("shape", "DEFORME", en="deformed shapes"),
-    choice("what", ("AMPL",), optional=False, en="amplification"),
-)
-def amplification(call: Call, shape: Deformed, what: str) -> float:
+@EXTR.form()
+def amplification(
+    call: Call,
+    shape: Deformed = Main("DEFORME", en="deformed shapes"),
+    what: str = Choice(("AMPL",), optional=False, en="amplification"),
+) -> float:
     """By how much the displacement is amplified."""
     if not shape.parts:
         raise call.error("operators.drawing.empty-shape", shape)
@@ -183,26 +155,24 @@ def _both(left: Annotation, right: Annotation) -> Annotation:
     return left.joined(right)
 
 
-@ANNO.form(
-    said("CATE"),
-    arg("colour", "MOT", en="colour", kind="colour"),
-    arg("text", "MOT", en="its meaning"),
-)
-def _category(colour: str, text: str) -> Annotation:
+@ANNO.form(said("CATE"))
+def _category(
+    colour: str = Arg("MOT", en="colour", kind="colour"), text: str = Arg("MOT", en="its meaning")
+) -> Annotation:
     if not is_colour(colour) and is_colour(text):
         colour, text = text, colour
     return Annotation((Category(index_of(colour), str(text)),))
 
 
-@ANNO.form(
-    said("ETIQ"),
-    arg("point", "POINT", en="where"),
-    many("words", "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"),
-    opt("distance", "FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
-    opt("link", "LOGIQUE", default=True, en="whether a line is drawn"),
-)
+@ANNO.form(said("ETIQ"))
 def _tag(
-    call: Call, point: Point, words: tuple[str, ...], distance: float | None, link: bool
+    call: Call,
+    point: Point = Arg("POINT", en="where"),
+    words: tuple[str, ...] = Many(
+        "MOT", at_least=1, en="the text; a colour and a side, before it or behind it"
+    ),
+    distance: float | None = Opt("FLOTTANT", en="distance of the text", unit="m", range=ANY_NUMBER),
+    link: bool = Opt("LOGIQUE", default=True, en="whether a line is drawn"),
 ) -> Annotation:
     found: dict[str, str] = {}
     for word in words:
@@ -221,10 +191,11 @@ def _tag(
     return Annotation((), (Tag(point, str(found["text"]), colour, place, distance, link),))
 
 
-@COUL.form(
-    main("value", "EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured"),
-    opt(
-        "given",
+@COUL.form(gives=Like("value"))
+def _recolour(
+    call: Call,
+    value: Any = Main("EVOLUTIO", "DEFORME", "VECTEUR", en="what is coloured"),
+    given: ListMots | int | str | None = Opt(
         "LISTMOTS",
         "ENTIER",
         "MOT",
@@ -232,9 +203,7 @@ def _tag(
         kind="colour",
         range=ANY_NUMBER,
     ),
-    gives=Like("value"),
-)
-def _recolour(call: Call, value: Any, given: ListMots | int | str | None) -> Any:
+) -> Any:
     if given is None:
         colours = [workspace(call.session).colour] * len(value.parts)
     elif isinstance(given, ListMots):

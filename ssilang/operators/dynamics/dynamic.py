@@ -53,8 +53,8 @@ MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
 
 
-@operator("ZDYN", arg("table", "TABLE", en="table of DYNAMIC"), family="dynamics")
-def zdyn(call: Call, table: Table) -> Table:
+@operator("ZDYN", family="dynamics")
+def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Table:
     """Read the table, integrate, hand back the saved instants."""
     with lasting():
         import ssilang.kernel.stepping.run  # noqa: F401 - used further down

@@ -23,22 +23,14 @@ from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "ZSEM",
-    arg("model", "MMODEL", en="joints under one footing"),
-    arg("characteristics", "MCHAML", en="their parameters"),
-    arg("motion", "LISTCHPO", en="displacements"),
-    arg("tractions", "TABLE", en="tractions of the same instants, from 1"),
-    opt("variables", "TABLE", en="internal variables of the same instants, from 1"),
-    family="dynamics",
-)
+@operator("ZSEM", family="dynamics")
 def zsem(
     call: Call,
-    model: Model,
-    characteristics: CellField,
-    motion: ListChpo,
-    tractions: Table,
-    variables: Table | None,
+    model: Model = Arg("MMODEL", en="joints under one footing"),
+    characteristics: CellField = Arg("MCHAML", en="their parameters"),
+    motion: ListChpo = Arg("LISTCHPO", en="displacements"),
+    tractions: Table = Arg("TABLE", en="tractions of the same instants, from 1"),
+    variables: Table | None = Opt("TABLE", en="internal variables of the same instants, from 1"),
 ) -> Table:
     """Loads of the footing at each instant."""
     zones = joint_zones(model)

@@ -20,13 +20,11 @@ MOST_VALUES = 1 << 20
 """Values of element vectors held at a time."""
 
 
-@operator(
-    "ZGAM",
-    arg("model", "MMODEL", en="model"),
-    arg("motion", "LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
-    family="dynamics",
-)
-def zgam(model: Model, motion: ListChpo | Table) -> CellField:
+@operator("ZGAM", family="dynamics")
+def zgam(
+    model: Model = Arg("MMODEL", en="model"),
+    motion: ListChpo | Table = Arg("LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
+) -> CellField:
     """Largest strain zone by zone."""
     from ssilang.operators.curves.evol import results_in_time
 

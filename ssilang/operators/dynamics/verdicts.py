@@ -29,13 +29,12 @@ _TOP = 1000.0
 """Value at which @BILANSSI cuts its factors: there is no moment or shear."""
 
 
-@operator(
-    "ZBIL",
-    arg("given", "TABLE", en="what @BILANSSI was given"),
-    arg("found", "TABLE", en="what it found"),
-    family="dynamics",
-)
-def zbil(session: Session, given: Table, found: Table) -> None:
+@operator("ZBIL", family="dynamics")
+def zbil(
+    session: Session,
+    given: Table = Arg("TABLE", en="what @BILANSSI was given"),
+    found: Table = Arg("TABLE", en="what it found"),
+) -> None:
     """Keep a verdict."""
     peaks = cast(Table, found.get("PICS"))
     told: dict[str, Any] = {

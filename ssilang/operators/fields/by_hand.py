@@ -62,21 +62,16 @@ def node_field(
     return _on_nodes(call, support, named, nature_of(call, nature) or "", title or "")
 
 
-@MANU.form(
-    said("CHPO"),
-    _TITLE,
-    NATURE,
-    _ON_NODES,
-    arg("names", "LISTMOTS", en="names of the components"),
-    arg("values", "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER),
-)
+@MANU.form(said("CHPO"))
 def node_field_of_lists(
     call: Call,
-    title: str | None,
-    nature: str | None,
-    support: Point | Mesh,
-    names: ListMots,
-    values: ListReel,
+    title: str | None = _TITLE,
+    nature: str | None = NATURE,
+    support: Point | Mesh = _ON_NODES,
+    names: ListMots = Arg("LISTMOTS", en="names of the components"),
+    values: ListReel = Arg(
+        "LISTREEL", en="their values, 0 for those behind the last", range=ANY_NUMBER
+    ),
 ) -> NodeField:
     """Field at nodes, the same value everywhere, from lists of components and values."""
     given = values.values.tolist()

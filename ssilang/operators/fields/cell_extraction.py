@@ -91,21 +91,14 @@ def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
     return found
 
 
-@EXTR.form(
-    main("field", "MCHAML", en="field in cells"),
-    arg("component", "MOT", kind="component", en="component"),
-    opt("zone", "ENTIER", en="number of the zone", range=POSITIVE),
-    opt("cell", "ENTIER", en="number of the cell in it", range=POSITIVE),
-    opt("point", "ENTIER", en="number of the point in it", range=POSITIVE),
-    gives=ANY,
-)
+@EXTR.form(gives=ANY)
 def extr_value(
     call: Call,
-    field: CellField,
-    component: str,
-    zone: int | None,
-    cell: int | None,
-    point: int | None,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    component: str = Arg("MOT", kind="component", en="component"),
+    zone: int | None = Opt("ENTIER", en="number of the zone", range=POSITIVE),
+    cell: int | None = Opt("ENTIER", en="number of the cell in it", range=POSITIVE),
+    point: int | None = Opt("ENTIER", en="number of the point in it", range=POSITIVE),
 ) -> object:
     """The value of a component at a point of a cell."""
     name, names = component.rstrip(), _own_names(field)

@@ -36,9 +36,12 @@ def _trimmed(title: str | None) -> str | None:
     return None if title is None else str(title).rstrip()
 
 
-@CHAN.form(said(*SUPPORTS), _MODEL, _SOURCE, _TITLE)
+@CHAN.form(said(*SUPPORTS))
 def chan_support(
-    word: str, model: Model, field: NodeField | CellField, title: str | None
+    word: str,
+    model: Model = _MODEL,
+    field: NodeField | CellField = _SOURCE,
+    title: str | None = _TITLE,
 ) -> CellField:
     """Another support."""
     if isinstance(field, NodeField):
@@ -46,15 +49,12 @@ def chan_support(
     return moved(model, field, cast(Support, word), _trimmed(title))
 
 
-@CHAN.form(
-    said("CHAM"),
-    _SOURCE,
-    arg("place", "MMODEL", "MAILLAGE", en="model or mesh"),
-    choice("support", SUPPORTS, default="NOEUD", en="points of the result"),
-    _TITLE,
-)
+@CHAN.form(said("CHAM"))
 def chan_cells(
-    field: NodeField | CellField, place: Model | Mesh, support: str, title: str | None
+    field: NodeField | CellField = _SOURCE,
+    place: Model | Mesh = Arg("MMODEL", "MAILLAGE", en="model or mesh"),
+    support: str = Choice(SUPPORTS, default="NOEUD", en="points of the result"),
+    title: str | None = _TITLE,
 ) -> CellField:
     """Nodal field to field in cells."""
     if isinstance(place, Mesh):
@@ -64,19 +64,16 @@ def chan_cells(
     return cells_of_nodal(place, field, cast(Support, support), _trimmed(title) or "")
 
 
-@CHAN.form(
-    said("CHPO"),
-    opt("model", "MMODEL", en="model"),
-    _SOURCE,
-    choice(
-        "rule",
+@CHAN.form(said("CHPO"))
+def chan_nodal(
+    call: Call,
+    model: Model | None = Opt("MMODEL", en="model"),
+    field: NodeField | CellField = _SOURCE,
+    rule: str = Choice(
         ("MOYE", "SOMM", "SUPP"),
         default="MOYE",
         en="mean (default) or sum of the cells around, or a new node at each point",
     ),
-)
-def chan_nodal(
-    call: Call, model: Model | None, field: NodeField | CellField, rule: str
 ) -> NodeField:
     """Field in cells to nodal field."""
     if isinstance(field, NodeField):
@@ -88,8 +85,10 @@ def chan_nodal(
     return nodal_of_cells(model, field, "SOMM" if rule == "SOMM" else "MOYE")
 
 
-@REDU.form(main("model", "MMODEL", en="model"), arg("mesh", "MAILLAGE", en="cells that stay"))
-def redu_model(model: Model, mesh: Mesh) -> Model:
+@REDU.form()
+def redu_model(
+    model: Model = Main("MMODEL", en="model"), mesh: Mesh = Arg("MAILLAGE", en="cells that stay")
+) -> Model:
     """Model on a mesh."""
     return model_on_mesh(model, mesh)
 
@@ -98,12 +97,12 @@ _STRICT = flag(
     "strict", "STRI", en="of models of mixtures: changes nothing here")  # fmt: skip
 
 
-@REDU.form(
-    main("model", "MMODEL", en="model"),
-    arg("field", "MCHAML", en="field"),
-    _STRICT,
-)
-def redu_behind_model(model: Model, field: CellField, strict: bool) -> CellField:
+@REDU.form()
+def redu_behind_model(
+    model: Model = Main("MMODEL", en="model"),
+    field: CellField = Arg("MCHAML", en="field"),
+    strict: bool = _STRICT,
+) -> CellField:
     """Field in cells, given behind the model that restricts it."""
     return field_on_model(field, model)
 
@@ -120,12 +119,12 @@ def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) ->
     return field_on_model(field, support)
 
 
-@REDU.form(
-    main("field", "MCHAML", en="field in cells"),
-    arg("table", "TABLE", en="models or meshes"),
-    gives="TABLE",
-)
-def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
+@REDU.form(gives="TABLE")
+def redu_dealt(
+    call: Call,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    table: Table = Arg("TABLE", en="models or meshes"),
+) -> Table:
     """Field in cells on each part of a model."""
     made = Table()
     made.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
@@ -137,8 +136,10 @@ def redu_dealt(call: Call, field: CellField, table: Table) -> Table:
     return made
 
 
-@REDU.form(main("table", "TABLE", en="table ESCLAVE of fields"), _MODEL)
-def redu_table(call: Call, table: Table, model: Model) -> CellField:
+@REDU.form()
+def redu_table(
+    call: Call, table: Table = Main("TABLE", en="table ESCLAVE of fields"), model: Model = _MODEL
+) -> CellField:
     """The fields of a table on a model."""
     fields = [v for k, v in table.items() if isinstance(k, int) and isinstance(v, CellField)]
     if not fields:
@@ -149,8 +150,12 @@ def redu_table(call: Call, table: Table, model: Model) -> CellField:
 _POINTS = main("field", "MCHAML", en="field in cells")
 
 
-@COOR.form(_POINTS, arg("axis", "ENTIER", en="axis, from 1", range=POSITIVE))
-def coor_cells(call: Call, field: CellField, axis: int) -> CellField:
+@COOR.form()
+def coor_cells(
+    call: Call,
+    field: CellField = _POINTS,
+    axis: int = Arg("ENTIER", en="axis, from 1", range=POSITIVE),
+) -> CellField:
     """One coordinate as a field in cells."""
     if not 1 <= axis <= workspace(call.session).dimension:
         raise call.error("operators.fields.no-coordinate", axis, wanted=axis)

@@ -20,8 +20,8 @@ def _joined(first: Cloud, second: Cloud) -> Cloud:
     return first.joined(second)
 
 
-@operator("NUAG", arg("field", "CHPOINT", "MCHAML", en="field"), family="clouds", full_name="NUAGE")
-def nuag(field: NodeField | CellField) -> Cloud:
+@operator("NUAG", family="clouds", full_name="NUAGE")
+def nuag(field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="field")) -> Cloud:
     """Cloud of the values of a field."""
     if isinstance(field, NodeField):
         nodes = field.node_ids
@@ -137,8 +137,10 @@ def extract_from_cloud(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Clo
     return cloud.rows([int(np.argmax(near) if below else np.argmin(near))])
 
 
-@EXTR.form(main("cloud", "NUAGE", en="cloud of one row"), _COMPONENT, gives=ANY)
-def extract_object(call: Call, cloud: Cloud, component: str) -> object:
+@EXTR.form(gives=ANY)
+def extract_object(
+    call: Call, cloud: Cloud = Main("NUAGE", en="cloud of one row"), component: str = _COMPONENT
+) -> object:
     """What a column of a cloud of one row holds."""
     name = component.rstrip()
     if name not in cloud.columns:
@@ -148,16 +150,21 @@ def extract_object(call: Call, cloud: Cloud, component: str) -> object:
     return cloud.columns[name][0]
 
 
-@DIME.form(
-    main("cloud", "NUAGE", en="cloud"), choice("what", ("COMP", "UPLE"), en="columns or rows")
-)
-def size(cloud: Cloud, what: str | None) -> int:
+@DIME.form()
+def size(
+    cloud: Cloud = Main("NUAGE", en="cloud"),
+    what: str | None = Choice(("COMP", "UPLE"), en="columns or rows"),
+) -> int:
     """Number of columns or rows."""
     return len(cloud) if what == "UPLE" else len(cloud.columns)
 
 
-@REDU.form(main("cloud", "NUAGE", en="cloud"), many("names", "MOT", en="columns to keep"))
-def reduce_cloud(call: Call, cloud: Cloud, names: tuple[str, ...]) -> Cloud:
+@REDU.form()
+def reduce_cloud(
+    call: Call,
+    cloud: Cloud = Main("NUAGE", en="cloud"),
+    names: tuple[str, ...] = Many("MOT", en="columns to keep"),
+) -> Cloud:
     """Some columns of a cloud."""
     kept = [str(w).rstrip() for w in names]
     missing = [n for n in kept if n not in cloud.columns]

@@ -28,24 +28,14 @@ NATURE = key(
 _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
 
 
-@operator(
-    "EXCO",
-    arg("wanted", "LISTMOTS", en="components wanted", distinct=True),
-    _LENIENT,
-    _FIELD,
-    opt("new", "LISTMOTS", en="their new names", distinct=True),
-    NATURE,
-    gives=Like("field"),
-    family="fields",
-    full_name="EXCO",
-)
+@operator("EXCO", gives=Like("field"), family="fields", full_name="EXCO")
 def exco(
     call: Call,
-    wanted: ListMots,
-    lenient: bool,
-    field: NodeField | CellField,
-    new: ListMots | None,
-    nature: str | None,
+    wanted: ListMots = Arg("LISTMOTS", en="components wanted", distinct=True),
+    lenient: bool = _LENIENT,
+    field: NodeField | CellField = _FIELD,
+    new: ListMots | None = Opt("LISTMOTS", en="their new names", distinct=True),
+    nature: str | None = NATURE,
 ) -> NodeField | CellField:
     """Extract several components."""
     old = names_of(wanted)
@@ -55,21 +45,14 @@ def exco(
     return _extracted(call, field, old, names, lenient, nature)
 
 
-@exco.form(
-    arg("wanted", "MOT", kind="component", en="component wanted"),
-    _LENIENT,
-    _FIELD,
-    NATURE,
-    opt("new", "MOT", en="its new name"),
-    gives=Like("field"),
-)
+@exco.form(gives=Like("field"))
 def exco_one(
     call: Call,
-    wanted: str,
-    lenient: bool,
-    field: NodeField | CellField,
-    nature: str | None,
-    new: str | None,
+    wanted: str = Arg("MOT", kind="component", en="component wanted"),
+    lenient: bool = _LENIENT,
+    field: NodeField | CellField = _FIELD,
+    nature: str | None = NATURE,
+    new: str | None = Opt("MOT", en="its new name"),
 ) -> NodeField | CellField:
     """Extract one component."""
     old = wanted.rstrip()
@@ -153,28 +136,32 @@ CHAN.form(said("COMP"), *_NEW_NAMES, of=_FIELDS, gives=Like("field"))(nomc.forms
 CHAN.form(said("COMP"), *_ONE_NAME, of=_FIELDS, gives=Like("field"))(nomc_alone)
 
 
-@CHAN.form(said("ATTR"), _NODAL, NATURE)
-def change_nature(call: Call, field: NodeField, nature: str | None) -> NodeField:
+@CHAN.form(said("ATTR"))
+def change_nature(call: Call, field: NodeField = _NODAL, nature: str | None = NATURE) -> NodeField:
     """Another nature."""
     return _with_nature(call, field, nature)
 
 
-@CHAN.form(said("TITR"), _NODAL, arg("title", "MOT", en="its new title"), of=("CHPOINT",))
-def change_title(field: NodeField, title: str) -> NodeField:
+@CHAN.form(said("TITR"), of=("CHPOINT",))
+def change_title(
+    field: NodeField = _NODAL, title: str = Arg("MOT", en="its new title")
+) -> NodeField:
     """Another title."""
     return NodeField(field.table, field.components, field.nature, str(title))
 
 
-@CHAN.form(said("TYPE"), _IN_CELLS, arg("title", "MOT", en="its new sub-type"), of=("MCHAML",))
-def change_type(field: CellField, title: str) -> CellField:
+@CHAN.form(said("TYPE"), of=("MCHAML",))
+def change_type(
+    field: CellField = _IN_CELLS, title: str = Arg("MOT", en="its new sub-type")
+) -> CellField:
     """Another sub-type."""
     return CellField(field.blocks, title.rstrip())
 
 
-@CHAN.form(
-    said("CONS"), _IN_CELLS, arg("constituent", "MOT", en="its new constituent"), of=("MCHAML",)
-)
-def change_constituent(field: CellField, constituent: str) -> CellField:
+@CHAN.form(said("CONS"), of=("MCHAML",))
+def change_constituent(
+    field: CellField = _IN_CELLS, constituent: str = Arg("MOT", en="its new constituent")
+) -> CellField:
     """Another constituent."""
     name = constituent.rstrip()
     blocks = tuple(
@@ -233,12 +220,13 @@ def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | Lis
     return Mot(told[what.word])
 
 
-@EXTR.form(
-    main("field", "CHPOINT", en="field at nodes"),
-    arg("component", "MOT", kind="component", en="component"),
-    arg("point", "POINT", en="where"),
-)
-def value_at(call: Call, field: NodeField, component: str, point: Point) -> float:
+@EXTR.form()
+def value_at(
+    call: Call,
+    field: NodeField = Main("CHPOINT", en="field at nodes"),
+    component: str = Arg("MOT", kind="component", en="component"),
+    point: Point = Arg("POINT", en="where"),
+) -> float:
     """A component at a point."""
     name = component.rstrip()
     node_algebra.component(field, name)
@@ -280,17 +268,13 @@ def _values(
 # ---- REDU, ENLE, COPI ---------------------------------------------------------------------------
 
 
-@REDU.form(
-    main("field", "CHPOINT", en="field at nodes"),
-    arg(
-        "support",
-        "MAILLAGE",
-        "POINT",
-        "CHPOINT",
-        en="points that stay, or field that is not zero there",
+@REDU.form()
+def reduce(
+    field: NodeField = Main("CHPOINT", en="field at nodes"),
+    support: Mesh | Point | NodeField = Arg(
+        "MAILLAGE", "POINT", "CHPOINT", en="points that stay, or field that is not zero there"
     ),
-)
-def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
+) -> NodeField:
     """A field on fewer nodes."""
     if not isinstance(support, NodeField):
         return node_algebra.restricted(field, support_nodes(support))
@@ -299,22 +283,21 @@ def reduce(field: NodeField, support: Mesh | Point | NodeField) -> NodeField:
     return node_algebra.restricted(field, nodes)
 
 
-@ENLE.form(
-    main("field", "CHPOINT", en="field at nodes"),
-    arg("names", "MOT", "LISTMOTS", kind="component", en="components"),
-)
-def without(field: NodeField, names: str | ListMots) -> NodeField:
+@ENLE.form()
+def without(
+    field: NodeField = Main("CHPOINT", en="field at nodes"),
+    names: str | ListMots = Arg("MOT", "LISTMOTS", kind="component", en="components"),
+) -> NodeField:
     """A field without some components."""
     gone = set(names_of(names))
     return node_algebra.rebuilt(field, {k: v for k, v in field.components.items() if k not in gone})
 
 
-@COPI.form(
-    main("field", *_FIELDS, en="field"),
-    flag("shape", "GEOM", en="accepted, changes nothing"),
-    gives=Like("field"),
-)
-def copy(field: NodeField | CellField, shape: bool) -> NodeField | CellField:
+@COPI.form(gives=Like("field"))
+def copy(
+    field: NodeField | CellField = Main(*_FIELDS, en="field"),
+    shape: bool = Flag("GEOM", en="accepted, changes nothing"),
+) -> NodeField | CellField:
     """A field of its own with the same values."""
     if isinstance(field, NodeField):
         return node_algebra.rebuilt(field, dict(field.components))

@@ -163,15 +163,13 @@ def max1(call: Call, field: NodeField, which: str | None, listed: ListMots | Non
     return node_algebra.applied(field, lambda v: v / largest)
 
 
-@operator(
-    "PILE",
-    arg("first", "MCHAML", en="where one starts"),
-    arg("second", "MCHAML", en="direction"),
-    arg("limit", "FLOTTANT", en="limit, positive", range=POSITIVE),
-    family="fields",
-    full_name="PILEPS",
-)
-def pile(call: Call, first: CellField, second: CellField, limit: float) -> float:
+@operator("PILE", family="fields", full_name="PILEPS")
+def pile(
+    call: Call,
+    first: CellField = Arg("MCHAML", en="where one starts"),
+    second: CellField = Arg("MCHAML", en="direction"),
+    limit: float = Arg("FLOTTANT", en="limit, positive", range=POSITIVE),
+) -> float:
     """Largest factor before a component passes the limit."""
     if component_names(first) != component_names(second) or len(first.blocks) != len(second.blocks):
         raise call.error("operators.fields.fields-of-other-zones", second)

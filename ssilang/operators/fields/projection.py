@@ -32,9 +32,13 @@ _TOLERANCE = opt(
 )
 
 
-@operator("PROI", _MODEL, _FIELDS, _SUPPORT, _TOLERANCE, family="fields")
+@operator("PROI", family="fields")
 def proi(
-    call: Call, place: Model, fields: tuple[CellField, ...], support: str | None, tolerance: float
+    call: Call,
+    place: Model = _MODEL,
+    fields: tuple[CellField, ...] = _FIELDS,
+    support: str | None = _SUPPORT,
+    tolerance: float = _TOLERANCE,
 ) -> CellField:
     """Projection on a model."""
     points, lost = "NOEUD" if support in (None, "NOEUDS") else support, Lost()
@@ -52,9 +56,13 @@ def _tell(call: Call, field: CellField, lost: Lost, code: str) -> None:
         call.session.doubt()
 
 
-@proi.form(_MESH, _FIELDS, _SUPPORT, _TOLERANCE)
+@proi.form()
 def proi_on_mesh(
-    call: Call, place: Mesh, fields: tuple[CellField, ...], support: str | None, tolerance: float
+    call: Call,
+    place: Mesh = _MESH,
+    fields: tuple[CellField, ...] = _FIELDS,
+    support: str | None = _SUPPORT,
+    tolerance: float = _TOLERANCE,
 ) -> NodeField:
     """Projection on a mesh."""
     made = on_mesh(fields[-1], place, tolerance, lost := Lost())
@@ -62,9 +70,13 @@ def proi_on_mesh(
     return made
 
 
-@proi.form(said("MINI"), _MODEL, _FIELDS, _COUNT, _TOLERANCE)
+@proi.form(said("MINI"))
 def proi_by_least_squares(
-    call: Call, place: Model, fields: tuple[CellField, ...], count: int, tolerance: float
+    call: Call,
+    place: Model = _MODEL,
+    fields: tuple[CellField, ...] = _FIELDS,
+    count: int = _COUNT,
+    tolerance: float = _TOLERANCE,
 ) -> CellField:
     """Projection on a model by least squares."""
     made = by_least_squares(fields[-1], place, count, tolerance, lost := Lost())
@@ -72,8 +84,8 @@ def proi_by_least_squares(
     return made
 
 
-@proi.form(said("MINI"), _MESH)
-def proi_by_least_squares_on_mesh(call: Call, place: Mesh) -> NoReturn:
+@proi.form(said("MINI"))
+def proi_by_least_squares_on_mesh(call: Call, place: Mesh = _MESH) -> NoReturn:
     """Only a model has the elements that least squares need."""
     raise call.error("operators.fields.mini-needs-a-model", place)
 

@@ -9,8 +9,8 @@ from ssilang.kernel.mesh.queries.measure import signed_area
 from ssilang.operators.prelude import *
 
 
-@operator("SENS", arg("contours", "TABLE", en="closed contours by number"), family="fields")
-def sens(call: Call, contours: Table) -> Table:
+@operator("SENS", family="fields")
+def sens(call: Call, contours: Table = Arg("TABLE", en="closed contours by number")) -> Table:
     """Senses of contours."""
     made = Table()
     for number, contour in contours.items():
@@ -25,11 +25,12 @@ def sens(call: Call, contours: Table) -> Table:
     return made
 
 
-@sens.form(
-    arg("first", "MCHAML", en="field of one component"),
-    arg("second", "MCHAML", en="field to take from it"),
-)
-def sens_of_fields(call: Call, first: CellField, second: CellField) -> Table:
+@sens.form()
+def sens_of_fields(
+    call: Call,
+    first: CellField = Arg("MCHAML", en="field of one component"),
+    second: CellField = Arg("MCHAML", en="field to take from it"),
+) -> Table:
     """Means of differences, cell by cell."""
     names = component_names(first)
     if len(names) != 1 or component_names(second) != names:

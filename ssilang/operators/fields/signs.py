@@ -132,8 +132,8 @@ for _kind in ("ENTIER", "FLOTTANT"):
     rule(SIGNS, _kind, "CHPOINT")(_number_node)
 
 
-@INVE.form(main("field", "CHPOINT", en="nodal field"))
-def _inverse(call: Call, field: NodeField) -> NodeField:
+@INVE.form()
+def _inverse(call: Call, field: NodeField = Main("CHPOINT", en="nodal field")) -> NodeField:
     for name, part in field.components.items():
         if not np.all(part.values):
             node = part.nodes[np.flatnonzero(part.values == 0.0)[0]]

@@ -1,7 +1,8 @@
-"""RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations of fields and lists."""
+"""RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations; DFOU: a harmonic at an angle."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,8 @@ from ssilang.operators.prelude import *
 # ---- measures -----------------------------------------------------------------------------------
 
 
-@operator("RESU", arg("field", "CHPOINT", en="forces, say"), family="fields", full_name="RESULT")
-def resu(call: Call, field: NodeField) -> NodeField:
+@operator("RESU", family="fields", full_name="RESULT")
+def resu(call: Call, field: NodeField = Arg("CHPOINT", en="forces, say")) -> NodeField:
     """Sum components over nodes."""
     nodes = field.node_ids
     if not len(nodes):
@@ -24,11 +25,12 @@ def resu(call: Call, field: NodeField) -> NodeField:
     return NodeField(field.table, made, "DISCRET")
 
 
-@resu.form(
-    arg("values", "LISTREEL", "LISTENTI", en="numbers to sum", range=ANY_NUMBER),
-    gives="FLOTTANT|ENTIER",
-)
-def resu_of_list(values: ListReel | ListEnti) -> float | int:
+@resu.form(gives="FLOTTANT|ENTIER")
+def resu_of_list(
+    values: ListReel | ListEnti = Arg(
+        "LISTREEL", "LISTENTI", en="numbers to sum", range=ANY_NUMBER
+    ),
+) -> float | int:
     """Sum of a list."""
     total: float | int = values.values.sum()
     return total
@@ -121,15 +123,13 @@ def _weighted_sum(
     return algebra.added(algebra.applied(first, lambda v: v * a), second, b)
 
 
-@operator(
-    "COMB",
-    flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
-    arg("weights", "CHPOINT", en="coefficients, one component"),
-    arg("table", "TABLE", en="fields by point"),
-    family="fields",
-    full_name="COMBTABLE",
-)
-def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField:
+@operator("COMB", family="fields", full_name="COMBTABLE")
+def comb(
+    call: Call,
+    alike: bool = Flag("SEMBLABLE", en="the fields have the same nodes and components"),
+    weights: NodeField = Arg("CHPOINT", en="coefficients, one component"),
+    table: Table = Arg("TABLE", en="fields by point"),
+) -> NodeField:
     """Combine fields."""
     if len(weights.components) != 1:
         raise call.error("operators.fields.coefficients-have-one-component", weights)
@@ -148,24 +148,26 @@ def comb(call: Call, alike: bool, weights: NodeField, table: Table) -> NodeField
 COLI = shared("COLI", "fields", full_name="COLINEAIRE")
 
 
-@COLI.form(
-    arg("held", "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"),
-    arg("factors", "LISTREEL", en="coefficients", range=ANY_NUMBER),
-    gives="CHPOINT|MCHAML|LISTREEL",
-)
-def _combine_held(call: Call, held: ListChpo | Table, factors: ListReel) -> Any:
+@COLI.form(gives="CHPOINT|MCHAML|LISTREEL")
+def _combine_held(
+    call: Call,
+    held: ListChpo | Table = Arg(
+        "LISTCHPO", "TABLE", en="fields, or a table 1 .. N of fields or lists"
+    ),
+    factors: ListReel = Arg("LISTREEL", en="coefficients", range=ANY_NUMBER),
+) -> Any:
     numbers = factors.values.tolist()
     if isinstance(held, ListChpo):
         return _combined(call, list(held.values), numbers)
     return _combined(call, [held.get(i) for i in range(1, len(numbers) + 1)], numbers)
 
 
-@COLI.form(
-    many("objects", "CHPOINT", "MCHAML", at_least=1, en="fields"),
-    many("factors", "FLOTTANT", en="coefficients", range=ANY_NUMBER),
-    gives="CHPOINT|MCHAML",
-)
-def _combine_fields(call: Call, objects: tuple[Any, ...], factors: tuple[float, ...]) -> Any:
+@COLI.form(gives="CHPOINT|MCHAML")
+def _combine_fields(
+    call: Call,
+    objects: tuple[Any, ...] = Many("CHPOINT", "MCHAML", at_least=1, en="fields"),
+    factors: tuple[float, ...] = Many("FLOTTANT", en="coefficients", range=ANY_NUMBER),
+) -> Any:
     return _combined(call, list(objects), list(factors))
 
 
@@ -188,9 +190,44 @@ def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
     return total
 
 
-@operator("SOMT", arg("field", "CHPOINT", en="field of one component"), family="fields")
-def somt(field: NodeField) -> float:
+@operator("SOMT", family="fields")
+def somt(field: NodeField = Arg("CHPOINT", en="field of one component")) -> float:
     """Sum values."""
     if len(field.components) != 1:
         raise KernelError("operators.lists.single-component")
     return float(next(iter(field.components.values())).values.sum())
+
+
+# ---- Fourier series ------------------------------------------------------------------------------
+
+_ODD = {
+    "UT", "FT", "SMRT", "SMZT", "GART", "GAZT", "EPRT", "EPZT", "GAST", "RTST", "NSST", "MSST",
+    "NST", "MST", "RR", "RZ", "MR", "MZ",
+}  # fmt: skip
+"""Components that go with the sine of a symmetric harmonic; the others go with the cosine."""
+
+
+@operator("DFOU", gives=Like("field"), family="fields", full_name="DFOURIER")
+def dfou(
+    call: Call,
+    field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="field of a harmonic"),
+    angle: float = Arg("FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
+) -> NodeField | CellField:
+    """Sum a harmonic."""
+    n = workspace(call.session).fourier
+    turn = np.radians(abs(n) * angle)
+    even, odd = (np.cos(turn), np.sin(turn)) if n >= 0 else (np.sin(turn), np.cos(turn))
+    if n == 0:
+        odd = 1.0  # harmonic 0: uniform stretching and uniform torsion, uncoupled
+
+    def factor(name: str) -> float:
+        return float(odd if name in _ODD else even)
+
+    if isinstance(field, NodeField):
+        made = {k: NodeValues(v.nodes, factor(k) * v.values) for k, v in field.components.items()}
+        return replace(field, components=made)
+    blocks = tuple(
+        replace(b, components={k: factor(k) * v for k, v in b.components.items()})
+        for b in field.blocks
+    )
+    return replace(field, blocks=blocks)

@@ -100,8 +100,8 @@ def _tensor(
     return shell_tensor(zone, field, material, side)
 
 
-@operator("VMIS", MODEL, STATE, family="stress")
-def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
+@operator("VMIS", family="stress")
+def vmis(call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = STATE) -> CellField:
     """Equivalent stress."""
     strains = next((f for f in fields if f.title == "DEFORMATIONS"), None)
     if strains is not None:
@@ -109,23 +109,21 @@ def vmis(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     return _equivalent(call, model, fields, "MOYE", von_mises, "VMIS")
 
 
-@operator("TRES", MODEL, STATE, _SIDE, family="stress", full_name="TRESCA")
-def tres(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
+@operator("TRES", family="stress", full_name="TRESCA")
+def tres(
+    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = STATE, side: str = _SIDE
+) -> CellField:
     """Equivalent stress."""
     return _equivalent(call, model, fields, side, tresca, "TRES")
 
 
-@operator(
-    "PRIN",
-    MODEL,
-    STATE,
-    flag("ordered", "TRID", en="the values decrease in the plane too"),
-    _SIDE,
-    family="stress",
-    full_name="PRINCIPALE",
-)
+@operator("PRIN", family="stress", full_name="PRINCIPALE")
 def prin(
-    call: Call, model: Model, fields: tuple[CellField, ...], ordered: bool, side: str
+    call: Call,
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = STATE,
+    ordered: bool = Flag("TRID", en="the values decrease in the plane too"),
+    side: str = _SIDE,
 ) -> CellField:
     """Principal values and directions."""
     field, material = state_and_rest(fields)
@@ -142,9 +140,9 @@ def prin(
     return on_zones(present(call, model), "PRINCIPALE", make)
 
 
-@operator("INVA", MODEL, STATE, _SIDE, family="stress", full_name="INVARIANT")
+@operator("INVA", family="stress", full_name="INVARIANT")
 def inva(
-    call: Call, model: Model, fields: tuple[CellField, ...], side: str
+    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = STATE, side: str = _SIDE
 ) -> tuple[CellField, CellField, CellField]:
     """Invariants."""
     field, material = state_and_rest(fields)
@@ -157,17 +155,13 @@ def inva(
     return one, two, three
 
 
-@operator(
-    "ENER",
-    MODEL,
-    arg("first", "MCHAML", en="stresses"),
-    arg("second", "MCHAML", en="strains"),
-    many("others", "MCHAML", en="accepted, not used"),
-    family="stress",
-    full_name="ENERGIE",
-)
+@operator("ENER", family="stress", full_name="ENERGIE")
 def ener(
-    call: Call, model: Model, first: CellField, second: CellField, others: tuple[CellField, ...]
+    call: Call,
+    model: Model = MODEL,
+    first: CellField = Arg("MCHAML", en="stresses"),
+    second: CellField = Arg("MCHAML", en="strains"),
+    others: tuple[CellField, ...] = Many("MCHAML", en="accepted, not used"),
 ) -> CellField:
     """Product of stresses and strains."""
     given = (first, second, *others)
@@ -195,15 +189,13 @@ def _holding(zone: Zone, fields: tuple[CellField, ...], names: tuple[str, ...]) 
     raise FieldError("operators.fields.no-field-for-element", names=names, element=zone.element)
 
 
-@operator(
-    "GRAD",
-    MODEL,
-    arg("field", "CHPOINT", en="displacements or a scalar"),
-    many("given", "MCHAML", en="parameters"),
-    family="stress",
-    full_name="GRADIENT",
-)
-def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...]) -> CellField:
+@operator("GRAD", family="stress", full_name="GRADIENT")
+def grad(
+    call: Call,
+    model: Model = MODEL,
+    field: NodeField = Arg("CHPOINT", en="displacements or a scalar"),
+    given: tuple[CellField, ...] = Many("MCHAML", en="parameters"),
+) -> CellField:
     """Gradients."""
     names = tuple(field.components)
 
@@ -225,21 +217,14 @@ def grad(call: Call, model: Model, field: NodeField, given: tuple[CellField, ...
     return on_zones(present(call, model), "GRADIENT", make)
 
 
-@INTG.form(
-    main("model", "MMODEL", en="model"),
-    flag("by_cell", "ELEM", en="one value a cell"),
-    opt("component", "MOT", kind="component", en="component, if there are several"),
-    arg("field", "MCHAML", en="field to integrate"),
-    many("others", "MCHAML", en="parameters"),
-    gives=by("by_cell", {True: "MCHAML"}, "FLOTTANT"),
-)
+@INTG.form(gives=by("by_cell", {True: "MCHAML"}, "FLOTTANT"))
 def intg(
     call: Call,
-    model: Model,
-    by_cell: bool,
-    component: str | None,
-    field: CellField,
-    others: tuple[CellField, ...],
+    model: Model = Main("MMODEL", en="model"),
+    by_cell: bool = Flag("ELEM", en="one value a cell"),
+    component: str | None = Opt("MOT", kind="component", en="component, if there are several"),
+    field: CellField = Arg("MCHAML", en="field to integrate"),
+    others: tuple[CellField, ...] = Many("MCHAML", en="parameters"),
 ) -> float | CellField:
     """Integral of a field in cells."""
     wanted = component.rstrip() if component is not None else _only(call, field)
@@ -264,8 +249,8 @@ def _only(call: Call, field: CellField) -> str:
     return names[0]
 
 
-@operator("JACO", MODEL, family="stress", full_name="JACOBIEN")
-def jaco(model: Model) -> CellField:
+@operator("JACO", family="stress", full_name="JACOBIEN")
+def jaco(model: Model = MODEL) -> CellField:
     """Jacobians."""
 
     def make(zone: Zone) -> CellFieldBlock:

@@ -36,17 +36,13 @@ _SUPPORT = choice("support", _SUPPORTS, default="RIGIDITE", en="points of the re
 _LAW = arg("curve", "EVOLUTIO", en="law of variation")
 
 
-@operator(
-    "VARI",
-    arg("model", "MMODEL", en="model"),
-    arg("field", "CHPOINT", "MCHAML", en="what the law depends on"),
-    _LAW,
-    _SUPPORT,
-    family="fields",
-    full_name="VARIATION",
-)
+@operator("VARI", family="fields", full_name="VARIATION")
 def vari(
-    call: Call, model: Model, field: NodeField | CellField, curve: Curve, support: str
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="what the law depends on"),
+    curve: Curve = _LAW,
+    support: str = _SUPPORT,
 ) -> CellField:
     """Evaluate a law in cells."""
     part = _law(call, curve)
@@ -57,12 +53,13 @@ def vari(
     return CellField(made.blocks, "SCALAIRE")
 
 
-@vari.form(
-    arg("field", "CHPOINT", en="what the law depends on"),
-    _LAW,
-    opt("target", "MOT", en="component of the result, else the name of the ordinate"),
-)
-def vari_at_nodes(call: Call, field: NodeField, curve: Curve, target: str | None) -> NodeField:
+@vari.form()
+def vari_at_nodes(
+    call: Call,
+    field: NodeField = Arg("CHPOINT", en="what the law depends on"),
+    curve: Curve = _LAW,
+    target: str | None = Opt("MOT", en="component of the result, else the name of the ordinate"),
+) -> NodeField:
     """Evaluate a law at nodes."""
     part = _law(call, curve)
     name = part.ordinate_name.strip() if target is None else target.rstrip()
@@ -83,16 +80,13 @@ def _placed(model: Model, field: NodeField | CellField, support: Support) -> Cel
     return moved(model, field, support, None)
 
 
-@vari.form(
-    said("NUAG"),
-    arg("model", "MMODEL", en="model"),
-    arg("laws", "MCHAML", en="parameters, curves among them"),
-    arg("given", "MCHAML", "CHPOINT", en="fields that the curves depend on"),
-    _SUPPORT,
-    opt("title", "MOT", en="sub-type of the result"),
-)
+@vari.form(said("NUAG"))
 def vari_of_parameters(
-    model: Model, laws: CellField, given: CellField | NodeField, support: str, title: str | None
+    model: Model = Arg("MMODEL", en="model"),
+    laws: CellField = Arg("MCHAML", en="parameters, curves among them"),
+    given: CellField | NodeField = Arg("MCHAML", "CHPOINT", en="fields that the curves depend on"),
+    support: str = _SUPPORT,
+    title: str | None = Opt("MOT", en="sub-type of the result"),
 ) -> CellField:
     """Parameters given by curves as numbers."""
     at = cast(Support, support)

@@ -27,8 +27,8 @@ PLANE = {Mode.PLANE_STRESS: "CPS", Mode.AXISYMMETRIC: "CAX", Mode.FOURIER: "CAX"
 _FILE = lead("file", "MOT", en="file")
 
 
-@LIRE.form(said("MESH"), _FILE)
-def _mesh(call: Call, file: str) -> Table:
+@LIRE.form(said("MESH"))
+def _mesh(call: Call, file: str = _FILE) -> Table:
     return mesh_table(call, str(file))
 
 
@@ -38,8 +38,8 @@ _BY_WORD = {
 }  # fmt: skip
 
 
-@LIRE.form(said("GMSH", "MED", "VTU", "VTK", "ABAQUS", "NAS", "FEM", "MEDIT", "UNV"), _FILE)
-def _by_word(call: Call, word: str, file: str) -> Table:
+@LIRE.form(said("GMSH", "MED", "VTU", "VTK", "ABAQUS", "NAS", "FEM", "MEDIT", "UNV"))
+def _by_word(call: Call, word: str, file: str = _FILE) -> Table:
     return mesh_table(call, str(file), _BY_WORD[word])
 
 
@@ -129,10 +129,10 @@ def _sound(mesh: Mesh) -> Mesh:
 # ---- writing -------------------------------------------------------------------------------------
 
 
-@SORT.form(
-    said("MESH", "MED"), arg("mesh", "MAILLAGE", "TABLE", en="mesh, or a table of its parts")
-)
-def _sort(call: Call, word: str, mesh: Any) -> None:
+@SORT.form(said("MESH", "MED"))
+def _sort(
+    call: Call, word: str, mesh: Any = Arg("MAILLAGE", "TABLE", en="mesh, or a table of its parts")
+) -> None:
     path = target_path(call, ".med" if word == "MED" else "")
     ending = path.suffix.lower()
     if ending not in WRITTEN:

@@ -21,14 +21,14 @@ LIRE = shared("LIRE", "files")
 _FILE = lead("file", "MOT", en="file")
 
 
-@LIRE.form(
-    said("CSV"),
-    _FILE,
-    key("first", "DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
-    key("separator", "SEPA", arg("s", "MOT"), default=";", en="separator"),
-    choice("by", ("COLO", "LIGN"), default="COLO", en="columns or lines"),
-)
-def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
+@LIRE.form(said("CSV"))
+def _csv(
+    call: Call,
+    file: str = _FILE,
+    first: int = Key("DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
+    separator: str = Key("SEPA", arg("s", "MOT"), default=";", en="separator"),
+    by: str = Choice(("COLO", "LIGN"), default="COLO", en="columns or lines"),
+) -> Table:
     sign = str(separator) or ";"
     if len(sign) > 1:
         sign = sign.strip()[:1] or " "
@@ -36,8 +36,10 @@ def _csv(call: Call, file: str, first: int, separator: str, by: str) -> Table:
     return Table.numbered(ListReel(v) for v in (rows if by == "LIGN" else as_columns(rows)))
 
 
-@LIRE.form(said("PROC"), _FILE, opt("name", "MOT", default="", en="the only one wanted"))
-def _proc(call: Call, file: str, name: str) -> None:
+@LIRE.form(said("PROC"))
+def _proc(
+    call: Call, file: str = _FILE, name: str = Opt("MOT", default="", en="the only one wanted")
+) -> None:
     path = input_path(call, file)
     wanted = str(name).strip().upper()
     script = parse(read_source(path))
@@ -123,8 +125,8 @@ def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFiel
     return tuple(made)
 
 
-@LIRE.form(said("STL"), _FILE)
-def _stl(call: Call, file: str) -> Mesh:
+@LIRE.form(said("STL"))
+def _stl(call: Call, file: str = _FILE) -> Mesh:
     corners = read_stl(file_to_read(call, str(file), ".stl"))
     warn_flat(call, str(file), corners.reshape(-1, 3))
     nodes = workspace(call.session).nodes

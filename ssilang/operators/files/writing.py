@@ -98,15 +98,13 @@ def _chai(call: Call, word: str) -> None:
     run_output(call.session).add_lines("SORT", target_path(call), [text])
 
 
-@SORT.form(
-    said("BILA"),
-    lead("name", "MOT", en="name of the figure"),
-    arg("value", "FLOTTANT", en="figure", range=CARRIED),
-    opt("expected", "FLOTTANT", en="value expected", range=CARRIED),
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
-)
+@SORT.form(said("BILA"))
 def _bila(
-    call: Call, name: str, value: float, expected: float | None, tolerance: float | None
+    call: Call,
+    name: str = Lead("MOT", en="name of the figure"),
+    value: float = Arg("FLOTTANT", en="figure", range=CARRIED),
+    expected: float | None = Opt("FLOTTANT", en="value expected", range=CARRIED),
+    tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
 ) -> None:
     if expected is not None and tolerance is None:
         raise call.missing(("FLOTTANT",))

@@ -16,7 +16,6 @@ from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.stl import stl_lines
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.language.registry import named
 from ssilang.operators.files.meshes import PLANE, mesh_table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
@@ -25,21 +24,14 @@ from ssilang.operators.files.writing import SORT, target_path
 from ssilang.operators.prelude import *
 
 
-@SORT.form(
-    said("AVS"),
-    opt("mesh", "MAILLAGE", en="mesh"),
-    opt("nodal", "CHPOINT", en="nodal field"),
-    opt("cells", "MCHAML", en="field in cells"),
-    flag("follows", "SUIT", en="behind what is written"),
-    key("time", "TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
-)
+@SORT.form(said("AVS"))
 def _avs(
     call: Call,
-    mesh: Mesh | None,
-    nodal: NodeField | None,
-    cells: CellField | None,
-    follows: bool,
-    time: float | None,
+    mesh: Mesh | None = Opt("MAILLAGE", en="mesh"),
+    nodal: NodeField | None = Opt("CHPOINT", en="nodal field"),
+    cells: CellField | None = Opt("MCHAML", en="field in cells"),
+    follows: bool = Flag("SUIT", en="behind what is written"),
+    time: float | None = Key("TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
 ) -> None:
     support = _support(call, mesh, nodal, cells)
     output = run_output(call.session)
@@ -62,8 +54,8 @@ def _support(
     raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML"))
 
 
-@SORT.form(said("STL"), arg("mesh", "MAILLAGE", en="surface of TRI3"))
-def _stl(call: Call, mesh: Mesh) -> None:
+@SORT.form(said("STL"))
+def _stl(call: Call, mesh: Mesh = Arg("MAILLAGE", en="surface of TRI3")) -> None:
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
@@ -72,8 +64,8 @@ def _stl(call: Call, mesh: Mesh) -> None:
 _MESH = arg("mesh", "MAILLAGE", en="mesh")
 
 
-@SORT.form(said("ABAQ"), _MESH)
-def _abaq(call: Call, mesh: Mesh) -> None:
+@SORT.form(said("ABAQ"))
+def _abaq(call: Call, mesh: Mesh = _MESH) -> None:
     ws = workspace(call.session)
     plane = PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
     lines = abaqus_lines(parted(mesh)[0], plane)
@@ -82,33 +74,25 @@ def _abaq(call: Call, mesh: Mesh) -> None:
     output.add_lines("SORT", target_path(call, ".inp"), lines)
 
 
-@SORT.form(said("NAS"), _MESH)
-def _nas(call: Call, mesh: Mesh) -> None:
+@SORT.form(said("NAS"))
+def _nas(call: Call, mesh: Mesh = _MESH) -> None:
     lines = nastran_lines(parted(mesh)[0])
     output = run_output(call.session)
     output.reopen("SORT")
     output.add_lines("SORT", target_path(call, ".bdf", (".nas",)), lines)
 
 
-@SORT.form(
-    said("MAT"),
-    choice(
-        "form", ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"), en="format, only MM is made"
-    ),
-    choice("storage", ("ASSEMBLEE", "ELEMENTAIRE"), en="assembled, the only one made"),
-    key("title", "TITR", arg("t", "MOT"), default="", en="title"),
-    flag("unknowns", "INCO", en="a file of the unknowns too"),
-    flag("places", "GEOM", en="a file of the nodes too"),
-    arg("matrix", "RIGIDITE", en="matrix"),
-)
+@SORT.form(said("MAT"))
 def _mat(
     call: Call,
-    form: str | None,
-    storage: str | None,
-    title: str,
-    unknowns: bool,
-    places: bool,
-    matrix: Matrix,
+    form: str | None = Choice(
+        ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"), en="format, only MM is made"
+    ),
+    storage: str | None = Choice(("ASSEMBLEE", "ELEMENTAIRE"), en="assembled, the only one made"),
+    title: str = Key("TITR", arg("t", "MOT"), default="", en="title"),
+    unknowns: bool = Flag("INCO", en="a file of the unknowns too"),
+    places: bool = Flag("GEOM", en="a file of the nodes too"),
+    matrix: Matrix = Arg("RIGIDITE", en="matrix"),
 ) -> None:
     if form not in ("MM", "MATRIX_MARKET") or storage != "ASSEMBLEE":
         raise call.error("operators.files.only-matrix-market")
@@ -128,8 +112,12 @@ def _mat(
         output.wrote(target)
 
 
-@SORT.form(main("mesh", "MAILLAGE", en="mesh"), flag("kept", "NOOP", en="changes nothing"))
-def _sort_mesh(call: Call, mesh: Mesh, kept: bool) -> None:
+@SORT.form()
+def _sort_mesh(
+    call: Call,
+    mesh: Mesh = Main("MAILLAGE", en="mesh"),
+    kept: bool = Flag("NOOP", en="changes nothing"),
+) -> None:
     frame = call.session.frame
     encoder = Encoder()
     names = {}
@@ -155,16 +143,18 @@ def _is_part(value: Any, mesh: Mesh) -> bool:
     return False
 
 
-@LIRE.form(lead("file", "MOT", en="file, or mesh that must be there"), gives="TABLE|")
-def _lire_file(call: Call, file: str) -> Table | None:
+@LIRE.form(gives="TABLE|")
+def _lire_file(
+    call: Call, file: str = Lead("MOT", en="file, or mesh that must be there")
+) -> Table | None:
     if "." in file:  # which no name has
         return mesh_table(call, str(file))
     _lire_own(call, file.strip().upper())
     return None
 
 
-@LIRE.form(named("wanted", optional=True, en="mesh that must be there"))
-def _lire_own(call: Call, wanted: str) -> None:
+@LIRE.form()
+def _lire_own(call: Call, wanted: str = Name(optional=True, en="mesh that must be there")) -> None:
     path = input_path(call, option_name(call.session, "LECT", 4))
     with closing(read_archive(path)) as archive:
         _restore(call, archive, wanted)

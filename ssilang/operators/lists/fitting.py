@@ -17,24 +17,18 @@ _GAIN = 1e-12
 """Share of its value by which the criterion falls where LEVM is done."""
 
 
-@operator(
-    "MOCA",
-    arg("start", "LISTREEL", en="parameters", range=ANY_NUMBER),
-    arg("measured", "LISTREEL", en="measured values", range=ANY_NUMBER),
-    arg("values", "LISTREEL", en="values for the parameters", range=ANY_NUMBER),
-    many(
-        "derivatives", "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
-    ),
-    key("weights", "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"),
-    family="lists",
-)
+@operator("MOCA", family="lists")
 def moca(
     call: Call,
-    start: ListReel,
-    measured: ListReel,
-    values: ListReel,
-    derivatives: tuple[ListReel, ...],
-    weights: ListReel | None,
+    start: ListReel = Arg("LISTREEL", en="parameters", range=ANY_NUMBER),
+    measured: ListReel = Arg("LISTREEL", en="measured values", range=ANY_NUMBER),
+    values: ListReel = Arg("LISTREEL", en="values for the parameters", range=ANY_NUMBER),
+    derivatives: tuple[ListReel, ...] = Many(
+        "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
+    ),
+    weights: ListReel | None = Key(
+        "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"
+    ),
 ) -> ListReel:
     """Linear least squares from a first set of parameters."""
     if len(derivatives) != len(start.values):
@@ -62,36 +56,27 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
     return values.values
 
 
-@operator(
-    "LEVM",
-    key(
-        "abscissas", "ABSC", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="points"
+@operator("LEVM", family="lists")
+def levm(
+    call: Call,
+    abscissas: ListReel = Key(
+        "ABSC", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="points"
     ),
-    key("measured", "ORDO", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="values"),
-    key("spreads", "SIGM", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="weights"),
-    key(
-        "start",
+    measured: ListReel = Key(
+        "ORDO", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="values"
+    ),
+    spreads: ListReel = Key(
+        "SIGM", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="weights"
+    ),
+    start: ListReel = Key(
         "PARA",
         arg("list", "LISTREEL", range=ANY_NUMBER),
         optional=False,
         en="first parameters, none zero",
     ),
-    key(
-        "function",
-        "PROC",
-        arg("procedure", "PROCEDUR"),
-        optional=False,
-        en="`LY LDY = PROC1 LX LP`",
+    function: Procedure = Key(
+        "PROC", arg("procedure", "PROCEDUR"), optional=False, en="`LY LDY = PROC1 LX LP`"
     ),
-    family="lists",
-)
-def levm(
-    call: Call,
-    abscissas: ListReel,
-    measured: ListReel,
-    spreads: ListReel,
-    start: ListReel,
-    function: Procedure,
 ) -> tuple[ListReel, float]:
     """Levenberg's and Marquardt's method."""
     count = len(abscissas.values)
@@ -141,17 +126,15 @@ def _damped(
     return p, criterion
 
 
-@operator(
-    "GANE",
-    arg("table", "TABLE", en="0: values, 1 to n: derivatives"),
-    key(
-        "damping", "AMOR", arg("factor", "FLOTTANT", range=NOT_NEGATIVE), default=0.0, en="damping"
+@operator("GANE", family="lists", full_name="GANEWTON")
+def gane(
+    call: Call,
+    table: Table = Arg("TABLE", en="0: values, 1 to n: derivatives"),
+    damping: float = Key(
+        "AMOR", arg("factor", "FLOTTANT", range=NOT_NEGATIVE), default=0.0, en="damping"
     ),
-    flag("matrices", "MATR", en="not available"),
-    family="lists",
-    full_name="GANEWTON",
-)
-def gane(call: Call, table: Table, damping: float, matrices: bool) -> Table:
+    matrices: bool = Flag("MATR", en="not available"),
+) -> Table:
     """A step of Gauss and Newton."""
     if matrices:
         raise call.error("operators.lists.gauss-newton-matrices", word="MATR")

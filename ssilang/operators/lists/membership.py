@@ -16,39 +16,39 @@ _WAY = choice("way", ("SEQU", "QUEL"), default="SEQU", en="in sequence, or in an
 _SECOND = "list where it is looked for"
 
 
-@DANS.form(
-    _WAY,
-    arg("point", "POINT", en="point"),
-    arg("mesh", "MAILLAGE", en="mesh"),
-)
-def _point_in_mesh(way: str, point: Point, mesh: Mesh) -> bool:
+@DANS.form()
+def _point_in_mesh(
+    way: str = _WAY,
+    point: Point = Arg("POINT", en="point"),
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+) -> bool:
     return bool(np.any(mesh.node_ids == point.node))
 
 
-@DANS.form(
-    _WAY,
-    arg("part", "LISTENTI", en="list of integers", range=ANY_NUMBER),
-    arg("whole", "LISTENTI", en=_SECOND, range=ANY_NUMBER),
-)
-def _integers_in_integers(way: str, part: ListEnti, whole: ListEnti) -> bool:
+@DANS.form()
+def _integers_in_integers(
+    way: str = _WAY,
+    part: ListEnti = Arg("LISTENTI", en="list of integers", range=ANY_NUMBER),
+    whole: ListEnti = Arg("LISTENTI", en=_SECOND, range=ANY_NUMBER),
+) -> bool:
     return _as_stretch(part.values, whole.values)
 
 
-@DANS.form(
-    _WAY,
-    arg("whole", "LISTREEL", en="list of reals", range=CARRIED),
-    arg("number", "FLOTTANT", en="number looked for", range=CARRIED),
-)
-def _number_in_reals(way: str, whole: ListReel, number: float) -> bool:
+@DANS.form()
+def _number_in_reals(
+    way: str = _WAY,
+    whole: ListReel = Arg("LISTREEL", en="list of reals", range=CARRIED),
+    number: float = Arg("FLOTTANT", en="number looked for", range=CARRIED),
+) -> bool:
     return bool(np.any(np.abs(whole.values - number) <= _slack(whole.values)))
 
 
-@DANS.form(
-    _WAY,
-    arg("part", "LISTREEL", en="list of reals", range=CARRIED),
-    arg("whole", "LISTREEL", en=_SECOND, range=CARRIED),
-)
-def _reals_in_reals(way: str, part: ListReel, whole: ListReel) -> bool:
+@DANS.form()
+def _reals_in_reals(
+    way: str = _WAY,
+    part: ListReel = Arg("LISTREEL", en="list of reals", range=CARRIED),
+    whole: ListReel = Arg("LISTREEL", en=_SECOND, range=CARRIED),
+) -> bool:
     left, right = part.values, whole.values
     slack = _slack(right)
     if way == "QUEL":
@@ -79,17 +79,13 @@ _SUBTRACTED = ("LISTREEL", "LISTENTI", "LISTMOTS")
 Subtracted = ListReel | ListEnti | ListMots
 
 
-@operator(
-    "SAUF",
-    arg("first", *_SUBTRACTED, en="list", range=CARRIED),
-    arg("second", *_SUBTRACTED, en="items to leave out", range=CARRIED),
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
-    flag("fold", "NOCA", en="whatever the case"),
-    gives=Like("first"),
-    family="lists",
-)
+@operator("SAUF", gives=Like("first"), family="lists")
 def sauf(
-    call: Call, first: Subtracted, second: Subtracted, tolerance: float | None, fold: bool
+    call: Call,
+    first: Subtracted = Arg(*_SUBTRACTED, en="list", range=CARRIED),
+    second: Subtracted = Arg(*_SUBTRACTED, en="items to leave out", range=CARRIED),
+    tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
+    fold: bool = Flag("NOCA", en="whatever the case"),
 ) -> Any:
     """Subtract a list from another."""
     if type(first) is not type(second):
@@ -100,10 +96,10 @@ def sauf(
     return taken(first, [int(i) for i in np.flatnonzero(~gone)])
 
 
-@INTE.form(
-    main("first", "LISTREEL", en="first list"),
-    arg("second", "LISTREEL", en="second list", range=CARRIED),
-)
-def common_reals(first: ListReel, second: ListReel) -> ListReel:
+@INTE.form()
+def common_reals(
+    first: ListReel = Main("LISTREEL", en="first list"),
+    second: ListReel = Arg("LISTREEL", en="second list", range=CARRIED),
+) -> ListReel:
     """Values in both lists, in the order of the first."""
     return ListReel(first.values[np.isin(first.values, second.values)])

@@ -15,10 +15,8 @@ _METHODS = ("STA", "MOV", "LIN")
 _HISTORY = "EXCE_ASYMPTOTES"
 
 
-@operator(
-    "EXCE", arg("table", "TABLE", en="values and slopes"), family="lists", full_name="EXCELLENCE"
-)
-def exce(call: Call, table: Table) -> Table:
+@operator("EXCE", family="lists", full_name="EXCELLENCE")
+def exce(call: Call, table: Table = Arg("TABLE", en="values and slopes")) -> Table:
     """One convex problem."""
     x = _numbers(call, table.get("VX0"), "VX0", None)
     low, high = (_numbers(call, table.get(i), i, len(x)) for i in ("VXMIN", "VXMAX"))

@@ -7,7 +7,6 @@ from typing import Any, cast
 
 import numpy as np
 
-from ssilang.language.registry import Argument
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
 from ssilang.operators.lists.progressions import check_length
@@ -23,7 +22,7 @@ _PLACES = arg("places", "ENTIER", "LISTENTI", en="place, or list of places, from
 _LIST = main("value", *LISTS, en="list")
 
 
-def _list(kind: str) -> Argument:
+def _list(kind: str) -> Any:
     return main("value", kind, en="list")
 
 
@@ -47,20 +46,15 @@ def _plain(item: Any) -> Any:
     return item.item() if isinstance(item, np.generic) else item
 
 
-@EXTR.form(
-    main("value", "LISTCHPO", en="list of fields"),
-    key("taken", "VALE", optional=False, en="values at a point"),
-    opt(
-        "names",
-        "LISTMOTS",
-        "MOT",
-        en="components, all by default",
-        kind="component",
-    ),
-    opt("point", "POINT", en="where"),
-)
+@EXTR.form()
 def _values_at(
-    call: Call, value: ListChpo, taken: bool, names: ListMots | str | None, point: Point | None
+    call: Call,
+    value: ListChpo = Main("LISTCHPO", en="list of fields"),
+    taken: bool = Key("VALE", optional=False, en="values at a point"),
+    names: ListMots | str | None = Opt(
+        "LISTMOTS", "MOT", en="components, all by default", kind="component"
+    ),
+    point: Point | None = Opt("POINT", en="where"),
 ) -> ListReel:
     fields: list[Any] = value.values
     node = np.asarray([_only_node(call, value) if point is None else point.node])
@@ -104,8 +98,8 @@ def _type_of_items(value: ListObje, kind: bool) -> Mot:
 EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
 
 
-@ENLE.form(_LIST, _PLACES, gives=Like("value"))
-def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
+@ENLE.form(gives=Like("value"))
+def _remove(call: Call, value: AnyList = _LIST, places: int | ListEnti = _PLACES) -> Any:
     gone = set(_places(call, len(value), places))
     return taken(value, [i for i in range(len(value)) if i not in gone])
 
@@ -113,17 +107,17 @@ def _remove(call: Call, value: AnyList, places: int | ListEnti) -> Any:
 _OTHER_LISTS = tuple(kind for kind in LISTS if kind != "LISTENTI")
 
 
-@ENLE.form(
-    main("places", "LISTENTI", en="places, before the list"),
-    arg("value", *_OTHER_LISTS, en="list", range=CARRIED),
-    gives=Like("value"),
-)
-def _remove_before(call: Call, places: ListEnti, value: AnyList) -> Any:
+@ENLE.form(gives=Like("value"))
+def _remove_before(
+    call: Call,
+    places: ListEnti = Main("LISTENTI", en="places, before the list"),
+    value: AnyList = Arg(*_OTHER_LISTS, en="list", range=CARRIED),
+) -> Any:
     return _remove(call, value, places)
 
 
-@DIME.form(_LIST)
-def _size(value: AnyList) -> int:
+@DIME.form()
+def _size(value: AnyList = _LIST) -> int:
     return len(value)
 
 
@@ -201,15 +195,11 @@ for _kind in ("LISTMOTS", "LISTCHPO", "LISTOBJE"):
     _replacing(_kind)
 
 
-@operator(
-    "SOMM",
-    flag("running", "CUMU", en="partial sums"),
-    arg("value", "LISTREEL", "LISTENTI", en="values to sum", range=ANY_NUMBER),
-    gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI",
-    family="lists",
-    full_name="SOMME",
-)
-def somm(running: bool, value: ListReel | ListEnti) -> Any:
+@operator("SOMM", gives="FLOTTANT|ENTIER|LISTREEL|LISTENTI", family="lists", full_name="SOMME")
+def somm(
+    running: bool = Flag("CUMU", en="partial sums"),
+    value: ListReel | ListEnti = Arg("LISTREEL", "LISTENTI", en="values to sum", range=ANY_NUMBER),
+) -> Any:
     """Sum a list."""
     if isinstance(value, ListReel):
         return ListReel(np.cumsum(value.values)) if running else value.values.sum()
@@ -221,13 +211,13 @@ def somm(running: bool, value: ListReel | ListEnti) -> Any:
     return ListEnti(sums)
 
 
-@INVE.form(_LIST, gives=Like("value"))
-def _reverse(value: AnyList) -> Any:
+@INVE.form(gives=Like("value"))
+def _reverse(value: AnyList = _LIST) -> Any:
     return taken(value, list(range(len(value) - 1, -1, -1)))
 
 
-@COPI.form(_LIST, gives=Like("value"))
-def _copy(value: AnyList) -> Any:
+@COPI.form(gives=Like("value"))
+def _copy(value: AnyList = _LIST) -> Any:
     return taken(value, list(range(len(value))))
 
 

@@ -200,8 +200,8 @@ _SAME = 1e-12  # relative distance of two reals that rounding alone makes differ
 def real_steps(start: float, step: float, end: float, ratio: float | None = None) -> list[float]:
     """Reals behind `start` up to `end`, the step being adjusted so that `end` is hit.
 
-    Without `ratio` the number of steps is the nearest that fits; with it, the smallest geometric
-    number of steps that reaches `end`, all scaled alike.
+    Without `ratio` the number of steps is the nearest that fits; with it, the first step is the
+    nearest above `step` that fits, so that a row is stretched and never shrunk.
 
     Raises
     ------
@@ -229,15 +229,13 @@ def _geometric_steps(start: float, step: float, end: float, ratio: float) -> lis
     distance = end - start
     if ratio <= 0:
         return [end]
-    wanted, total = distance / step, 0.0
-    lengths: list[float] = []
-    while total < wanted * (1 - 1e-9):
-        length = ratio ** len(lengths)
-        if length < 1e-12 * max(total, 1.0) or len(lengths) > 10**6:
+    wanted, length = distance / step, 1.0
+    lengths, total = [length], length
+    while (total := total + (length := ratio ** len(lengths))) <= wanted * (1 + 1e-9):
+        if length < 1e-12 * total or len(lengths) > 10**6:
             return [end]
         lengths.append(length)
-        total += length
-    values: list[float] = (start + distance * np.cumsum(lengths) / total).tolist()
+    values: list[float] = (start + distance * np.cumsum(lengths) / sum(lengths)).tolist()
     values[-1] = end
     return values
 
@@ -356,13 +354,8 @@ def mots(call: Call) -> ListMots:
         words.append(str(found.value))
 
 
-@operator(
-    "SUIT",
-    many("fields", "CHPOINT", "LISTCHPO", en="fields, in order"),
-    family="lists",
-    full_name="SUITE",
-)
-def suit(fields: tuple[Any, ...]) -> ListChpo:
+@operator("SUIT", family="lists", full_name="SUITE")
+def suit(fields: tuple[Any, ...] = Many("CHPOINT", "LISTCHPO", en="fields, in order")) -> ListChpo:
     """Collect fields."""
     flat: list[Any] = []
     for field in fields:

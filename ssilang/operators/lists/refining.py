@@ -20,11 +20,14 @@ RAFF.form(
 )(refined)
 
 
-@RAFF.form(
-    _LIST,
-    arg("number", "ENTIER", en="parts of each interval, negative for graded ones", range=NOT_ZERO),
-)
-def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
+@RAFF.form()
+def _refined_by_number(
+    call: Call,
+    value: ListReel = _LIST,
+    number: int = Arg(
+        "ENTIER", en="parts of each interval, negative for graded ones", range=NOT_ZERO
+    ),
+) -> ListReel:
     values, lengths = _intervals(call, value)
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
@@ -32,8 +35,12 @@ def _refined_by_number(call: Call, value: ListReel, number: int) -> ListReel:
     return ListReel(_joined(values, _graded(lengths, -number)))
 
 
-@RAFF.form(_LIST, arg("size", "FLOTTANT", en="size wanted", range=POSITIVE))
-def _refined_by_size(call: Call, value: ListReel, size: float) -> ListReel:
+@RAFF.form()
+def _refined_by_size(
+    call: Call,
+    value: ListReel = _LIST,
+    size: float = Arg("FLOTTANT", en="size wanted", range=POSITIVE),
+) -> ListReel:
     values, lengths = _intervals(call, value)
     check_length(float(np.sum(lengths / size)))
     return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))

@@ -8,18 +8,13 @@ from numpy.typing import NDArray
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "DIAD",
-    choice(
-        "way",
-        ("DIRE", "INVE", "IVIN"),
-        default="DIRE",
-        en="halved, or doubled with zeros or with means",
+@operator("DIAD", family="lists")
+def diad(
+    way: str = Choice(
+        ("DIRE", "INVE", "IVIN"), default="DIRE", en="halved, or doubled with zeros or with means"
     ),
-    arg("values", "LISTREEL", en="samples", range=ANY_NUMBER),
-    family="lists",
-)
-def diad(way: str, values: ListReel) -> ListReel:
+    values: ListReel = Arg("LISTREEL", en="samples", range=ANY_NUMBER),
+) -> ListReel:
     """Halve or double the sampling."""
     y = values.values
     if way == "DIRE":
@@ -32,15 +27,14 @@ def diad(way: str, values: ListReel) -> ListReel:
     return ListReel(made)
 
 
-@operator(
-    "LTL",
-    arg("first", "LISTREEL", en="first list", range=ANY_NUMBER),
-    opt("second", "LISTREEL", en="second one, else the first", range=ANY_NUMBER),
-    opt("a", "FLOTTANT", default=1.0, en="factor", range=ANY_NUMBER),
-    opt("b", "FLOTTANT", default=1.0, en="second factor", range=ANY_NUMBER),
-    family="lists",
-)
-def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float) -> float:
+@operator("LTL", family="lists")
+def ltl(
+    call: Call,
+    first: ListReel = Arg("LISTREEL", en="first list", range=ANY_NUMBER),
+    second: ListReel | None = Opt("LISTREEL", en="second one, else the first", range=ANY_NUMBER),
+    a: float = Opt("FLOTTANT", default=1.0, en="factor", range=ANY_NUMBER),
+    b: float = Opt("FLOTTANT", default=1.0, en="second factor", range=ANY_NUMBER),
+) -> float:
     """Dot product."""
     other = first if second is None else second
     if len(first) != len(other):
@@ -48,26 +42,19 @@ def ltl(call: Call, first: ListReel, second: ListReel | None, a: float, b: float
     return float(a * b * (first.values @ other.values))
 
 
-@operator(
-    "CVOL",
-    arg("signal", "LISTREEL", en="signal", range=ANY_NUMBER),
-    arg("response", "LISTREEL", en="response", range=ANY_NUMBER),
-    key(
-        "before",
+@operator("CVOL", family="signals")
+def cvol(
+    call: Call,
+    signal: ListReel = Arg("LISTREEL", en="signal", range=ANY_NUMBER),
+    response: ListReel = Arg("LISTREEL", en="response", range=ANY_NUMBER),
+    before: int | None = Key(
         "NPNE",
         arg("n", "ENTIER", range=NOT_NEGATIVE),
         en="number of its values before 0; by default it is symmetric",
     ),
-    choice(
-        "ends",
-        ("SYME", "PADD"),
-        default="SYME",
-        en="beyond its ends the signal is mirrored, or zero",
+    ends: str = Choice(
+        ("SYME", "PADD"), default="SYME", en="beyond its ends the signal is mirrored, or zero"
     ),
-    family="signals",
-)
-def cvol(
-    call: Call, signal: ListReel, response: ListReel, before: int | None, ends: str
 ) -> ListReel:
     """Convolution."""
     return ListReel(_convolved(call, signal.values, response.values, before, ends == "SYME"))
@@ -118,11 +105,14 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         optional=False,
         en="which function",
     ),
-    arg("values", "LISTREEL", en="arguments", range=ANY_NUMBER),
     family="lists",
     full_name="FONCTION",
 )
-def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
+def fonc(
+    call: Call,
+    function: Chosen,
+    values: ListReel = Arg("LISTREEL", en="arguments", range=ANY_NUMBER),
+) -> ListReel:
     """Special functions."""
     kind, name = function.word[:4], function.values.get("name", "")
     x = values.values
@@ -134,8 +124,10 @@ def fonc(call: Call, function: Chosen, values: ListReel) -> ListReel:
     return ListReel(_special(kind, name, x))
 
 
-@operator("ZLEG", arg("degree", "ENTIER", en="degree", range=NOT_NEGATIVE), family="lists")
-def zleg(call: Call, degree: int) -> tuple[ListReel, ListReel]:
+@operator("ZLEG", family="lists")
+def zleg(
+    call: Call, degree: int = Arg("ENTIER", en="degree", range=NOT_NEGATIVE)
+) -> tuple[ListReel, ListReel]:
     """Lobatto's quadrature."""
     if not 1 <= degree <= 500:
         raise call.error("operators.lists.degree", degree, degree=degree)

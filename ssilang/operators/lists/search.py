@@ -32,25 +32,19 @@ def equal_items(items: Any, wanted: Any, tolerance: float | None, fold: bool) ->
     return np.abs(items - wanted) <= tolerance
 
 
-@operator(
-    "POSI",
-    lead("item", en="what is looked for"),
-    key(
-        "where",
+@operator("POSI", gives="ENTIER|LISTENTI", family="lists", full_name="POSITION")
+def posi(
+    call: Call,
+    item: Any = Lead(en="what is looked for"),
+    where: Any = Key(
         "DANS",
         arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=CARRIED),
         optional=False,
         en="where it is looked for",
     ),
-    flag("every", "TOUS", en="all places"),
-    flag("fold", "NOCA", en="whatever the case"),
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
-    gives="ENTIER|LISTENTI",
-    family="lists",
-    full_name="POSITION",
-)
-def posi(
-    call: Call, item: Any, where: Any, every: bool, fold: bool, tolerance: float | None
+    every: bool = Flag("TOUS", en="all places"),
+    fold: bool = Flag("NOCA", en="whatever the case"),
+    tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
 ) -> Any:
     """Look items up."""
     if isinstance(where, str):
@@ -279,18 +273,14 @@ def _in_order(table: Table, places: list[int], length: int) -> Table:
     return made
 
 
-@UNIQ.form(
-    main("value", *SORTABLE, "MAILLAGE", en="list, or mesh"),
-    many("others", *SORTABLE, "MAILLAGE", en="further ones", range=CARRIED),
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
-    flag("fold", "NOCA", en="whatever the case"),
-    gives=Like("value", ("others",)),
-)
+@UNIQ.form(gives=Like("value", ("others",)))
 def _unique(
-    value: Sortable | Mesh,
-    others: tuple[Sortable | Mesh, ...],
-    tolerance: float | None,
-    fold: bool,
+    value: Sortable | Mesh = Main(*SORTABLE, "MAILLAGE", en="list, or mesh"),
+    others: tuple[Sortable | Mesh, ...] = Many(
+        *SORTABLE, "MAILLAGE", en="further ones", range=CARRIED
+    ),
+    tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
+    fold: bool = Flag("NOCA", en="whatever the case"),
 ) -> Any:
     return tuple(_without_doubles_of(v, tolerance, fold) for v in (value, *others))
 

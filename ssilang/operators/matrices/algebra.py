@@ -20,8 +20,10 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import flaw_of
 
 
-@INTE.form(main("first", "RIGIDITE", en="matrix"), arg("second", "RIGIDITE", en="matrix"))
-def intersection_of_matrices(first: Matrix, second: Matrix) -> Matrix:
+@INTE.form()
+def intersection_of_matrices(
+    first: Matrix = Main("RIGIDITE", en="matrix"), second: Matrix = Arg("RIGIDITE", en="matrix")
+) -> Matrix:
     """What two matrices were both put together of."""
     blocks = tuple(b for b in first.blocks if any(b is c for c in second.blocks))
     relations = tuple(r for r in first.relations if any(r is c for c in second.relations))
@@ -172,31 +174,32 @@ def extract_from_matrix(
     return _EXTRACTED[what.word](matrix, what)
 
 
-@EXTR.form(
-    _MATRIX,
-    arg("unknowns", "LISTMOTS", en="unknowns"),
-    arg("equations", "LISTMOTS", en="equations"),
-)
-def extract_terms(matrix: Matrix, unknowns: ListMots, equations: ListMots) -> Matrix:
+@EXTR.form()
+def extract_terms(
+    matrix: Matrix = _MATRIX,
+    unknowns: ListMots = Arg("LISTMOTS", en="unknowns"),
+    equations: ListMots = Arg("LISTMOTS", en="equations"),
+) -> Matrix:
     """The terms of some unknowns and equations."""
     primal, dual = ({str(w).upper().rstrip() for w in n.values} for n in (unknowns, equations))
     return parts.named_part(matrix, primal, dual)
 
 
-@EXTR.form(
-    _MATRIX,
-    arg("unknown", "MOT", kind="component", en="unknown"),
-    opt("equation", "MOT", kind="component", en="equation"),
-)
-def extract_term(call: Call, matrix: Matrix, unknown: str, equation: str | None) -> Matrix:
+@EXTR.form()
+def extract_term(
+    call: Call,
+    matrix: Matrix = _MATRIX,
+    unknown: str = Arg("MOT", kind="component", en="unknown"),
+    equation: str | None = Opt("MOT", kind="component", en="equation"),
+) -> Matrix:
     """The terms of one unknown and one equation."""
     if equation is None:
         raise call.error("operators.matrices.extr-wants-word-or-names", matrix, words=_EXTRACTED)
     return parts.named_part(matrix, {unknown.upper().rstrip()}, {equation.upper().rstrip()})
 
 
-@REDU.form(_MATRIX, arg("mesh", "MAILLAGE", en="cells that stay"))
-def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
+@REDU.form()
+def reduced(matrix: Matrix = _MATRIX, mesh: Mesh = Arg("MAILLAGE", en="cells that stay")) -> Matrix:
     """A matrix on fewer cells."""
     return parts.on_mesh(matrix, mesh)
 
@@ -204,26 +207,24 @@ def reduced(matrix: Matrix, mesh: Mesh) -> Matrix:
 _CHANGED = arg("matrix", "RIGIDITE", en="matrix")
 
 
-@CHAN.form(said("TYPE"), _CHANGED, arg("kind", "MOT", en="its new kind"), of=("RIGIDITE",))
-def change_kind(matrix: Matrix, kind: str) -> Matrix:
+@CHAN.form(said("TYPE"), of=("RIGIDITE",))
+def change_kind(matrix: Matrix = _CHANGED, kind: str = Arg("MOT", en="its new kind")) -> Matrix:
     """Another kind."""
     name = kind.upper().rstrip()
     blocks = tuple(replace(b, kind=name, zone=None) for b in matrix.blocks)
     return Matrix(matrix.table, blocks, matrix.relations, name)
 
 
-@CHAN.form(said("DEPE"), _CHANGED, of=("RIGIDITE",))
-def dependent(matrix: Matrix) -> Matrix:
+@CHAN.form(said("DEPE"), of=("RIGIDITE",))
+def dependent(matrix: Matrix = _CHANGED) -> Matrix:
     """The matrix itself."""
     return matrix
 
 
-@CHAN.form(
-    said("COND"),
-    arg("matrix", "RIGIDITE", en="relations, alone or with a stiffness"),
-    of=("RIGIDITE",),
-)
-def condensing(matrix: Matrix) -> tuple[Matrix, Matrix]:
+@CHAN.form(said("COND"), of=("RIGIDITE",))
+def condensing(
+    matrix: Matrix = Arg("RIGIDITE", en="relations, alone or with a stiffness"),
+) -> tuple[Matrix, Matrix]:
     """Matrix of dependence and its dual."""
     return dependence(matrix)
 
@@ -343,31 +344,29 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
     return float(y @ (assemble(matrix, numbering) @ x))
 
 
-@operator(
-    "XTMX", arg("field", "CHPOINT", en="X"), arg("matrix", "RIGIDITE", en="M"), family="matrix"
-)
-def xtmx(field: NodeField, matrix: Matrix) -> float:
+@operator("XTMX", family="matrix")
+def xtmx(
+    field: NodeField = Arg("CHPOINT", en="X"), matrix: Matrix = Arg("RIGIDITE", en="M")
+) -> float:
     return _form(field, matrix, field)
 
 
-@operator(
-    "YTMX",
-    arg("right", "CHPOINT", en="X"),
-    arg("left", "CHPOINT", en="Y"),
-    arg("matrix", "RIGIDITE", en="M"),
-    family="matrix",
-)
-def ytmx(right: NodeField, left: NodeField, matrix: Matrix) -> float:
+@operator("YTMX", family="matrix")
+def ytmx(
+    right: NodeField = Arg("CHPOINT", en="X"),
+    left: NodeField = Arg("CHPOINT", en="Y"),
+    matrix: Matrix = Arg("RIGIDITE", en="M"),
+) -> float:
     return _form(left, matrix, right)
 
 
-@operator("DIMN", arg("matrix", "RIGIDITE", en="matrix"), family="matrix", full_name="DIMNOYAU")
-def dimn(matrix: Matrix) -> int:
+@operator("DIMN", family="matrix", full_name="DIMNOYAU")
+def dimn(matrix: Matrix = Arg("RIGIDITE", en="matrix")) -> int:
     """Dimension of the kernel."""
     return int(linear_system(matrix).free_motions.shape[1])
 
 
-@DIME.form(main("matrix", "RIGIDITE", en="matrix"))
-def unknowns(matrix: Matrix) -> int:
+@DIME.form()
+def unknowns(matrix: Matrix = Main("RIGIDITE", en="matrix")) -> int:
     """Number of unknowns."""
     return numbering_of(matrix).size

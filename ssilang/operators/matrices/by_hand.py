@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from ssilang.kernel.matrices.build import (
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
-from ssilang.language.registry import Keyword
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
 from ssilang.operators.prelude import *
@@ -27,7 +27,7 @@ _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 _KIND = key("kind", "TYPE", arg("word", "MOT"), en="kind, such as RIGIDITE (default) or MASSE")
 
 
-def _sign(words: Sequence[str]) -> Keyword:
+def _sign(words: Sequence[str]) -> Any:
     return choice("sign", words, en="symmetric, antisymmetric or any")
 
 
@@ -116,33 +116,33 @@ def one_column(
     return column(field, point.node, unknown, dual, _kind(kind), factor, shape == "LIGN", names)
 
 
-@MANU.form(
-    said("RIGIDITE"),
-    _KIND,
-    flag("diagonal", "DIAG", en="a diagonal"),
-    arg("field", "CHPOINT", en="terms of the diagonal"),
-    of=("CHPOINT",),
-)
-def diagonal(kind: str | None, diagonal: bool, field: NodeField) -> Matrix:
+@MANU.form(said("RIGIDITE"), of=("CHPOINT",))
+def diagonal(
+    kind: str | None = _KIND,
+    diagonal: bool = Flag("DIAG", en="a diagonal"),
+    field: NodeField = Arg("CHPOINT", en="terms of the diagonal"),
+) -> Matrix:
     """A diagonal matrix."""
     return field_diagonal(field, _kind(kind))
 
 
-@MANU.form(
-    said("RIGIDITE"),
-    _KIND,
-    arg("fields", "LISTCHPO", en="columns"),
-    arg("mesh", "MAILLAGE", en="points of the modes"),
-    of=("LISTCHPO",),
-)
-def modal_matrix(kind: str | None, fields: ListChpo, mesh: Mesh) -> Matrix:
+@MANU.form(said("RIGIDITE"), of=("LISTCHPO",))
+def modal_matrix(
+    kind: str | None = _KIND,
+    fields: ListChpo = Arg("LISTCHPO", en="columns"),
+    mesh: Mesh = Arg("MAILLAGE", en="points of the modes"),
+) -> Matrix:
     """A matrix on modal unknowns, from its columns."""
     columns = [f for f in fields.values if isinstance(f, NodeField)]
     return from_columns(mesh.nodes, mesh.node_ids, columns, _kind(kind, "MONODROM"))
 
 
-@MANU.form(said("SUPE", "MULT"), many("places", "POINT", "MAILLAGE", at_least=1, en="points"))
-def one_cell(call: Call, word: str, places: tuple[Mesh | Point, ...]) -> Mesh:
+@MANU.form(said("SUPE", "MULT"))
+def one_cell(
+    call: Call,
+    word: str,
+    places: tuple[Mesh | Point, ...] = Many("POINT", "MAILLAGE", at_least=1, en="points"),
+) -> Mesh:
     """One cell of all the points."""
     nodes = np.concatenate([nodes_of(p) for p in places])
     if len(np.unique(nodes)) != len(nodes):
@@ -158,24 +158,15 @@ def _names(lists: Iterable[ListMots]) -> list[tuple[str, ...]]:
     return [tuple(str(w).upper().rstrip() for w in names.values) for names in lists]
 
 
-@operator(
-    "MFIL",
-    arg("weights", "CHPOINT", en="weight of each node"),
-    opt("radius", "FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
-    opt("power", "FLOTTANT", default=1.0, en="power", range=NOT_NEGATIVE),
-    opt("least", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
-    opt("unknown", "MOT", kind="component", en="unknown, else SCAL"),
-    opt("dual", "MOT", kind="component", en="dual, else the same"),
-    family="matrix",
-)
+@operator("MFIL", family="matrix")
 def mfil(
     call: Call,
-    weights: NodeField,
-    radius: float,
-    power: float,
-    least: float,
-    unknown: str | None,
-    dual: str | None,
+    weights: NodeField = Arg("CHPOINT", en="weight of each node"),
+    radius: float = Opt("FLOTTANT", range=POSITIVE, default=0.0, en="radius", unit="m"),
+    power: float = Opt("FLOTTANT", default=1.0, en="power", range=NOT_NEGATIVE),
+    least: float = Opt("FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="least weight kept"),
+    unknown: str | None = Opt("MOT", kind="component", en="unknown, else SCAL"),
+    dual: str | None = Opt("MOT", kind="component", en="dual, else the same"),
 ) -> Matrix:
     """Weights of a filter."""
     if radius < 0.0:
@@ -186,37 +177,33 @@ def mfil(
     )
 
 
-@operator(
-    "ZXXT",
-    arg("fields", "LISTCHPO", en="fields v"),
-    arg("factors", "LISTREEL", en="numbers a", range=ANY_NUMBER),
-    family="matrix",
-)
-def zxxt(fields: ListChpo, factors: ListReel) -> Matrix:
+@operator("ZXXT", family="matrix")
+def zxxt(
+    fields: ListChpo = Arg("LISTCHPO", en="fields v"),
+    factors: ListReel = Arg("LISTREEL", en="numbers a", range=ANY_NUMBER),
+) -> Matrix:
     """Sum of the outer products."""
     vectors = [f for f in fields.values if isinstance(f, NodeField)]
     return sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")
 
 
-@operator(
-    "XXT",
-    arg("field", "CHPOINT", en="v"),
-    opt("factor", "FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
-    family="matrix",
-)
-def xxt(field: NodeField, factor: float) -> Matrix:
+@operator("XXT", family="matrix")
+def xxt(
+    field: NodeField = Arg("CHPOINT", en="v"),
+    factor: float = Opt("FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
+) -> Matrix:
     """Outer product."""
     return sum_of_outer_products([field], [factor], "RIGIDITE")
 
 
-@operator(
-    "CABL",
-    arg("mesh", "MAILLAGE", en="cables"),
-    arg("force", "FLOTTANT", en="force", unit="N", usual=POSITIVE),
-    arg("percent", "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE),
-    family="matrix",
-    full_name="CABLE",
-)
-def cabl(call: Call, mesh: Mesh, force: float, percent: float) -> Matrix:
+@operator("CABL", family="matrix", full_name="CABLE")
+def cabl(
+    call: Call,
+    mesh: Mesh = Arg("MAILLAGE", en="cables"),
+    force: float = Arg("FLOTTANT", en="force", unit="N", usual=POSITIVE),
+    percent: float = Arg(
+        "FLOTTANT", en="lengthening under it", unit="%", range=NOT_ZERO, usual=POSITIVE
+    ),
+) -> Matrix:
     """Cables."""
     return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

@@ -195,11 +195,13 @@ def lump(
     return _assembled(shown, [families.mass(z, material, True) for z in shown.zones], "MASSE")
 
 
-@lump.form(
-    arg("matrix", "RIGIDITE", en="full mass"),
-    opt("kept", "LISTMOTS", kind="component", en="unknowns that keep their diagonal term"),
-)
-def lump_of_matrix(matrix: Matrix, kept: ListMots | None) -> Matrix:
+@lump.form()
+def lump_of_matrix(
+    matrix: Matrix = Arg("RIGIDITE", en="full mass"),
+    kept: ListMots | None = Opt(
+        "LISTMOTS", kind="component", en="unknowns that keep their diagonal term"
+    ),
+) -> Matrix:
     """Diagonal mass of a full one."""
     return lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
 
@@ -279,15 +281,13 @@ def hook(
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 
 
-@operator(
-    "KSIG",
-    MODEL,
-    many("fields", "MCHAML", at_least=1, en="stresses, and parameters"),
-    _BUCKLING,
-    family="matrix",
-    full_name="KSIGMA",
-)
-def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool) -> Matrix:
+@operator("KSIG", family="matrix", full_name="KSIGMA")
+def ksig(
+    call: Call,
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="stresses, and parameters"),
+    buckling: bool = _BUCKLING,
+) -> Matrix:
     """Geometric stiffness."""
     shown = present(call, model)
     stress = next((f for f in fields if f.title != "CARACTERISTIQUES"), fields[0])
@@ -300,16 +300,13 @@ def ksig(call: Call, model: Model, fields: tuple[CellField, ...], buckling: bool
 _WHOLE = flag("whole", "ASYM", en="the unsymmetric part too")
 
 
-@operator(
-    "KP",
-    MODEL,
-    arg("pressure", "CHPOINT", "MCHAML", en="pressure", unit="Pa"),
-    _BUCKLING,
-    _WHOLE,
-    family="matrix",
-)
+@operator("KP", family="matrix")
 def kp(
-    call: Call, model: Model, pressure: NodeField | CellField, buckling: bool, whole: bool
+    call: Call,
+    model: Model = MODEL,
+    pressure: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="pressure", unit="Pa"),
+    buckling: bool = _BUCKLING,
+    whole: bool = _WHOLE,
 ) -> Matrix:
     """Follower pressure."""
     shown = present(call, model, pressures=True)
@@ -317,15 +314,14 @@ def kp(
     return _assembled(shown, blocks, "MASSE" if buckling else "RIGIDITE")
 
 
-@kp.form(
-    MODEL,
-    arg("modulus", "FLOTTANT", en="gradient of the pressure", unit="N/m3", range=ANY_NUMBER),
-    opt("direction", "POINT", en="its direction, else the sides' normals"),
-    _BUCKLING,
-    _WHOLE,
-)
+@kp.form()
 def kp_of_gradient(
-    call: Call, model: Model, modulus: float, direction: Point | None, buckling: bool, whole: bool
+    call: Call,
+    model: Model = MODEL,
+    modulus: float = Arg("FLOTTANT", en="gradient of the pressure", unit="N/m3", range=ANY_NUMBER),
+    direction: Point | None = Opt("POINT", en="its direction, else the sides' normals"),
+    buckling: bool = _BUCKLING,
+    whole: bool = _WHOLE,
 ) -> Matrix:
     """Pressure that varies in space."""
     shown = present(call, model, pressures=True)

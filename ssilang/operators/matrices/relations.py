@@ -127,15 +127,14 @@ def _consume(call: Call) -> None:
 _SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, or at or below")
 
 
-@operator(
-    "RELA",
-    arg("field", "CHPOINT", en="factors of the unknowns"),
-    _SIDE,
-    key("dual", "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"),
-    family="relations",
-    full_name="RELATION",
-)
-def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
+@operator("RELA", family="relations", full_name="RELATION")
+def rela(
+    field: NodeField = Arg("CHPOINT", en="factors of the unknowns"),
+    sense: str | None = _SIDE,
+    dual: NodeField | None = Key(
+        "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"
+    ),
+) -> Matrix:
     """One relation, from a field of factors."""
     side = _SENSE.get(sense or "", 0)
     rows = made.from_field(field, side)
@@ -146,8 +145,12 @@ def rela(field: NodeField, sense: str | None, dual: NodeField | None) -> Matrix:
     return as_matrix(replace(rows, dual=replace(reaction, coefficients=-reaction.coefficients)))
 
 
-@rela.form(arg("model", "MMODEL", en="model with hanging nodes"), _SIDE)
-def of_hanging_nodes(call: Call, model: Model, sense: str | None) -> Matrix | None:
+@rela.form()
+def of_hanging_nodes(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model with hanging nodes"),
+    sense: str | None = _SIDE,
+) -> Matrix | None:
     """Ties of the hanging nodes of a model."""
     return tie_relations(model, workspace(call.session).nodes)
 
@@ -167,31 +170,20 @@ _GUEST = arg("guest", "MAILLAGE", "POINT", en="nodes to tie")
 _HOST = arg("host", "MAILLAGE", en="cells that hold them")
 
 
-@rela.form(
-    said("CORI"),
-    choice("turning", ("ROTA",), optional=False, en="nodes that turn"),
-    flag("moving", "DEPL", en="nodes that move"),
-    flag("unchecked", "NOVERIF", en="accepted"),
-    arg(
-        "mesh",
+@rela.form(said("CORI"))
+def rigid_with_rotations(
+    call: Call,
+    turning: bool = Choice(("ROTA",), optional=False, en="nodes that turn"),
+    moving: bool = Flag("DEPL", en="nodes that move"),
+    unchecked: bool = Flag("NOVERIF", en="accepted"),
+    mesh: Mesh | Point = Arg(
         "MAILLAGE",
         "POINT",
         en="GEO1: nodes of the body that have rotations, or its centre; the first carries it",
     ),
-    opt(
-        "rest",
-        "MAILLAGE",
-        "POINT",
-        en="GEO2: its nodes without rotations, such as the side of a solid",
+    rest: Mesh | Point | None = Opt(
+        "MAILLAGE", "POINT", en="GEO2: its nodes without rotations, such as the side of a solid"
     ),
-)
-def rigid_with_rotations(
-    call: Call,
-    turning: bool,
-    moving: bool,
-    unchecked: bool,
-    mesh: Mesh | Point,
-    rest: Mesh | Point | None,
 ) -> Matrix:
     """A rigid body whose nodes turn."""
     ws = workspace(call.session)
@@ -201,29 +193,28 @@ def rigid_with_rotations(
     return as_matrix(tied.rigid_with_rotations(ws.nodes, nodes, following, names, turns))
 
 
-@rela.form(
-    said("CORI"),
-    flag("moving", "DEPL", en="nodes that move"),
-    flag("unchecked", "NOVERIF", en="without a check that the nodes hold the body"),
-    arg(
-        "mesh",
+@rela.form(said("CORI"))
+def rigid(
+    call: Call,
+    moving: bool = Flag("DEPL", en="nodes that move"),
+    unchecked: bool = Flag("NOVERIF", en="without a check that the nodes hold the body"),
+    mesh: Mesh = Arg(
         "MAILLAGE",
         en="GEO1: the body, four nodes not in a plane or more (in the plane three not on a line)",
     ),
-)
-def rigid(call: Call, moving: bool, unchecked: bool, mesh: Mesh) -> Matrix:
+) -> Matrix:
     """A rigid body, by distances."""
     ws = workspace(call.session)
     names = made.in_space(ws.mode)
     return as_matrix(tied.rigid_by_distances(ws.nodes, mesh.node_ids, names, not unchecked))
 
 
-@rela.form(
-    said("ENSE"),
-    arg("unknown", "MOT", kind="component", en="unknown"),
-    arg("mesh", "MAILLAGE", en="nodes"),
-)
-def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
+@rela.form(said("ENSE"))
+def together(
+    call: Call,
+    unknown: str = Arg("MOT", kind="component", en="unknown"),
+    mesh: Mesh = Arg("MAILLAGE", en="nodes"),
+) -> Matrix:
     """The same value at all nodes."""
     ws = workspace(call.session)
     name = unknown.upper().rstrip()
@@ -231,30 +222,38 @@ def together(call: Call, unknown: str, mesh: Mesh) -> Matrix:
     return as_matrix(tied.same_value(ws.nodes, mesh.node_ids, name))
 
 
-@rela.form(
-    said("ACCRO"),
-    choice("strong", ("FORT",), optional=False, en="onto a model"),
-    arg("host", "MMODEL", en="model that holds them"),
-    arg("guest", "MAILLAGE", "MMODEL", "POINT", en="nodes to tie"),
-)
-def hooked_on_model(call: Call, strong: bool, host: Model, guest: Mesh | Model | Point) -> Matrix:
+@rela.form(said("ACCRO"))
+def hooked_on_model(
+    call: Call,
+    strong: bool = Choice(("FORT",), optional=False, en="onto a model"),
+    host: Model = Arg("MMODEL", en="model that holds them"),
+    guest: Mesh | Model | Point = Arg("MAILLAGE", "MMODEL", "POINT", en="nodes to tie"),
+) -> Matrix:
     """Nodes hooked onto the cells of a model."""
     names = made.in_space(workspace(call.session).mode)
     nodes = nodes_of(guest.mesh if isinstance(guest, Model) else guest)
     return as_matrix(tied.hooked(nodes, host.mesh, names, 1e-5))
 
 
-@rela.form(said("ACCRO"), _GUEST, _HOST, _UNKNOWNS, _TOLERANCE)
+@rela.form(said("ACCRO"))
 def hooked(
-    call: Call, guest: Mesh | Point, host: Mesh, words: ListMots | None, tolerance: float
+    call: Call,
+    guest: Mesh | Point = _GUEST,
+    host: Mesh = _HOST,
+    words: ListMots | None = _UNKNOWNS,
+    tolerance: float = _TOLERANCE,
 ) -> Matrix:
     """Nodes hooked onto the cells that they lie in."""
     return as_matrix(tied.hooked(nodes_of(guest), host, _unknowns(call, words), tolerance))
 
 
-@rela.form(said("GLISSANT"), _GUEST, _HOST, _UNKNOWNS, _TOLERANCE)
+@rela.form(said("GLISSANT"))
 def sliding(
-    call: Call, guest: Mesh | Point, host: Mesh, words: ListMots | None, tolerance: float
+    call: Call,
+    guest: Mesh | Point = _GUEST,
+    host: Mesh = _HOST,
+    words: ListMots | None = _UNKNOWNS,
+    tolerance: float = _TOLERANCE,
 ) -> Matrix:
     """A line that slides in cells, along itself."""
     if not isinstance(guest, Mesh):
@@ -268,8 +267,12 @@ def _unknowns(call: Call, words: ListMots | None) -> tuple[str, ...]:
     return tuple(str(w).rstrip() for w in words.values)
 
 
-@rela.form(said("MILI"), _UNKNOWNS, arg("mesh", "MAILLAGE", en="quadratic cells"))
-def middles(call: Call, words: ListMots | None, mesh: Mesh) -> Matrix:
+@rela.form(said("MILI"))
+def middles(
+    call: Call,
+    words: ListMots | None = _UNKNOWNS,
+    mesh: Mesh = Arg("MAILLAGE", en="quadratic cells"),
+) -> Matrix:
     """Middle nodes held between the corners."""
     mode = workspace(call.session).mode
     names = made.translations(mode) if words is None else [str(w).rstrip() for w in words.values]

@@ -12,20 +12,15 @@ from ssilang.operators.prelude import *
 _VECTOR = opt("vector", "POINT", en="rotation vector", unit="rad/s", usual=NOT_ZERO)
 
 
-@operator(
-    "KENT",
-    choice("what", ("CENTRIFUGE", "EULER"), en="for the rotation vector, or for its rate"),
-    MODEL,
-    PARAMETERS,
-    _VECTOR,
-    family="matrix",
-)
+@operator("KENT", family="matrix")
 def kent(
     call: Call,
-    what: str | None,
-    model: Model,
-    fields: tuple[CellField, ...],
-    vector: Point | None,
+    what: str | None = Choice(
+        ("CENTRIFUGE", "EULER"), en="for the rotation vector, or for its rate"
+    ),
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = PARAMETERS,
+    vector: Point | None = _VECTOR,
 ) -> Matrix:
     """Turning frame."""
     if what is None:
@@ -50,21 +45,13 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
     return found
 
 
-@operator(
-    "CORI",
-    flag("harmonic", "HARM", en="not available"),
-    MODEL,
-    PARAMETERS,
-    _VECTOR,
-    family="matrix",
-    full_name="CORIOLIS",
-)
+@operator("CORI", family="matrix", full_name="CORIOLIS")
 def cori(
     call: Call,
-    harmonic: bool,
-    model: Model,
-    fields: tuple[CellField, ...],
-    vector: Point | None,
+    harmonic: bool = Flag("HARM", en="not available"),
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = PARAMETERS,
+    vector: Point | None = _VECTOR,
 ) -> Matrix:
     """Coriolis' damping."""
     if harmonic:
@@ -75,8 +62,8 @@ def cori(
     return Matrix(shown.mesh.nodes, blocks, (), kind)
 
 
-@operator("GYRO", MODEL, PARAMETERS, family="matrix", full_name="GYROSCOPIQUE")
-def gyro(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
+@operator("GYRO", family="matrix", full_name="GYROSCOPIQUE")
+def gyro(call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = PARAMETERS) -> Matrix:
     """Turning beams."""
     shown, material = present(call, model), joined(fields)
     blocks = tuple(gyroscopic(z, material) for z in shown.zones)

@@ -25,21 +25,17 @@ _ELEMENT = arg("element", "SUPERELE", en="super-element")
 _ACCEPTED = flag("alone", "NOER", en="accepted, changes nothing")
 
 
-@SUPE.form(
-    said("RIGIDITE"),
-    flag("inside", "NOMU", en="the conditions of the matrix hold inside"),
-    arg("matrix", "RIGIDITE", en="stiffness of the body"),
-    arg(
-        "chosen",
+@SUPE.form(said("RIGIDITE"))
+def stiffness(
+    inside: bool = Flag("NOMU", en="the conditions of the matrix hold inside"),
+    matrix: Matrix = Arg("RIGIDITE", en="stiffness of the body"),
+    chosen: Mesh | Matrix | NodeField | Point = Arg(
         "MAILLAGE",
         "RIGIDITE",
         "CHPOINT",
         "POINT",
         en="masters: nodes, unknowns of a matrix or components of a field",
     ),
-)
-def stiffness(
-    inside: bool, matrix: Matrix, chosen: Mesh | Matrix | NodeField | Point
 ) -> SuperElement:
     """Stiffness condensed onto the masters."""
     if isinstance(chosen, Matrix | NodeField):
@@ -48,34 +44,31 @@ def stiffness(
     return condense(matrix, nodes, inside)
 
 
-@SUPE.form(said("CHARGE"), _ELEMENT, arg("load", "CHPOINT", en="loads on the body"))
-def load(element: SuperElement, load: NodeField) -> NodeField:
+@SUPE.form(said("CHARGE"))
+def load(
+    element: SuperElement = _ELEMENT, load: NodeField = Arg("CHPOINT", en="loads on the body")
+) -> NodeField:
     """Loads on the masters."""
     return condensed_load(element, load)
 
 
-@SUPE.form(
-    said("DEPLA"),
-    _ACCEPTED,
-    _ELEMENT,
-    arg("masters", "CHPOINT", en="displacement of the masters"),
-    opt("load", "CHPOINT", en="loads on the body"),
-)
+@SUPE.form(said("DEPLA"))
 def displacement(
-    alone: bool, element: SuperElement, masters: NodeField, load: NodeField | None
+    alone: bool = _ACCEPTED,
+    element: SuperElement = _ELEMENT,
+    masters: NodeField = Arg("CHPOINT", en="displacement of the masters"),
+    load: NodeField | None = Opt("CHPOINT", en="loads on the body"),
 ) -> NodeField:
     """Displacement of the whole body."""
     return inner_displacement(element, masters, load)
 
 
-@SUPE.form(
-    said("MASSE"),
-    flag("shapes", "LCHP", en="the displacement for a unit of each master first"),
-    _ELEMENT,
-    arg("mass", "RIGIDITE", en="mass of the body"),
-    gives=by("shapes", {True: ("LISTCHPO", "RIGIDITE")}, "RIGIDITE"),
-)
-def mass(shapes: bool, element: SuperElement, mass: Matrix) -> Matrix | tuple[ListChpo, Matrix]:
+@SUPE.form(said("MASSE"), gives=by("shapes", {True: ("LISTCHPO", "RIGIDITE")}, "RIGIDITE"))
+def mass(
+    shapes: bool = Flag("LCHP", en="the displacement for a unit of each master first"),
+    element: SuperElement = _ELEMENT,
+    mass: Matrix = Arg("RIGIDITE", en="mass of the body"),
+) -> Matrix | tuple[ListChpo, Matrix]:
     """Mass that the masters feel."""
     made = condensed_mass(element, mass)
     return (ListChpo(tuple(shape_fields(element))), made) if shapes else made
@@ -89,16 +82,14 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
 }
 
 
-@EXTR.form(
-    main("element", "SUPERELE", en="super-element"),
-    choice(
-        "what",
-        tuple(_PARTS),
-        en="condensed stiffness, stiffness, conditions or mesh of the masters",
+@EXTR.form(gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"))
+def extract_from_superelement(
+    call: Call,
+    element: SuperElement = Main("SUPERELE", en="super-element"),
+    what: str | None = Choice(
+        tuple(_PARTS), en="condensed stiffness, stiffness, conditions or mesh of the masters"
     ),
-    gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"),
-)
-def extract_from_superelement(call: Call, element: SuperElement, what: str | None) -> Matrix | Mesh:
+) -> Matrix | Mesh:
     """A part of a super-element."""
     if what is None:
         raise call.error("operators.matrices.extr-of-superele-wants-word", element, words=_PARTS)
@@ -112,23 +103,21 @@ def _listed(element: SuperElement, short: bool, say: Teller) -> str:
     return say("operators.matrices.super-element", masters=masters, inner=inner)
 
 
-@operator(
-    "CMCT",
-    arg("matrix", "RIGIDITE", en="relations C"),
-    arg("diagonal", "CHPOINT", en="M^-1"),
-    family="matrix",
-)
-def cmct(matrix: Matrix, diagonal: NodeField) -> Matrix:
+@operator("CMCT", family="matrix")
+def cmct(
+    matrix: Matrix = Arg("RIGIDITE", en="relations C"),
+    diagonal: NodeField = Arg("CHPOINT", en="M^-1"),
+) -> Matrix:
     """On the multipliers."""
     return condensed_on_multipliers(matrix, diagonal)
 
 
-@cmct.form(
-    arg("matrix", "RIGIDITE", en="matrix"),
-    arg(
-        "relations", "RIGIDITE", en="relations, or the first matrix that CHAN 'COND' makes of them"
+@cmct.form()
+def cmct_of_matrix(
+    matrix: Matrix = Arg("RIGIDITE", en="matrix"),
+    relations: Matrix = Arg(
+        "RIGIDITE", en="relations, or the first matrix that CHAN 'COND' makes of them"
     ),
-)
-def cmct_of_matrix(matrix: Matrix, relations: Matrix) -> Matrix:
+) -> Matrix:
     """On the unknowns that stay."""
     return condensed_by_relations(matrix, relations)

@@ -179,8 +179,8 @@ def static_links(table: Table) -> list[tuple[Table, Point, str]]:
     return found  # type: ignore[return-value]
 
 
-@bloq.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
-def bloq_of_table(call: Call, table: Table) -> Matrix:
+@bloq.form()
+def bloq_of_table(call: Call, table: Table = Arg("TABLE", en="table LIAISONS_STATIQUES")) -> Matrix:
     """Conditions of a table of static links."""
     ws = workspace(call.session)
     parts: list[Relations] = []
@@ -198,25 +198,20 @@ def bloq_of_table(call: Call, table: Table) -> Matrix:
 # --- imposed values --------------------------------------------------------------------------
 
 
-@operator(
-    "DEPI",
-    flag(
-        "mixed",
-        "RELA",
-        en="the field SCAL gives the value of relations between unknowns of one node",
+@operator("DEPI", family="relations", full_name="DEPIMPOSE")
+def depi(
+    call: Call,
+    mixed: bool = Flag(
+        "RELA", en="the field SCAL gives the value of relations between unknowns of one node"
     ),
-    arg("matrix", "RIGIDITE", en="conditions"),
-    arg(
-        "value",
+    matrix: Matrix = Arg("RIGIDITE", en="conditions"),
+    value: float | NodeField = Arg(
         "FLOTTANT",
         "CHPOINT",
         en="one value for all, or a field of the held unknowns",
         range=ANY_NUMBER,
     ),
-    family="relations",
-    full_name="DEPIMPOSE",
-)
-def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> NodeField:
+) -> NodeField:
     """Values of conditions."""
     if not matrix.relations:
         raise call.error("operators.matrices.matrix-without-condition", matrix)
@@ -226,8 +221,8 @@ def depi(call: Call, mixed: bool, matrix: Matrix, value: float | NodeField) -> N
     return fill(matrix.relations, value)
 
 
-@depi.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
-def depi_of_table(call: Call, table: Table) -> None:
+@depi.form()
+def depi_of_table(call: Call, table: Table = Arg("TABLE", en="table LIAISONS_STATIQUES")) -> None:
     """Values of one on the conditions of a table of static links."""
     for entry, _, _ in static_links(table):
         block = entry.get("BLOCAGE")

@@ -24,11 +24,12 @@ from ssilang.operators.prelude import *
         },
         en="random, or the same everywhere",
     ),
-    arg("matrix", "RIGIDITE", en="matrix"),
     family="fields",
     full_name="CHPOINT",
 )
-def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
+def chpo(
+    call: Call, values: Chosen | None, matrix: Matrix = Arg("RIGIDITE", en="matrix")
+) -> NodeField:
     """Field on the unknowns of a matrix."""
     if values is None:
         raise call.error("operators.matrices.which-values")
@@ -45,29 +46,17 @@ def chpo(call: Call, values: Chosen | None, matrix: Matrix) -> NodeField:
     return NodeField(numbering.table, made, "DIFFUS")
 
 
-@operator(
-    "ORTH",
-    flag("alike", "SEMBLABLE", en="the fields have the same nodes and components"),
-    arg("field", "CHPOINT", en="field X"),
-    arg("shapes", "LISTCHPO", en="fields U"),
-    arg("norms", "LISTREEL", en="products U K U", range=ANY_NUMBER),
-    opt("loaded", "LISTCHPO", en="fields K U"),
-    arg("matrix", "RIGIDITE", en="matrix K"),
-    opt("precision", "FLOTTANT", range=POSITIVE, en="precision"),
-    opt("passes", "ENTIER", range=POSITIVE, default=2, en="passes at most"),
-    family="matrix",
-    full_name="ORTHOGONALISER",
-)
+@operator("ORTH", family="matrix", full_name="ORTHOGONALISER")
 def orth(
     call: Call,
-    alike: bool,
-    field: NodeField,
-    shapes: ListChpo,
-    norms: ListReel,
-    loaded: ListChpo | None,
-    matrix: Matrix,
-    precision: float | None,
-    passes: int,
+    alike: bool = Flag("SEMBLABLE", en="the fields have the same nodes and components"),
+    field: NodeField = Arg("CHPOINT", en="field X"),
+    shapes: ListChpo = Arg("LISTCHPO", en="fields U"),
+    norms: ListReel = Arg("LISTREEL", en="products U K U", range=ANY_NUMBER),
+    loaded: ListChpo | None = Opt("LISTCHPO", en="fields K U"),
+    matrix: Matrix = Arg("RIGIDITE", en="matrix K"),
+    precision: float | None = Opt("FLOTTANT", range=POSITIVE, en="precision"),
+    passes: int = Opt("ENTIER", range=POSITIVE, default=2, en="passes at most"),
 ) -> NodeField:
     """Gram and Schmidt's step."""
     fields: list[Any] = list(shapes.values)

@@ -221,12 +221,12 @@ def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:
     return values
 
 
-@operator(
-    "PAVE",
-    many("faces", "MAILLAGE", en="six faces, opposite ones one after the other"),
-    family="mesh",
-)
-def pave(session: Session, call: Call, faces: tuple[Mesh, ...]) -> Mesh:
+@operator("PAVE", family="mesh")
+def pave(
+    session: Session,
+    call: Call,
+    faces: tuple[Mesh, ...] = Many("MAILLAGE", en="six faces, opposite ones one after the other"),
+) -> Mesh:
     """Fill a block."""
     if len(faces) != 6:
         raise call.error("operators.mesh.six-faces-wanted", n_faces=len(faces))

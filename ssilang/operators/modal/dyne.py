@@ -357,11 +357,12 @@ _FORM = operator(
 )(_dyne)
 
 
-@_FORM.form(
-    choice("scheme", ("DE_VOGELAERE",), optional=False, en="how time is stepped"),
-    arg("table", "TABLE", en="table PASAPAS"),
-)
-def _of_models(call: Call, scheme: bool, table: Table) -> None:
+@_FORM.form()
+def _of_models(
+    call: Call,
+    scheme: bool = Choice(("DE_VOGELAERE",), optional=False, en="how time is stepped"),
+    table: Table = Arg("TABLE", en="table PASAPAS"),
+) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""
     entries = Entries(call, table, "DYNE", "TAB11")
     entries.check()

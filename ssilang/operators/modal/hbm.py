@@ -42,8 +42,8 @@ def known_names(entries: Entries) -> Names:
     return names_of(given, harmonics)
 
 
-@operator("ZHBM", arg("table", "TABLE", en="table of HBM"), family="modal")
-def zhbm(call: Call, table: Table) -> None:
+@operator("ZHBM", family="modal")
+def zhbm(call: Call, table: Table = Arg("TABLE", en="table of HBM")) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
     entries = Entries(call, table, "HBM")
     names = known_names(entries)
@@ -138,13 +138,12 @@ class Motion:
     frequencies: FloatArray
 
 
-@operator(
-    "ZHPO",
-    arg("table", "TABLE", en="table of HBM_POST"),
-    arg("results", "LISTMOTS", en="MAXI, TEMP, VITE"),
-    family="modal",
-)
-def zhpo(call: Call, table: Table, results: ListMots) -> None:
+@operator("ZHPO", family="modal")
+def zhpo(
+    call: Call,
+    table: Table = Arg("TABLE", en="table of HBM_POST"),
+    results: ListMots = Arg("LISTMOTS", en="MAXI, TEMP, VITE"),
+) -> None:
     """Maxima, motions and velocities from the coefficients."""
     entries = Entries(call, table, "HBM_POST")
     wanted = [w.strip().upper()[:4] for w in results.values]

@@ -50,8 +50,8 @@ _BASIS = arg("basis", "TABLE", en="modes, or static shapes")
 _OTHER = opt("other", "TABLE", en="the other of both")
 
 
-@rigi.form(_BASIS, _OTHER, ahead=True)
-def modal_stiffness(call: Call, basis: Table, other: Table | None) -> Matrix:
+@rigi.form(ahead=True)
+def modal_stiffness(call: Call, basis: Table = _BASIS, other: Table | None = _OTHER) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     modes = [s for s in shapes if s.unknown == "ALFA"]
     if len(modes) == len(shapes):
@@ -105,31 +105,31 @@ def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:
     return np.array([s.mark.node for s in shapes]), unknowns, [dual_of(u) for u in unknowns]
 
 
-@mass.form(_BASIS, ahead=True)
-def modal_mass(call: Call, basis: Table) -> Matrix:
+@mass.form(ahead=True)
+def modal_mass(call: Call, basis: Table = _BASIS) -> Matrix:
     if basis.subtype == "LIAISONS_STATIQUES":
         raise call.error("operators.modal.static-shapes-hold-no", basis)
     modes, masses, _ = _modal(call, basis)
     return _diagonal(modes, masses, "MASSE")
 
 
-@mass.form(_BASIS, _OTHER, arg("inertia", "RIGIDITE", en="mass"), ahead=True)
-def projected_mass(call: Call, basis: Table, other: Table | None, inertia: Matrix) -> Matrix:
+@mass.form(ahead=True)
+def projected_mass(
+    call: Call,
+    basis: Table = _BASIS,
+    other: Table | None = _OTHER,
+    inertia: Matrix = Arg("RIGIDITE", en="mass"),
+) -> Matrix:
     shapes = shapes_of(call, *_tables(call, basis, other))
     return projected_matrix(inertia, [s.field for s in shapes], *_places(shapes))
 
 
-@amor.form(
-    _BASIS,
-    arg(
-        "ratios",
-        "LISTREEL",
-        usual=NOT_NEGATIVE,
-        en="damping ratios",
-        unit="%",
-    ),
-)
-def modal_damping(call: Call, basis: Table, ratios: ListReel) -> Matrix:
+@amor.form()
+def modal_damping(
+    call: Call,
+    basis: Table = _BASIS,
+    ratios: ListReel = Arg("LISTREEL", usual=NOT_NEGATIVE, en="damping ratios", unit="%"),
+) -> Matrix:
     modes, masses, frequencies = _modal(call, basis)
     if len(ratios) != len(modes):
         raise call.error(

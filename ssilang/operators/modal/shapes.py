@@ -107,13 +107,11 @@ nnor = operator(
 )(_nnor)
 
 
-@nnor.form(
-    said("EUCL"),
-    _THING,
-    opt("metric", "RIGIDITE", en="matrix of the norm"),
-    gives=Like("thing"),
-)
-def by_euclidean_norm(thing: NodeField | Table, metric: Matrix | None) -> NodeField | Table:
+@nnor.form(said("EUCL"), gives=Like("thing"))
+def by_euclidean_norm(
+    thing: NodeField | Table = _THING,
+    metric: Matrix | None = Opt("RIGIDITE", en="matrix of the norm"),
+) -> NodeField | Table:
     """Shapes of Euclidean norm one."""
     return _of_unit_size(thing, lambda f: _euclidean(f, metric))
 
@@ -144,7 +142,7 @@ def _known(table: Table) -> list[Shape]:
 # --- gaps ------------------------------------------------------------------------------------
 
 
-@operator("JEU", arg("matrix", "RIGIDITE", en="relations"), family="relations")
-def jeu(matrix: Matrix) -> NodeField:
+@operator("JEU", family="relations")
+def jeu(matrix: Matrix = Arg("RIGIDITE", en="relations")) -> NodeField:
     """Values -C x of the relations."""
     return geometric_gaps(matrix)

@@ -22,16 +22,14 @@ from ssilang.operators.tables.indices import copied
 _AXES = ("UX", "UY", "UZ")
 
 
-@operator(
-    "SEIS",
-    arg("curve", "EVOLUTIO", en="acceleration of the ground", over="s"),
-    arg("table", "TABLE", en="basis"),
-    arg("factor", "FLOTTANT", en="factor", range=ANY_NUMBER),
-    choice("direction", _AXES, optional=False, en="direction of the ground"),
-    family="modal",
-    full_name="SEISME",
-)
-def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) -> Load:
+@operator("SEIS", family="modal", full_name="SEISME")
+def seis(
+    call: Call,
+    curve: Curve = Arg("EVOLUTIO", en="acceleration of the ground", over="s"),
+    table: Table = Arg("TABLE", en="basis"),
+    factor: float = Arg("FLOTTANT", en="factor", range=ANY_NUMBER),
+    direction: str = Choice(_AXES, optional=False, en="direction of the ground"),
+) -> Load:
     """Seismic load."""
     shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
     if not shapes:
@@ -49,15 +47,13 @@ def seis(call: Call, curve: Curve, table: Table, factor: float, direction: str) 
     return Load((LoadPart("MECA", field, curve),))
 
 
-@operator(
-    "SIGS",
-    arg("model", "MMODEL", en="model"),
-    many("material", "MCHAML", at_least=1, en="parameters"),
-    arg("table", "TABLE", en="shapes"),
-    family="modal",
-    full_name="SIGSOL",
-)
-def sigs(call: Call, model: Model, material: tuple[CellField, ...], table: Table) -> Table:
+@operator("SIGS", family="modal", full_name="SIGSOL")
+def sigs(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    material: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="parameters"),
+    table: Table = Arg("TABLE", en="shapes"),
+) -> Table:
     """Stresses of modes."""
     made, found = with_stresses(present(call, model), joined(material), table)
     if not found:
@@ -86,27 +82,19 @@ def with_stresses(model: Model, material: CellField, table: Table) -> tuple[Tabl
 _MAIN = arg("solution", "SOLUTION", en="modes")
 
 
-@MANU.form(
-    said("MODE"),
-    key("number", "NUME", arg("n", "ENTIER", range=POSITIVE), en="its number, 1 without it"),
-    arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
-    arg("mass", "FLOTTANT", en="generalised mass", unit="kg", range=POSITIVE),
-    opt("x", "FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
-    opt("y", "FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
-    opt("z", "FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
-    arg("shape", "CHPOINT", en="shape"),
-    opt("stresses", "MCHAML", en="its stresses"),
-)
+@MANU.form(said("MODE"))
 def mode_by_hand(
     call: Call,
-    number: int | None,
-    frequency: float,
-    mass: float,
-    x: float,
-    y: float,
-    z: float,
-    shape: NodeField,
-    stresses: CellField | None,
+    number: int | None = Key(
+        "NUME", arg("n", "ENTIER", range=POSITIVE), en="its number, 1 without it"
+    ),
+    frequency: float = Arg("FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
+    mass: float = Arg("FLOTTANT", en="generalised mass", unit="kg", range=POSITIVE),
+    x: float = Opt("FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
+    y: float = Opt("FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
+    z: float = Opt("FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),
+    shape: NodeField = Arg("CHPOINT", en="shape"),
+    stresses: CellField | None = Opt("MCHAML", en="its stresses"),
 ) -> Solution:
     """One mode."""
     nodes = workspace(call.session).nodes
@@ -129,8 +117,8 @@ def join_solutions(first: Solution, second: Solution) -> Solution:
     return Solution((*first.modes, *second.modes))
 
 
-@DIME.form(main("solution", "SOLUTION", en="modes"))
-def count_modes(solution: Solution) -> int:
+@DIME.form()
+def count_modes(solution: Solution = Main("SOLUTION", en="modes")) -> int:
     """Number of modes."""
     return len(solution.modes)
 
@@ -178,21 +166,20 @@ def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -
     return held
 
 
-@sigs.form(
-    arg("model", "MMODEL", en="model"),
-    many("material", "MCHAML", at_least=1, en="parameters"),
-    _MAIN,
-)
+@sigs.form()
 def stressed(
-    call: Call, model: Model, material: tuple[CellField, ...], solution: Solution
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    material: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="parameters"),
+    solution: Solution = _MAIN,
 ) -> Solution:
     """The modes with their stresses."""
     model, given = present(call, model), joined(material)
     return Solution(tuple(with_stresses(model, given, m)[0] for m in solution.modes))
 
 
-@rigi.form(_MAIN)
-def stiffness_of_modes(call: Call, solution: Solution) -> Matrix:
+@rigi.form()
+def stiffness_of_modes(call: Call, solution: Solution = _MAIN) -> Matrix:
     """Generalised stiffnesses on the diagonal."""
     made: Matrix = modal_stiffness(call, solution.table, None)
     return made

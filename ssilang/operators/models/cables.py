@@ -21,25 +21,17 @@ _ENTRIES = {
 }
 
 
-@operator(
-    "PREC",
-    arg("model", "MMODEL", en="cables, bars"),
-    arg("material", "MCHAML", en="their parameters"),
-    opt("table", "TABLE", en="losses"),
-    arg("force", "FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
-    opt("ends", "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"),
-    opt("before", "MCHAML", en="not built"),
-    family="model",
-    full_name="PRECONTRAINTE",
-)
+@operator("PREC", family="model", full_name="PRECONTRAINTE")
 def prec(
     call: Call,
-    model: Model,
-    material: CellField,
-    table: Table | None,
-    force: float,
-    ends: Mesh | Point | None,
-    before: CellField | None,
+    model: Model = Arg("MMODEL", en="cables, bars"),
+    material: CellField = Arg("MCHAML", en="their parameters"),
+    table: Table | None = Opt("TABLE", en="losses"),
+    force: float = Arg("FLOTTANT", en="tension at the end", unit="N", usual=POSITIVE),
+    ends: Mesh | Point | None = Opt(
+        "MAILLAGE", "POINT", en="points that are pulled, else the last of each cable"
+    ),
+    before: CellField | None = Opt("MCHAML", en="not built"),
 ) -> CellField:
     """Tensions of all cables of a model."""
     if before is not None:
@@ -101,7 +93,7 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
     return found
 
 
-@operator("IMPF", arg("mesh", "MAILLAGE", en="mesh"), family="model", full_name="IMPF")
-def impf(mesh: Mesh) -> Mesh:
+@operator("IMPF", family="model", full_name="IMPF")
+def impf(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     """The mesh, unchanged."""
     return mesh

@@ -123,12 +123,12 @@ def rten(
     return on_zones(model, field.title, make)
 
 
-@rten.form(
-    arg("field", "CHPOINT", en="vectors"),
-    arg("first", "POINT", en="first axis"),
-    _SECOND,
-)
-def rten_of_vectors(field: NodeField, first: Point, second: Point | None) -> NodeField:
+@rten.form()
+def rten_of_vectors(
+    field: NodeField = Arg("CHPOINT", en="vectors"),
+    first: Point = Arg("POINT", en="first axis"),
+    second: Point | None = _SECOND,
+) -> NodeField:
     """Vectors in another frame."""
     return turned_node_field(field, _fixed(first, second))
 
@@ -188,13 +188,12 @@ def _round(call: Call, frame: Chosen) -> Frames:
     return lambda zone, support: build(points_of(zone, support), centre, on_axis)
 
 
-@operator(
-    "VLOC",
-    arg("model", "MMODEL", en="model"),
-    many("fields", "MCHAML", at_least=1, en="parameters"),
-    family="model",
-)
-def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
+@operator("VLOC", family="model")
+def vloc(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    fields: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="parameters"),
+) -> CellField:
     """Axes of orthotropy."""
     material = joined(fields)
 
@@ -212,19 +211,19 @@ def vloc(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
     return on_zones(present(call, model), "VECTEUR LOCAUX", make)
 
 
-@operator(
-    "CALP",
-    arg("model", "MMODEL", en="model"),
-    many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
-    choice(
-        "side",
+@operator("CALP", family="stress")
+def calp(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    fields: tuple[CellField, ...] = Many(
+        "MCHAML", at_least=1, en="stresses or strains, and parameters"
+    ),
+    side: str = Choice(
         tuple(SIDES),
         default="MOYE",
         en="side of a shell: that of the normal, the middle (default) or the other",
     ),
-    family="stress",
-)
-def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> CellField:
+) -> CellField:
     """Skin stress of beams."""
     field, material = state_and_rest(fields)
     if material is None:
@@ -239,8 +238,8 @@ def calp(call: Call, model: Model, fields: tuple[CellField, ...], side: str) -> 
     return on_zones(present(call, model), field.title, make)
 
 
-@operator("FREN", arg("line", "MAILLAGE", en="lines"), family="mesh", full_name="FRENET")
-def fren(session: Session, line: Mesh) -> NodeField:
+@operator("FREN", family="mesh", full_name="FRENET")
+def fren(session: Session, line: Mesh = Arg("MAILLAGE", en="lines")) -> NodeField:
     """Frenet frame."""
     ids, frames = frenet_frames(line)
     dimension = workspace(session).dimension
@@ -260,13 +259,10 @@ _SHELLS = ("plate", "mindlin", "thick", "meridian")
 _BEAMS = ("beam", "timoshenko", "pipe")
 
 
-@operator(
-    "VSUR",
-    arg("model", "MMODEL", en="model"),
-    flag("unit", "NORM", en="of length 1"),
-    family="models",
-)
-def vsur(model: Model, unit: bool) -> CellField:
+@operator("VSUR", family="models")
+def vsur(
+    model: Model = Arg("MMODEL", en="model"), unit: bool = Flag("NORM", en="of length 1")
+) -> CellField:
     """Vectors of shells and beams."""
     blocks = [b for z in model.zones if (b := _block(z, unit)) is not None]
     return CellField(tuple(blocks), "NORMALES" if unit else "VECTEURS SURFACE")

@@ -136,18 +136,20 @@ def contact(
     return contact_model(call, mesh, slave, method, friction is not None, ws)
 
 
-@MODE.form(
-    choice("formulation", ("LIAISON",), optional=False, en="a link of DYNE"),
-    choice("kind", tuple(dict.fromkeys(w[0] for w in LINKS)), length=8, optional=False, en="kind"),
-    choice(
-        "more",
+@MODE.form()
+def link(
+    call: Call,
+    formulation: bool = Choice(("LIAISON",), optional=False, en="a link of DYNE"),
+    kind: str = Choice(
+        tuple(dict.fromkeys(w[0] for w in LINKS)), length=8, optional=False, en="kind"
+    ),
+    more: str | None = Choice(
         tuple(dict.fromkeys(w[1] for w in LINKS if len(w) > 1)),
         length=8,
         en="with friction, plastic ...",
     ),
-    arg("mesh", "MAILLAGE", en="its point, a cell POI1"),
-)
-def link(call: Call, formulation: bool, kind: str, more: str | None, mesh: Mesh) -> Model:
+    mesh: Mesh = Arg("MAILLAGE", en="its point, a cell POI1"),
+) -> Model:
     """A model of links, one for each point."""
     words = (kind, more) if more else (kind,)
     if words not in LINKS:

@@ -43,13 +43,12 @@ def model_without(call: Call, model: Model, what: Chosen | None) -> Model:
     return model if len(kept) == len(model.zones) else Model(kept)
 
 
-@CHAN.form(
-    said("CONS"),
-    arg("model", "MMODEL", en="model"),
-    arg("constituent", "MOT", en="its new constituent"),
-    of=("MMODEL",),
-)
-def change_constituent_of_model(call: Call, model: Model, constituent: str) -> Model:
+@CHAN.form(said("CONS"), of=("MMODEL",))
+def change_constituent_of_model(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    constituent: str = Arg("MOT", en="its new constituent"),
+) -> Model:
     """Another constituent."""
     if len({z.constituent for z in model.zones}) > 1:
         raise call.error("operators.models.several-constituents", model)
@@ -187,15 +186,15 @@ _FIRST = main("first", "MMODEL", en="model")
 _SECOND = arg("second", "MMODEL", en="other model")
 
 
-@DIFF.form(_FIRST, _SECOND)
-def difference_of_models(first: Model, second: Model) -> Model:
+@DIFF.form()
+def difference_of_models(first: Model = _FIRST, second: Model = _SECOND) -> Model:
     """Zones of one of two models only."""
     left = [z for z in first.zones if not _found_in(z, second)]
     return Model((*left, *(z for z in second.zones if not _found_in(z, first))))
 
 
-@INTE.form(_FIRST, _SECOND)
-def intersection_of_models(first: Model, second: Model) -> Model:
+@INTE.form()
+def intersection_of_models(first: Model = _FIRST, second: Model = _SECOND) -> Model:
     """Common zones of two models."""
     common = tuple(z for z in first.zones if _found_in(z, second))
     if not common:
@@ -218,15 +217,13 @@ def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
     return np.asarray(np.sqrt(12.0 * inertia / given.at("SECT", "GRAVITE")))
 
 
-@operator(
-    "TAIL",
-    choice("what", ("DIAMETRE_MIN", "DIRECTION"), en="which size"),
-    arg("model", "MMODEL", en="model"),
-    opt("given", "MCHAML", en="thickness or section of shells and beams"),
-    family="models",
-    full_name="TAILLE",
-)
-def tail(call: Call, what: str | None, model: Model, given: CellField | None) -> CellField:
+@operator("TAIL", family="models", full_name="TAILLE")
+def tail(
+    call: Call,
+    what: str | None = Choice(("DIAMETRE_MIN", "DIRECTION"), en="which size"),
+    model: Model = Arg("MMODEL", en="model"),
+    given: CellField | None = Opt("MCHAML", en="thickness or section of shells and beams"),
+) -> CellField:
     """Smallest lengths of elements."""
     if what != "DIAMETRE_MIN":
         raise call.error("operators.models.only-diametre-min-built", model)

@@ -140,30 +140,25 @@ SCALAR_RULES["OU"] = _either
 union(("LOGIQUE", "LOGIQUE"))(_both)
 
 
-@operator(
-    "OU",
-    arg("first", "LOGIQUE", en="logical value"),
-    arg("second", "LOGIQUE", en="another one"),
-    family="comparisons",
-)
-def ou(first: bool, second: bool) -> bool:
+@operator("OU", family="comparisons")
+def ou(
+    first: bool = Arg("LOGIQUE", en="logical value"),
+    second: bool = Arg("LOGIQUE", en="another one"),
+) -> bool:
     """Disjunction."""
     return first or second
 
 
-@operator("NON", arg("value", "LOGIQUE", en="logical value"), family="comparisons")
-def non(value: bool) -> bool:
+@operator("NON", family="comparisons")
+def non(value: bool = Arg("LOGIQUE", en="logical value")) -> bool:
     """Negation."""
     return not value
 
 
-@operator(
-    "MULT",
-    arg("first", "ENTIER", en="integer", range=ANY_NUMBER),
-    arg("second", "ENTIER", en="divisor", range=NOT_ZERO),
-    family="comparisons",
-    full_name="MULTIPLE",
-)
-def mult(first: int, second: int) -> bool:
+@operator("MULT", family="comparisons", full_name="MULTIPLE")
+def mult(
+    first: int = Arg("ENTIER", en="integer", range=ANY_NUMBER),
+    second: int = Arg("ENTIER", en="divisor", range=NOT_ZERO),
+) -> bool:
     """Divisibility."""
     return first == 0 if second == 0 else first % second == 0

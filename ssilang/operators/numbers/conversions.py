@@ -35,11 +35,11 @@ def _whole(call: Call, values: Any) -> Any:
     return values.astype(np.int64)
 
 
-@operator(
-    "ENTI",
-    choice("way", tuple(_ROUNDINGS), default="TRONCATURE", en="cut, below, above or nearest"),
-    arg(
-        "value",
+@operator("ENTI", gives="ENTIER|LISTENTI|CHPOINT", family="numbers", full_name="ENTIER")
+def enti(
+    call: Call,
+    way: str = Choice(tuple(_ROUNDINGS), default="TRONCATURE", en="cut, below, above or nearest"),
+    value: Any = Arg(
         "ENTIER",
         "FLOTTANT",
         "LISTREEL",
@@ -50,11 +50,7 @@ def _whole(call: Call, values: Any) -> Any:
         en="numbers, or words that say them",
         range=CARRIED,
     ),
-    gives="ENTIER|LISTENTI|CHPOINT",
-    family="numbers",
-    full_name="ENTIER",
-)
-def enti(call: Call, way: str, value: Any) -> Any:
+) -> Any:
     """Round."""
     rounding = _ROUNDINGS[way]
     if isinstance(value, NodeField):
@@ -68,10 +64,10 @@ def enti(call: Call, way: str, value: Any) -> Any:
     return ListEnti(_whole(call, rounding(value.values.astype(float))))
 
 
-@operator(
-    "FLOT",
-    arg(
-        "value",
+@operator("FLOT", gives="FLOTTANT|LISTREEL", family="numbers", full_name="FLOTTANT")
+def flot(
+    call: Call,
+    value: Any = Arg(
         "FLOTTANT",
         "LISTREEL",
         "LISTENTI",
@@ -80,11 +76,7 @@ def enti(call: Call, way: str, value: Any) -> Any:
         en="numbers, or words that say them",
         range=CARRIED,
     ),
-    gives="FLOTTANT|LISTREEL",
-    family="numbers",
-    full_name="FLOTTANT",
-)
-def flot(call: Call, value: Any) -> Any:
+) -> Any:
     """Convert to reals."""
     if isinstance(value, str):
         return number_in(call, value)
@@ -93,12 +85,8 @@ def flot(call: Call, value: Any) -> Any:
     return value if isinstance(value, float) else ListReel(value.values)
 
 
-@operator(
-    "VERI",
-    arg("value", "FLOTTANT", "CHPOINT", en="what is tested", range=CARRIED),
-    family="numbers",
-)
-def veri(value: Any) -> bool:
+@operator("VERI", family="numbers")
+def veri(value: Any = Arg("FLOTTANT", "CHPOINT", en="what is tested", range=CARRIED)) -> bool:
     """Test for numbers."""
     if isinstance(value, float):
         return bool(np.isfinite(value))

@@ -138,12 +138,10 @@ for _name, _function in _FUNCTIONS.items():
     )(partial(_run, _name, _function))
 
 
-@operator(
-    "IFRE",
-    arg("limit", "FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
-    family="functions",
-)
-def ifre(limit: float) -> tuple[float, float]:
+@operator("IFRE", family="functions")
+def ifre(
+    limit: float = Arg("FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
+) -> tuple[float, float]:
     """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
     from scipy.special import fresnel
 
@@ -153,14 +151,12 @@ def ifre(limit: float) -> tuple[float, float]:
     return float(cosine), float(sine)
 
 
-@operator(
-    "ATG",
-    arg("first", *OPERANDS, en="tangent, or numerator", range=CARRIED),
-    opt("second", *OPERANDS, en="denominator", range=CARRIED),
-    gives=_REALS,
-    family="functions",
-)
-def atg(call: Call, first: Any, second: Any) -> Any:
+@operator("ATG", gives=_REALS, family="functions")
+def atg(
+    call: Call,
+    first: Any = Arg(*OPERANDS, en="tangent, or numerator", range=CARRIED),
+    second: Any = Opt(*OPERANDS, en="denominator", range=CARRIED),
+) -> Any:
     """Arc tangent of one or two objects."""
     if second is None:
         value = float(first) if isinstance(first, int) else first

@@ -144,7 +144,7 @@ def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
     main("value", "EVOLUTIO", en="curves"),
     each(
         "bounds",
-        opt("curve", "ENTIER", en="number of a curve, 1 if none", range=POSITIVE),
+        opt("curve", "ENTIER", en="number of a curve, where there are several", range=POSITIVE),
         _BOUND,
         at_least=1,
     ),
@@ -182,7 +182,9 @@ def _clipped_fields(call: Call, value: NodeField | CellField, bounds: list[Chose
 def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, float]]) -> Curve:
     parts: list[CurvePart] = []
     for who, low, high in wanted:
-        place = 1 if who is None else who
+        if who is None and len(value.parts) > 1:
+            raise call.error("operators.numbers.which-curve", n_parts=len(value.parts))
+        place = who or 1
         if not 1 <= place <= len(value.parts):
             raise call.error(
                 "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place

@@ -31,45 +31,30 @@ _NOISE = key("noise", "BLAN", optional=False, en="white noise")
 _SKIP = opt("skip", "ENTIER", range=NOT_NEGATIVE, en="terms that the generator, begun again, skips")
 
 
-@BRUI.form(
-    _NOISE,
-    choice("law", ("POIS",), optional=False, en="Poisson's law"),
-    arg("mean", "ENTIER", range=NOT_NEGATIVE, en="mean"),
-    arg("count", "ENTIER", range=NOT_NEGATIVE, en="number of values"),
-    _SKIP,
-)
+@BRUI.form()
 def _poisson(
-    call: Call, noise: bool, law: str, mean: int, count: int, skip: int | None
+    call: Call,
+    noise: bool = _NOISE,
+    law: str = Choice(("POIS",), optional=False, en="Poisson's law"),
+    mean: int = Arg("ENTIER", range=NOT_NEGATIVE, en="mean"),
+    count: int = Arg("ENTIER", range=NOT_NEGATIVE, en="number of values"),
+    skip: int | None = _SKIP,
 ) -> ListEnti:
     return ListEnti(session_generator(call, skip).poisson(mean, count))
 
 
-@BRUI.form(
-    _NOISE,
-    choice("law", ("GAUS", "UNIF", "EXPO"), optional=False, en="law"),
-    arg("mean", "FLOTTANT", en="mean", range=ANY_NUMBER),
-    arg("width", "FLOTTANT", range=NOT_NEGATIVE, en="deviation or half width"),
-    arg(
-        "where",
-        "ENTIER",
-        "LISTREEL",
-        "MAILLAGE",
-        en="number of values, times, or mesh",
-        range=ANY_NUMBER,
-    ),
-    choice("colour", COLOURS, en="colour of the curve"),
-    _SKIP,
-    gives="LISTREEL|EVOLUTIO|CHPOINT",
-)
+@BRUI.form(gives="LISTREEL|EVOLUTIO|CHPOINT")
 def _continuous(
     call: Call,
-    noise: bool,
-    law: str,
-    mean: float,
-    width: float,
-    where: Any,
-    colour: str | None,
-    skip: int | None,
+    noise: bool = _NOISE,
+    law: str = Choice(("GAUS", "UNIF", "EXPO"), optional=False, en="law"),
+    mean: float = Arg("FLOTTANT", en="mean", range=ANY_NUMBER),
+    width: float = Arg("FLOTTANT", range=NOT_NEGATIVE, en="deviation or half width"),
+    where: Any = Arg(
+        "ENTIER", "LISTREEL", "MAILLAGE", en="number of values, times, or mesh", range=ANY_NUMBER
+    ),
+    colour: str | None = Choice(COLOURS, en="colour of the curve"),
+    skip: int | None = _SKIP,
 ) -> Any:
     generator = session_generator(call, skip)
     if isinstance(where, int) and where < 0:

@@ -67,16 +67,13 @@ def _real_roots(roots: ComplexArray) -> FloatArray:
     return np.sort(real)
 
 
-@operator(
-    "DEG3",
-    arg("a0", "FLOTTANT", en="constant term", range=ANY_NUMBER),
-    arg("a1", "FLOTTANT", en="factor of X", range=ANY_NUMBER),
-    arg("a2", "FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
-    arg("a3", "FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
-    family="numbers",
-)
+@operator("DEG3", family="numbers")
 def deg3(
-    call: Call, a0: float, a1: float, a2: float, a3: float
+    call: Call,
+    a0: float = Arg("FLOTTANT", en="constant term", range=ANY_NUMBER),
+    a1: float = Arg("FLOTTANT", en="factor of X", range=ANY_NUMBER),
+    a2: float = Arg("FLOTTANT", en="factor of X**2", range=ANY_NUMBER),
+    a3: float = Arg("FLOTTANT", en="factor of X**3", range=ANY_NUMBER),
 ) -> tuple[float, float, float, float, float, float]:
     """Roots as eigenvalues of the companion matrix."""
     if a3 == 0.0 or not np.isfinite([a0, a1, a2, a3]).all():

@@ -61,8 +61,10 @@ def _tabulated(session: Session) -> Table:
     return made
 
 
-@TEMP.form(said("SGAC"), key("printed", "IMPR", optional=False), _REST)
-def _print_all(session: Session, printed: bool, rest: tuple[Any, ...]) -> None:
+@TEMP.form(said("SGAC"))
+def _print_all(
+    session: Session, printed: bool = Key("IMPR", optional=False), rest: tuple[Any, ...] = _REST
+) -> None:
     _print_clocks(session, None, rest)
 
 
@@ -72,12 +74,12 @@ def _garbage(session: Session) -> tuple[int, int]:
     return 0, 0
 
 
-@TEMP.form(
-    said("IMPR"),
-    flag("counts", "APPE", en="calls of each operator"),
-    _REST,
-)
-def _print_counts(session: Session, counts: bool, rest: tuple[Any, ...]) -> None:
+@TEMP.form(said("IMPR"))
+def _print_counts(
+    session: Session,
+    counts: bool = Flag("APPE", en="calls of each operator"),
+    rest: tuple[Any, ...] = _REST,
+) -> None:
     if not counts:
         _print_clocks(session, None, rest)
         return
@@ -85,23 +87,23 @@ def _print_counts(session: Session, counts: bool, rest: tuple[Any, ...]) -> None
         session.print(f" {name:<8} {count:>12}")
 
 
-@TEMP.form(
-    choice("what", ("PLAC",), en="the time that has passed is printed"),
-    _REST,
-)
-def _print_clocks(session: Session, what: str | None, rest: tuple[Any, ...]) -> None:
+@TEMP.form()
+def _print_clocks(
+    session: Session,
+    what: str | None = Choice(("PLAC",), en="the time that has passed is printed"),
+    rest: tuple[Any, ...] = _REST,
+) -> None:
     wall, cpu = _read_clocks(session)[0]
     session.print(" " + session.told("operators.session.clocks", wall=wall, cpu=cpu))
 
 
-@operator(
-    "DATE",
-    flag("letters", "LETT"),
-    choice("part", ("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
-    opt("seconds", "FLOTTANT", range=NOT_NEGATIVE),
-    family="session",
-)
-def date(call: Call, letters: bool, part: str | None, seconds: float | None) -> Any:
+@operator("DATE", family="session")
+def date(
+    call: Call,
+    letters: bool = Flag("LETT"),
+    part: str | None = Choice(("CONV", "EPOC", "ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO")),
+    seconds: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE),
+) -> Any:
     """Tell the date."""
     now = datetime.now()
     if part == "EPOC":

@@ -17,26 +17,22 @@ class Configuration:
 
     def moved(self, field: NodeField) -> Configuration:
         """Where these nodes are once a field of displacements has moved them."""
-        moves = displacements(field.table, field)[: len(self.coordinates)]
+        moves = displacements(field)[: len(self.coordinates)]
         return Configuration(self.coordinates + moves)
 
 
 @operator(
     "FORM",
-    opt("start", "CONFIGUR", en="coordinates to begin with"),
-    opt("field", "CHPOINT", en="displacements", unit="m"),
-    opt("model", "MMODEL", en="model of the parameters"),
-    opt("material", "MCHAML", en="parameters whose local axes follow"),
     gives=by("model", {None: "CONFIGUR"}, ("CONFIGUR", "MCHAML")),
     family="mesh",
     full_name="FORME",
 )
 def form(
     call: Call,
-    start: Configuration | None,
-    field: NodeField | None,
-    model: Model | None,
-    material: CellField | None,
+    start: Configuration | None = Opt("CONFIGUR", en="coordinates to begin with"),
+    field: NodeField | None = Opt("CHPOINT", en="displacements", unit="m"),
+    model: Model | None = Opt("MMODEL", en="model of the parameters"),
+    material: CellField | None = Opt("MCHAML", en="parameters whose local axes follow"),
 ) -> Configuration | tuple[Configuration, CellField]:
     """Move the nodes."""
     nodes = workspace(call.session).nodes
@@ -48,7 +44,7 @@ def form(
         nodes.coordinates[: len(start.coordinates)] = start.coordinates
     if field is not None:
         ids = field.node_ids
-        nodes.coordinates[ids] += displacements(nodes, field)[ids]
+        nodes.coordinates[ids] += displacements(field, ids)
     made = Configuration(nodes.coordinates.copy())
     if model is None or material is None or field is None:
         return made

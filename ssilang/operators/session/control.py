@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, NoReturn
 
-from ssilang.language.registry import OPERATORS, named
+from ssilang.language.registry import OPERATORS
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
@@ -18,24 +18,16 @@ from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
 
-@operator(
-    "QUIT",
-    named("name", en="loop or procedure to leave"),
-    gives=(),
-    family="control",
-    full_name="QUITTER",
-)
-def quitter(session: Session, name: str) -> NoReturn:
+@operator("QUIT", gives=(), family="control", full_name="QUITTER")
+def quitter(session: Session, name: str = Name(en="loop or procedure to leave")) -> NoReturn:
     """Leave a loop or a procedure."""
     if session.frame.procedure == name:
         raise LeaveProcedure(name)
     raise LeaveLoop(name)
 
 
-@operator(
-    "ITER", named("name", en="loop that goes on"), gives=(), family="control", full_name="ITERER"
-)
-def iterer(name: str) -> NoReturn:
+@operator("ITER", gives=(), family="control", full_name="ITERER")
+def iterer(name: str = Name(en="loop that goes on")) -> NoReturn:
     """Go to the end of the turn."""
     raise NextTurn(name)
 
@@ -80,11 +72,10 @@ def _indices(table: Table) -> list[Any]:
     return [i for i, _ in table.items() if i != "SOUSTYPE"]
 
 
-@ASSI.form(
-    opt("number", "ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
-    gives=(),
-)
-def assi(number: int | None) -> None:
+@ASSI.form(gives=())
+def assi(
+    number: int | None = Opt("ENTIER", en="assistant, changes nothing", range=ANY_NUMBER),
+) -> None:
     """The phrase goes on."""
 
 
@@ -94,13 +85,8 @@ def fin() -> NoReturn:
     raise StopRun
 
 
-@operator(
-    "COMM",
-    many("text", "*", "TEXTE", en="whatever is said"),
-    family="control",
-    full_name="COMMENTAIRE",
-)
-def comm(text: tuple[Any, ...]) -> None:
+@operator("COMM", family="control", full_name="COMMENTAIRE")
+def comm(text: tuple[Any, ...] = Many("*", "TEXTE", en="whatever is said")) -> None:
     """Swallow the statement."""
 
 
@@ -148,19 +134,14 @@ def argu(call: Call) -> None:
         frame.assign(name, ANNULE if operand is None else operand.value)
 
 
-@operator("RESP", many("results", en="results, in order"), family="control", full_name="RESPRO")
-def resp(session: Session, results: tuple[Any, ...]) -> None:
+@operator("RESP", family="control", full_name="RESPRO")
+def resp(session: Session, results: tuple[Any, ...] = Many(en="results, in order")) -> None:
     """Queue results."""
     session.frame.results.extend(r for r in results if r is not ANNULE)
 
 
-@operator(
-    "INFO",
-    arg("said", "MOT", en="operator, procedure or word"),
-    family="session",
-    full_name="INFORMATION",
-)
-def info(call: Call, said: str) -> None:
+@operator("INFO", family="session", full_name="INFORMATION")
+def info(call: Call, said: str = Arg("MOT", en="operator, procedure or word")) -> None:
     """Print the page of the word that follows."""
     text = help_text(said, call.session.language)
     if not text:
@@ -169,14 +150,14 @@ def info(call: Call, said: str) -> None:
     call.session.print(text)
 
 
-@operator("NOTI", opt("said", "MOT", en="changes nothing"), family="session", full_name="NOTICE")
-def noti(session: Session, said: str | None) -> None:
+@operator("NOTI", family="session", full_name="NOTICE")
+def noti(session: Session, said: str | None = Opt("MOT", en="changes nothing")) -> None:
     """Print the overview; the word that may follow chooses nothing here."""
     session.print(overview(standard_procedures().values(), session.language))
 
 
-@operator("AIDE", arg("said", "MOT", en="text looked for"), family="session")
-def aide(session: Session, said: str) -> ListMots:
+@operator("AIDE", family="session")
+def aide(session: Session, said: str = Arg("MOT", en="text looked for")) -> ListMots:
     """Search the help in both languages, whatever the case."""
     pages = [operator_page(o) for n, o in sorted(OPERATORS.items()) if n == o.name]
     pages += [procedure_page(p) for p in standard_procedures().values()]
@@ -194,8 +175,11 @@ def aide(session: Session, said: str) -> ListMots:
 SOUC = shared("SOUC", "session", full_name="SOUCI")
 
 
-@SOUC.form(arg("level", "ENTIER", en="level, 0 to lower the flag", range=NOT_NEGATIVE))
-def _raise_flag(session: Session, level: int) -> None:
+@SOUC.form()
+def _raise_flag(
+    session: Session,
+    level: int = Arg("ENTIER", en="level, 0 to lower the flag", range=NOT_NEGATIVE),
+) -> None:
     if level:
         session.doubt(level)
     else:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.language.registry import find_operator, named
+from ssilang.language.registry import find_operator
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.values import ANNULE, Objet
 from ssilang.operators.files.outputs import forbidden_path, run_output
@@ -15,8 +15,8 @@ from ssilang.operators.lists.search import equal_items
 from ssilang.operators.prelude import *
 
 
-@operator("TYPE", arg("value", "*", "TEXTE", en="any object"), family="objects", terminal=True)
-def type_word(value: Any) -> Mot:
+@operator("TYPE", family="objects", terminal=True)
+def type_word(value: Any = Arg("*", "TEXTE", en="any object")) -> Mot:
     """Name the type."""
     return Mot(type_of(value).ljust(8))
 
@@ -163,37 +163,29 @@ _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
 OUBL = shared("OUBL", "objects", full_name="OUBLIER")
 
 
-@OUBL.form(
-    lead("table", "TABLE", en="table that loses an index"),
-    lead("index", "*", "TEXTE", en="index to forget"),
-)
-def _forget_index(table: Table, index: Any) -> None:
+@OUBL.form()
+def _forget_index(
+    table: Table = Lead("TABLE", en="table that loses an index"),
+    index: Any = Lead("*", "TEXTE", en="index to forget"),
+) -> None:
     table.remove(index)
 
 
-@OUBL.form(named("name", en="name to forget"))
-def _forget_name(session: Session, name: str) -> None:
+@OUBL.form()
+def _forget_name(session: Session, name: str = Name(en="name to forget")) -> None:
     session.frame.forget(name, hiding=find_operator(name) is not None)
 
 
-@operator(
-    "DETR",
-    many("objects", "*", "TEXTE", en="objects no longer used"),
-    family="objects",
-    full_name="DETRUIRE",
-)
-def detr(objects: tuple[Any, ...]) -> None:
+@operator("DETR", family="objects", full_name="DETRUIRE")
+def detr(objects: tuple[Any, ...] = Many("*", "TEXTE", en="objects no longer used")) -> None:
     """Accept and ignore."""
 
 
-@operator(
-    "MENA",
-    flag("forced", "OBLI", en="at once"),
-    many("ignored", "*", "TEXTE", en="changes nothing"),
-    family="objects",
-    full_name="MENAGE",
-)
-def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
+@operator("MENA", family="objects", full_name="MENAGE")
+def mena(
+    forced: bool = Flag("OBLI", en="at once"),
+    ignored: tuple[Any, ...] = Many("*", "TEXTE", en="changes nothing"),
+) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
     if forced:
         import gc
@@ -201,14 +193,12 @@ def mena(forced: bool, ignored: tuple[Any, ...]) -> None:
         gc.collect()
 
 
-@operator(
-    "NOMM",
-    lead("name", "*", "TEXTE", en="name, written or computed"),
-    lead("value", "*", "TEXTE", en="object that gets it"),
-    family="objects",
-    full_name="NOMMER",
-)
-def nomm(call: Call, name: Any, value: Any) -> None:
+@operator("NOMM", family="objects", full_name="NOMMER")
+def nomm(
+    call: Call,
+    name: Any = Lead("*", "TEXTE", en="name, written or computed"),
+    value: Any = Lead("*", "TEXTE", en="object that gets it"),
+) -> None:
     """Assign to a computed name."""
     if not isinstance(name, Mot):
         raise call.error("operators.session.name-is-a-word", name)
@@ -238,15 +228,13 @@ def obje(call: Call) -> tuple[Any, ...]:
     return (made, *results)
 
 
-@operator(
-    "METH",
-    opt("holder", "OBJET", en="object, else the present one"),
-    named("name", en="name of the method"),
-    arg("method", "PROCEDUR", en="what it does"),
-    family="objects",
-    full_name="METHODE",
-)
-def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None:
+@operator("METH", family="objects", full_name="METHODE")
+def meth(
+    call: Call,
+    holder: Objet | None = Opt("OBJET", en="object, else the present one"),
+    name: str = Name(en="name of the method"),
+    method: Procedure = Arg("PROCEDUR", en="what it does"),
+) -> None:
     """Attach a method."""
     target = holder or call.session.frame.object
     if target is None:
@@ -254,13 +242,13 @@ def meth(call: Call, holder: Objet | None, name: str, method: Procedure) -> None
     target.methods[name] = method
 
 
-@operator(
-    "HERI",
-    many("objects", "OBJET", en="heir, unless it is the present object, and whose methods it gets"),
-    family="objects",
-    full_name="HERITE",
-)
-def heri(call: Call, objects: tuple[Objet, ...]) -> None:
+@operator("HERI", family="objects", full_name="HERITE")
+def heri(
+    call: Call,
+    objects: tuple[Objet, ...] = Many(
+        "OBJET", en="heir, unless it is the present object, and whose methods it gets"
+    ),
+) -> None:
     """Inherit methods."""
     holder = objects[0] if len(objects) > 1 else call.session.frame.object
     if not objects or holder is None:

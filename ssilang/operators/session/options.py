@@ -348,16 +348,12 @@ _CURRENT: dict[str, Callable[[Workspace], Any]] = {
 }
 
 
-@operator(
-    "VALE",
-    lead("said", "MOT", en="option", kind="option"),
-    flag("harmonic", "FOUR", en="the harmonic of MODE FOUR"),
-    gives=ANY,
-    family="session",
-    full_name="VALEUR",
-    terminal=True,
-)
-def vale(call: Call, said: str, harmonic: bool) -> Any:
+@operator("VALE", gives=ANY, family="session", full_name="VALEUR", terminal=True)
+def vale(
+    call: Call,
+    said: str = Lead("MOT", en="option", kind="option"),
+    harmonic: bool = Flag("FOUR", en="the harmonic of MODE FOUR"),
+) -> Any:
     """Read an option back."""
     ws = workspace(call.session)
     word = said.upper()[:4].rstrip()
@@ -385,12 +381,9 @@ def _worst_error(call: Call) -> int:
     return max((int(w.data.get("number") or _UNNUMBERED) for w in shown), default=0)
 
 
-@operator(
-    "DENS",
-    arg("size", "FLOTTANT", en="mesh size", unit="m", range=POSITIVE),
-    family="mesh",
-    full_name="DENSITE",
-)
-def dens(session: Session, size: float) -> None:
+@operator("DENS", family="mesh", full_name="DENSITE")
+def dens(
+    session: Session, size: float = Arg("FLOTTANT", en="mesh size", unit="m", range=POSITIVE)
+) -> None:
     """Set the density in force."""
     workspace(session).density = size

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
@@ -20,13 +20,9 @@ from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL
 
 
-def _strains_of(zone: Zone, field: CellField) -> FloatArray:
-    """Strains (n_cells, n_strains, n_points) at 'STRESSES', zero where absent."""
-    return zone_field(zone, field).matrix(family_of(zone).strain_names(zone), "STRESSES")
-
-
 def _stresses_of(zone: Zone, field: CellField) -> FloatArray:
-    return zone_field(zone, field).matrix(family_of(zone).stress_names(zone), "STRESSES")
+    """Stresses (n_cells, n_stresses, n_points) at 'STRESSES'; a field without any is refused."""
+    return components_of(zone, field, family_of(zone).stress_names(zone))
 
 
 def _named(zone: Zone, answer: Answer, wanted: str) -> CellFieldBlock:
@@ -54,22 +50,18 @@ class _Step:
     def increment(self, zone: Zone) -> FloatArray:
         """Step of strain."""
         names = family_of(zone).strain_names(zone)
-        seen = zone_field(zone, self.end)
-        if not any(n in seen for n in names):
-            raise FieldError(
-                "operators.statics.second-field-has-no-strain",
-                names=names,
-                element=zone.element,
-                seen=seen.names,
-            )
-        return seen.matrix(names, "STRESSES") - _strains_of(zone, self.start)
+        return components_of(zone, self.end, names) - self._begun(zone, names)
+
+    def _begun(self, zone: Zone, names: tuple[str, ...]) -> FloatArray:
+        """Components of the start, zero where it has none: a start may be unloaded."""
+        return zone_field(zone, self.start).matrix(names, "STRESSES")
 
     def answer(self, zone: Zone, more: FloatArray | float = 0.0) -> Answer:
         """The law over the step, with another step of strain added."""
         return respond(
             zone,
             self.material(zone),
-            _stresses_of(zone, self.start),
+            self._begun(zone, family_of(zone).stress_names(zone)),
             zone_field(zone, self.start),
             self.increment(zone) + more,
         )
@@ -138,7 +130,7 @@ def _flow(
             parameters,
             _stresses_of(zone, stress),
             zone_field(zone, variables),
-            _strains_of(zone, strain),
+            components_of(zone, strain, family_of(zone).strain_names(zone)),
         )
         for title, blocks in found.items():
             blocks.append(_named(zone, answer, title))

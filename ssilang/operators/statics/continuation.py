@@ -117,8 +117,8 @@ def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)
 
 
-@operator("ZCON", arg("table", "TABLE", en="table of CONTINU"), family="modal")
-def zcon(call: Call, table: Table) -> None:
+@operator("ZCON", family="modal")
+def zcon(call: Call, table: Table = Arg("TABLE", en="table of CONTINU")) -> None:
     """Harmonic balance where 'HBM' says so, else loads on a structure."""
 
     entries = Entries(call, table, "CONTINU")

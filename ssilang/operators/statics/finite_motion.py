@@ -48,21 +48,16 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
     return any(n in seen for n in names)
 
 
-@operator(
-    "POLA",
-    MODEL,
-    many("fields", "MCHAML", at_least=1, en="gradients"),
-    choice(
-        "what",
+@operator("POLA", family="stress", full_name="POLAIRE")
+def pola(
+    call: Call,
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="gradients"),
+    what: str = Choice(
         ("GEOM", "DEPL"),
         default="GEOM",
         en="what the field is: F (default), or F - 1 as GRAD gives it",
     ),
-    family="stress",
-    full_name="POLAIRE",
-)
-def pola(
-    call: Call, model: Model, fields: tuple[CellField, ...], what: str
 ) -> tuple[CellField, CellField]:
     """Rotation and stretch."""
     gradient, by_displacement = joined(fields), what == "DEPL"
@@ -122,8 +117,10 @@ _STRESS_AND_GRADIENT = many(
 )
 
 
-@operator("WORK", MODEL, _STRESS_AND_GRADIENT, family="stress")
-def work_of(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
+@operator("WORK", family="stress")
+def work_of(
+    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
+) -> CellField:
     """Work of stresses on gradients."""
     zones = present(call, model)
     stress, gradient = _stress_and_gradient(call, zones, fields)
@@ -152,8 +149,10 @@ def _stress_and_gradient(
     return stress, gradient
 
 
-@operator("FOFI", MODEL, _STRESS_AND_GRADIENT, family="stress", full_name="FOFISS")
-def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
+@operator("FOFI", family="stress", full_name="FOFISS")
+def fofi(
+    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
+) -> NodeField:
     """Forces of stresses on gradients."""
     zones = present(call, model)
     stress, gradient = _stress_and_gradient(call, zones, fields)
@@ -169,8 +168,8 @@ def fofi(call: Call, model: Model, fields: tuple[CellField, ...]) -> NodeField:
     return total(forces[0].table, forces)
 
 
-@operator("TAGR", arg("gradient", "MCHAML", en="gradients"), family="stress")
-def tagr(call: Call, gradient: CellField) -> CellField:
+@operator("TAGR", family="stress")
+def tagr(call: Call, gradient: CellField = Arg("MCHAML", en="gradients")) -> CellField:
     """Transpose gradients."""
     blocks = []
     for block in gradient.blocks:

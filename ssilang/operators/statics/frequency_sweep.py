@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 
-@operator("ZFRE", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
-def zfre(call: Call, table: Table) -> None:
+@operator("ZFRE", family="statics")
+def zfre(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
     from ssilang.kernel.statics.frequency import sweep
 

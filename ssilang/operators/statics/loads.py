@@ -50,32 +50,32 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
     return _shared(call, values, place)
 
 
-@operator(
-    "FORC", arg("vector", "POINT", en="force", unit="N"), _PLACE, family="load", full_name="FORCE"
-)
-def forc(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
+@operator("FORC", family="load", full_name="FORCE")
+def forc(
+    call: Call, vector: Point = Arg("POINT", en="force", unit="N"), place: Mesh | Point = _PLACE
+) -> NodeField:
     """A force by its vector."""
     return _by_vector(call, vector, NODE_TRANSLATIONS[workspace(call.session).mode], place)
 
 
-@forc.form(
-    key(
-        "values",
+@forc.form()
+def named_forces(
+    call: Call,
+    values: list[tuple[str, float]] = Key(
         FORCES,
         arg("value", "FLOTTANT", unit="N", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
     ),
-    _PLACE,
-)
-def named_forces(call: Call, values: list[tuple[str, float]], place: Mesh | Point) -> NodeField:
+    place: Mesh | Point = _PLACE,
+) -> NodeField:
     """A force by its components."""
     return _shared(call, dict(values), place)
 
 
-@forc.form(arg("table", "TABLE", en="table LIAISONS_STATIQUES"))
-def unit_forces(call: Call, table: Table) -> None:
+@forc.form()
+def unit_forces(call: Call, table: Table = Arg("TABLE", en="table LIAISONS_STATIQUES")) -> None:
     """FORCE in each entry of a table LIAISONS_STATIQUES: one, at its point."""
     nodes = workspace(call.session).nodes
     links = static_links(table)
@@ -88,14 +88,12 @@ def unit_forces(call: Call, table: Table) -> None:
         raise call.error("operators.statics.no-numbered-entry", table)
 
 
-@operator(
-    "MOME",
-    arg("vector", "POINT", en="moment, in space", unit="N m"),
-    _PLACE,
-    family="load",
-    full_name="MOMENT",
-)
-def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
+@operator("MOME", family="load", full_name="MOMENT")
+def mome(
+    call: Call,
+    vector: Point = Arg("POINT", en="moment, in space", unit="N m"),
+    place: Mesh | Point = _PLACE,
+) -> NodeField:
     """A moment by its vector."""
     mode = workspace(call.session).mode
     if mode is not Mode.THREE_DIMENSIONAL:
@@ -103,18 +101,18 @@ def mome(call: Call, vector: Point, place: Mesh | Point) -> NodeField:
     return _by_vector(call, vector, NODE_ROTATIONS[mode], place)
 
 
-@mome.form(
-    key(
-        "values",
+@mome.form()
+def named_moments(
+    call: Call,
+    values: list[tuple[str, float]] = Key(
         MOMENTS,
         arg("value", "FLOTTANT", unit="N m", range=ANY_NUMBER),
         optional=False,
         repeated=True,
         en="components",
     ),
-    _PLACE,
-)
-def named_moments(call: Call, values: list[tuple[str, float]], place: Mesh | Point) -> NodeField:
+    place: Mesh | Point = _PLACE,
+) -> NodeField:
     """A moment by its components."""
     return _shared(call, dict(values), place)
 
@@ -171,44 +169,39 @@ def _on_faces(
     return pressure(model, faces, value)
 
 
-@pres.form(
-    said("COQU"),
-    MODEL,
-    _PRESSURE,
-    flag("normal", "NORM", en="along the normal"),
-    opt("along", "POINT", en="vector on the side it pushes to"),
-    key("towards", "POIN", arg("point", "POINT"), en="point on the side it pushes to"),
-    _OF_SHELLS,
-)
+@pres.form(said("COQU"))
 def shell_pressure(
     call: Call,
-    model: Model,
-    value: NodeField | CellField | float,
-    normal: bool,
-    along: Point | None,
-    towards: Point | None,
-    fields: tuple[CellField, ...],
+    model: Model = MODEL,
+    value: NodeField | CellField | float = _PRESSURE,
+    normal: bool = Flag("NORM", en="along the normal"),
+    along: Point | None = Opt("POINT", en="vector on the side it pushes to"),
+    towards: Point | None = Key("POIN", arg("point", "POINT"), en="point on the side it pushes to"),
+    fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Pressure on shells."""
     aim, point = (None if p is None or normal else p.coordinates for p in (along, towards))
     return shell_load(model, value, aim, point)
 
 
-@pres.form(
-    said("SHB8"),
-    MODEL,
-    _PRESSURE,
-    choice("side", ("INTE", "EXTE"), en="face of the first four nodes, or of the last four"),
-)
+@pres.form(said("SHB8"))
 def brick_pressure(
-    call: Call, model: Model, value: NodeField | CellField | float, side: str | None
+    call: Call,
+    model: Model = MODEL,
+    value: NodeField | CellField | float = _PRESSURE,
+    side: str | None = Choice(
+        ("INTE", "EXTE"), en="face of the first four nodes, or of the last four"
+    ),
 ) -> NodeField:
     """Pressure on shells of bricks."""
     return _on_faces(call, model, value, _brick_faces(call, model, side))
 
 
-@pres.form(said("TUYA"), MODEL, many("material", "MCHAML", at_least=1, en="parameters"))
-def pressure_in_pipes(model: Model, material: tuple[CellField, ...]) -> NodeField:
+@pres.form(said("TUYA"))
+def pressure_in_pipes(
+    model: Model = MODEL,
+    material: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="parameters"),
+) -> NodeField:
     """Pressure on the closed ends of pipes."""
     return pipe_pressure(model, joined(material))
 
@@ -266,22 +259,14 @@ def _values(density: NodeField | Point) -> NodeField | FloatArray:
     return density if isinstance(density, NodeField) else density.coordinates
 
 
-@operator(
-    "FSUR",
-    MODEL,
-    choice("kind", ("MASS", "TUYA"), en="on sides of continuous elements, the default"),
-    _DENSITY,
-    _FACES,
-    _THICKNESS,
-    family="load",
-)
+@operator("FSUR", family="load")
 def fsur(
     call: Call,
-    model: Model,
-    kind: str | None,
-    density: NodeField | Point,
-    faces: Mesh | None,
-    fields: tuple[CellField, ...],
+    model: Model = MODEL,
+    kind: str | None = Choice(("MASS", "TUYA"), en="on sides of continuous elements, the default"),
+    density: NodeField | Point = _DENSITY,
+    faces: Mesh | None = _FACES,
+    fields: tuple[CellField, ...] = _THICKNESS,
 ) -> NodeField:
     """Forces on sides of continuous elements."""
     if faces is None:
@@ -291,34 +276,34 @@ def fsur(
     return traction(model, faces, _values(density), joined(fields) if fields else None)
 
 
-@fsur.form(said("COQU"), MODEL, _DENSITY, _OF_SHELLS)
+@fsur.form(said("COQU"))
 def shell_forces(
-    model: Model, density: NodeField | Point, fields: tuple[CellField, ...]
+    model: Model = MODEL,
+    density: NodeField | Point = _DENSITY,
+    fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Forces on shells."""
     return shell_load(model, _values(density))
 
 
-@fsur.form(
-    said("POUT"),
-    MODEL,
-    _DENSITY,
-    key("normal", "PROJ", arg("normal", "POINT"), en="vector normal to the plane of projection"),
-)
-def line_forces(model: Model, density: NodeField | Point, normal: Point | None) -> NodeField:
+@fsur.form(said("POUT"))
+def line_forces(
+    model: Model = MODEL,
+    density: NodeField | Point = _DENSITY,
+    normal: Point | None = Key(
+        "PROJ", arg("normal", "POINT"), en="vector normal to the plane of projection"
+    ),
+) -> NodeField:
     """Forces along beams and bars."""
     return line_load(model, _values(density), None if normal is None else normal.coordinates)
 
 
-@operator(
-    "CNEQ",
-    MODEL,
-    arg("force", "CHPOINT", "MCHAML", en="force per volume", unit="N/m3"),
-    _THICKNESS,
-    family="load",
-)
+@operator("CNEQ", family="load")
 def cneq(
-    call: Call, model: Model, force: NodeField | CellField, fields: tuple[CellField, ...]
+    call: Call,
+    model: Model = MODEL,
+    force: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="force per volume", unit="N/m3"),
+    fields: tuple[CellField, ...] = _THICKNESS,
 ) -> NodeField:
     """Volume forces."""
     if isinstance(force, NodeField):

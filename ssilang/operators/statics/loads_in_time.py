@@ -188,16 +188,13 @@ _LOAD = arg("load", "CHARGEME", en="loading")
 _TIME = arg("time", "FLOTTANT", en="time", unit="s", range=ANY_NUMBER)
 
 
-@operator(
-    "TIRE",
-    _LOAD,
-    _TIME,
-    opt("name", "MOT", en="name of the parts, all without it"),
-    family="loads",
-    full_name="TIRER",
-    gives="|".join(_HELD),
-)
-def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
+@operator("TIRE", family="loads", full_name="TIRER", gives="|".join(_HELD))
+def tire(
+    call: Call,
+    load: Load = _LOAD,
+    time: float = _TIME,
+    name: str | None = Opt("MOT", en="name of the parts, all without it"),
+) -> Any:
     """Evaluate a loading."""
     parts = load.parts if name is None else _named(call, load, [name])
     values = [part_at(p, time) for p in parts]
@@ -212,8 +209,8 @@ def tire(call: Call, load: Load, time: float, name: str | None) -> Any:
     return total
 
 
-@tire.form(said("TABL"), _LOAD, _TIME)
-def tire_by_names(load: Load, time: float) -> Table:
+@tire.form(said("TABL"))
+def tire_by_names(load: Load = _LOAD, time: float = _TIME) -> Table:
     """A table of the parts by their names."""
     made = Table()
     for part in load.parts:
@@ -297,20 +294,22 @@ def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     return part.time
 
 
-@EXTR.form(
-    _MAIN,
-    _PART,
-    flag("tables", "TABL", en="as times and fields"),
-    gives=by("tables", {True: ("TABLE", "TABLE")}, "CHARGEME"),
-)
-def extr_named(call: Call, load: Load, name: str, tables: bool) -> Load | tuple[Table, Table]:
+@EXTR.form(gives=by("tables", {True: ("TABLE", "TABLE")}, "CHARGEME"))
+def extr_named(
+    call: Call,
+    load: Load = _MAIN,
+    name: str = _PART,
+    tables: bool = Flag("TABL", en="as times and fields"),
+) -> Load | tuple[Table, Table]:
     """The parts of a name, or the first of them as two tables."""
     parts = _named(call, load, [name])
     return _tables(parts[0]) if tables else Load(parts)
 
 
-@EXTR.form(_MAIN, arg("names", "LISTMOTS", en="names of parts"))
-def extr_names(call: Call, load: Load, names: ListMots) -> Load:
+@EXTR.form()
+def extr_names(
+    call: Call, load: Load = _MAIN, names: ListMots = Arg("LISTMOTS", en="names of parts")
+) -> Load:
     """The parts of some names."""
     return Load(_named(call, load, [str(w) for w in names.values]))
 
@@ -331,8 +330,8 @@ def _tables(part: LoadPart) -> tuple[Table, Table]:
     return times_table, fields_table
 
 
-@CHAN.form(said("TABL"), _LOAD, _PART, of=("CHARGEME",))
-def in_steps(call: Call, load: Load, name: str) -> Load:
+@CHAN.form(said("TABL"), of=("CHARGEME",))
+def in_steps(call: Call, load: Load = _LOAD, name: str = _PART) -> Load:
     """Parts of a name as fields at listed times."""
     chosen = _named(call, load, [name])
     times = sorted({t for p in chosen for t in _times(p)})
@@ -355,14 +354,14 @@ def _times(part: LoadPart) -> list[float]:
     return [] if curve is None else [float(t) for t in curve.parts[0].abscissas]
 
 
-@DIME.form(_MAIN)
-def count_parts(load: Load) -> int:
+@DIME.form()
+def count_parts(load: Load = _MAIN) -> int:
     """Number of parts."""
     return len(load.parts)
 
 
-@ENLE.form(_MAIN, _PART)
-def without_parts(call: Call, load: Load, name: str) -> Load:
+@ENLE.form()
+def without_parts(call: Call, load: Load = _MAIN, name: str = _PART) -> Load:
     """A loading without the parts of a name."""
     gone = _named(call, load, [name])
     return Load(tuple(p for p in load.parts if p not in gone))

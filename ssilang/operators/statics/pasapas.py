@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices
@@ -70,8 +71,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Observer
 
 
-@operator("ZPAS", arg("table", "TABLE", en="table of PASAPAS"), family="statics")
-def zpas(call: Call, table: Table) -> None:
+@operator("ZPAS", family="statics")
+def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Read the table, step through the times, fill the tables of results."""
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
@@ -364,6 +365,8 @@ def _inputs(
     free = tuple(z for z in bodies if not is_joint(z))
     check_strains(forces, free, bool(finite_zones(entries)))
     load, thermal = split_strains(forces, solids)
+    if material is not None and forces and any(p.name.strip() == "T" for p in forces.parts):
+        refuse_expanding([z for z in bodies if is_joint(z)], material)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")

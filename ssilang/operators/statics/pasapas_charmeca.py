@@ -77,7 +77,7 @@ def _moved(field: NodeField, moves: bool) -> Iterator[None]:
         return
     nodes = field.table
     kept = nodes.coordinates.copy()
-    nodes.coordinates[:] += displacements(nodes, field)
+    nodes.coordinates[:] += displacements(field)
     try:
         yield
     finally:

@@ -305,24 +305,15 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     return path, trace
 
 
-@operator(
-    "ZPIL",
-    arg("table", "TABLE", en="table of PILOINDI"),
-    arg("start", "CHPOINT", en="displacement", unit="m"),
-    arg("du", "CHPOINT", en="step so far", unit="m"),
-    arg("rest", "CHPOINT", en="step by the residual", unit="m"),
-    arg("unit", "CHPOINT", en="step by the load", unit="m"),
-    arg("asked", "FLOTTANT", en="strain asked for", range=ANY_NUMBER),
-    family="statics",
-)
+@operator("ZPIL", family="statics")
 def zpil(
     call: Call,
-    table: Table,
-    start: NodeField,
-    du: NodeField,
-    rest: NodeField,
-    unit: NodeField,
-    asked: float,
+    table: Table = Arg("TABLE", en="table of PILOINDI"),
+    start: NodeField = Arg("CHPOINT", en="displacement", unit="m"),
+    du: NodeField = Arg("CHPOINT", en="step so far", unit="m"),
+    rest: NodeField = Arg("CHPOINT", en="step by the residual", unit="m"),
+    unit: NodeField = Arg("CHPOINT", en="step by the load", unit="m"),
+    asked: float = Arg("FLOTTANT", en="strain asked for", range=ANY_NUMBER),
 ) -> float:
     """Of the parameters that fulfil the equation, the one nearest zero."""
     entries = Entries(call, table, "PILOINDI")

@@ -162,14 +162,14 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     return total(forces[0].table, forces)
 
 
-@operator(
-    "ELAS",
-    MODEL,
-    many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters"),
-    family="stress",
-    full_name="ELASTICITE",
-)
-def elas(call: Call, model: Model, fields: tuple[CellField, ...]) -> CellField:
+@operator("ELAS", family="stress", full_name="ELASTICITE")
+def elas(
+    call: Call,
+    model: Model = MODEL,
+    fields: tuple[CellField, ...] = Many(
+        "MCHAML", at_least=1, en="stresses or strains, and parameters"
+    ),
+) -> CellField:
     """Hooke's law, either way."""
     zones = present(call, model)
     state = next((f for f in fields if _state(zones, f)), None)
@@ -204,8 +204,8 @@ def _state(model: Model, field: CellField) -> str:
     return ""
 
 
-@operator("EPTH", MODEL, _THERMAL, family="stress")
-def epth(call: Call, model: Model, fields: Fields) -> CellField:
+@operator("EPTH", family="stress")
+def epth(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal strains."""
     material, field = _thermal(call, fields)
     zones = present(call, model)
@@ -226,8 +226,8 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
     return cell_block(zone, families.family_of(zone).strain_names(zone), values)
 
 
-@operator("THET", MODEL, _THERMAL, family="stress", full_name="THETA")
-def thet(call: Call, model: Model, fields: Fields) -> CellField:
+@operator("THET", family="stress", full_name="THETA")
+def thet(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal stresses."""
     material, field = _thermal(call, fields)
     zones = present(call, model)

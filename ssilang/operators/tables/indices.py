@@ -14,32 +14,33 @@ from ssilang.operators.prelude import *
 TABL = shared("TABL", "tables", full_name="TABLE")
 
 
-@TABL.form(arg("table", "TABLE", en="table that gets a further name"))
-def _same(table: Table) -> Table:
+@TABL.form()
+def _same(table: Table = Arg("TABLE", en="table that gets a further name")) -> Table:
     return table
 
 
-@TABL.form(opt("subtype", "MOT", default="", en="sub-type"))
-def _new(subtype: str) -> Table:
+@TABL.form()
+def _new(subtype: str = Opt("MOT", default="", en="sub-type")) -> Table:
     return Table(str(subtype))
 
 
 INDE = shared("INDE", "tables", full_name="INDEX")
 
 
-@INDE.form(arg("table", "TABLE", en="table whose indices are wanted"))
-def _indices(table: Table) -> Table:
+@INDE.form()
+def _indices(table: Table = Arg("TABLE", en="table whose indices are wanted")) -> Table:
     made = Table()
     for place, (index, _) in enumerate(table.items(), start=1):
         made.set(place, index)
     return made
 
 
-@INDE.form(
-    flag("star", "*", en="stands before a type word"),
-    arg("said", "MOT", en="type word"),
-)
-def _named(call: Call, star: bool, said: str) -> Table:
+@INDE.form()
+def _named(
+    call: Call,
+    star: bool = Flag("*", en="stands before a type word"),
+    said: str = Arg("MOT", en="type word"),
+) -> Table:
     kind = str(said).strip().lstrip("*").upper()[:8]
     if kind not in known_types():
         raise call.error(
@@ -53,13 +54,17 @@ def _named(call: Call, star: bool, said: str) -> Table:
     return made
 
 
-@DIME.form(main("table", "TABLE", en="table"))
-def _table_size(table: Table) -> int:
+@DIME.form()
+def _table_size(table: Table = Main("TABLE", en="table")) -> int:
     return len(table)
 
 
-@ENLE.form(main("table", "TABLE", en="table"), arg("index", "*", "TEXTE", en="index to leave out"))
-def _without(call: Call, table: Table, index: Any) -> Table:
+@ENLE.form()
+def _without(
+    call: Call,
+    table: Table = Main("TABLE", en="table"),
+    index: Any = Arg("*", "TEXTE", en="index to leave out"),
+) -> Table:
     if not table.has(index):
         raise call.error("no-index", index=index, known=[k for k, _ in table.items()])
     made = copied(table)
@@ -75,8 +80,8 @@ def copied(table: Table) -> Table:
     return made
 
 
-@COPI.form(main("table", "TABLE", en="table"))
-def _copy_table(table: Table) -> Table:
+@COPI.form()
+def _copy_table(table: Table = Main("TABLE", en="table")) -> Table:
     return copied(table)
 
 
@@ -112,18 +117,18 @@ for _kind in ("ENTIER", "FLOTTANT"):
     rule("*", _kind, "TABLE")(lambda sign, factor, table: _scale_vector(sign, table, factor))
 
 
-@operator(
-    "OTER", arg("table", "TABLE", en="table"), arg("index", en="index to remove"), family="tables"
-)
-def oter(call: Call, table: Table, index: Any) -> None:
+@operator("OTER", family="tables")
+def oter(
+    call: Call, table: Table = Arg("TABLE", en="table"), index: Any = Arg(en="index to remove")
+) -> None:
     """Forget an index."""
     if not table.has(index):
         raise call.error("no-index", index, index=index, known=[k for k, _ in table.items()])
     table.remove(index)
 
 
-@operator("ETG", arg("table", "TABLE", en="objects at 1, 2 ..."), gives=ANY, family="objects")
-def etg(call: Call, table: Table) -> Any:
+@operator("ETG", gives=ANY, family="objects")
+def etg(call: Call, table: Table = Arg("TABLE", en="objects at 1, 2 ...")) -> Any:
     """Union of a table's objects."""
     if table.subtype != "ESCLAVE":
         raise call.error("operators.tables.wrong-subtype", table, subtype=table.subtype)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.language.registry import named
 from ssilang.language.text.printer import print_items
 from ssilang.language.values import ANNULE, Objet, Texte, known_types
 from ssilang.messages.message import Teller
@@ -293,17 +292,18 @@ def _all_names(session: Session, kind: str) -> str:
 LIST = shared("LIST", "output", full_name="LISTE", terminal=True)
 
 
-@LIST.form(lead("value", "TEXTE", en="a text, as it stands"))
-def _list_text(session: Session, value: Texte) -> None:
+@LIST.form()
+def _list_text(session: Session, value: Texte = Lead("TEXTE", en="a text, as it stands")) -> None:
     """A text is shown, not put in its place."""
     session.print(described(value, session.told))
 
 
-@LIST.form(
-    key("star", "*", optional=False, en="all objects of a type"),
-    named("kind", en="type word"),
-)
-def _list_names(call: Call, star: bool, kind: str) -> None:
+@LIST.form()
+def _list_names(
+    call: Call,
+    star: bool = Key("*", optional=False, en="all objects of a type"),
+    kind: str = Name(en="type word"),
+) -> None:
     wanted = kind[:8]
     if wanted not in known_types():
         raise call.error(
@@ -312,22 +312,20 @@ def _list_names(call: Call, star: bool, kind: str) -> None:
     call.session.print(_all_names(call.session, wanted))
 
 
-@LIST.form(
-    flag("brief", "RESU", en="less of it"),
-    arg("value", "*", "TEXTE", en="what is printed"),
-    many(
-        "numbers",
-        "ENTIER",
-        en="values in a line, depth of tables, or first and last line",
-        range=CARRIED,
+@LIST.form()
+def _list_object(
+    session: Session,
+    brief: bool = Flag("RESU", en="less of it"),
+    value: Any = Arg("*", "TEXTE", en="what is printed"),
+    numbers: tuple[int, ...] = Many(
+        "ENTIER", en="values in a line, depth of tables, or first and last line", range=CARRIED
     ),
-)
-def _list_object(session: Session, brief: bool, value: Any, numbers: tuple[int, ...]) -> None:
+) -> None:
     session.print(described(value, session.told, brief, numbers))
 
 
-@LIST.form(lead("value", "*", "TEXTE", en="what is printed"))
-def _list_word(session: Session, value: Any) -> None:
+@LIST.form()
+def _list_word(session: Session, value: Any = Lead("*", "TEXTE", en="what is printed")) -> None:
     """A word that is spelt like the keyword, alone."""
     session.print(described(value, session.told))
 

@@ -64,10 +64,11 @@ def _flat(values: Sequence[Any]) -> str:
 ERRE = shared("ERRE", "output", full_name="ERREUR")
 
 
-@ERRE.form(
-    arg("number", "ENTIER", en="number of the message", range=ANY_NUMBER),
-    key(
-        "values",
+@ERRE.form()
+def _numbered(
+    call: Call,
+    number: int = Arg("ENTIER", en="number of the message", range=ANY_NUMBER),
+    values: tuple[Any, ...] = Key(
         "AVEC",
         many(
             "values",
@@ -83,8 +84,7 @@ ERRE = shared("ERRE", "output", full_name="ERREUR")
         default=(),
         en="what completes the message",
     ),
-)
-def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
+) -> None:
     if number == 0:
         return
     said = _flat(values)
@@ -95,10 +95,11 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
     raise SsiError("erre", call.span, message=Sentence(code, said=said), number=number)
 
 
-@ERRE.form(
-    arg("text", "MOT", en="what is wrong"),
-    many(
-        "values",
+@ERRE.form()
+def _worded(
+    call: Call,
+    text: str = Arg("MOT", en="what is wrong"),
+    values: tuple[Any, ...] = Many(
         "MOT",
         "ENTIER",
         "FLOTTANT",
@@ -106,21 +107,19 @@ def _numbered(call: Call, number: int, values: tuple[Any, ...]) -> None:
         en="what completes a sentence of the library",
         range=CARRIED,
     ),
-)
-def _worded(call: Call, text: str, values: tuple[Any, ...]) -> None:
+) -> None:
     if text.startswith(_OF_LIBRARY):
         _tell(call, str(text), values)
         return
     raise SsiError("erre", call.span, message=str(text), number=_STOPPED)
 
 
-@operator(
-    "SAUT",
-    opt("count", "ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
-    choice("what", ("LIGN", "PAGE"), en="lines, or a page"),
-    family="output",
-)
-def saut(call: Call, count: int, what: str | None) -> None:
+@operator("SAUT", family="output")
+def saut(
+    call: Call,
+    count: int = Opt("ENTIER", default=1, en="number of lines", range=between(0, _BLANK_LINES)),
+    what: str | None = Choice(("LIGN", "PAGE"), en="lines, or a page"),
+) -> None:
     """Print blank lines."""
     for _ in range(1 if what == "PAGE" else count):
         call.session.print("")

@@ -139,42 +139,38 @@ def chai(call: Call) -> Mot:
     return Mot(read_text(call))
 
 
-@operator(
-    "MOT",
-    arg("text", "PROCEDUR", "MOT", en="a word, bare or quoted"),
-    gives="MOT|PROCEDUR",
-    family="words",
-    terminal=True,
-)
-def mot(text: Mot | Procedure) -> Any:
+@operator("MOT", gives="MOT|PROCEDUR", family="words", terminal=True)
+def mot(text: Mot | Procedure = Arg("PROCEDUR", "MOT", en="a word, bare or quoted")) -> Any:
     """Give a word back; a bare name of a procedure stays a procedure."""
     return text
 
 
-@CHAN.form(
-    said("MAJU", "MINU"), arg("text", "MOT", "LISTMOTS", en="words to change"), gives=Like("text")
-)
-def _case(word: str, text: Mot | ListMots) -> Mot | ListMots:
+@CHAN.form(said("MAJU", "MINU"), gives=Like("text"))
+def _case(
+    word: str, text: Mot | ListMots = Arg("MOT", "LISTMOTS", en="words to change")
+) -> Mot | ListMots:
     change = str.upper if word == "MAJU" else str.lower
     if isinstance(text, ListMots):
         return ListMots([change(v) for v in text.values])
     return Mot(change(str(text)))
 
 
-@EXTR.form(
-    main("text", "MOT", en="word"),
-    arg("places", "LISTENTI", en="places of its characters", range=POSITIVE),
-)
-def _letters(call: Call, text: str, places: ListEnti) -> Mot:
+@EXTR.form()
+def _letters(
+    call: Call,
+    text: str = Main("MOT", en="word"),
+    places: ListEnti = Arg("LISTENTI", en="places of its characters", range=POSITIVE),
+) -> Mot:
     return Mot("".join(_letter(call, text, int(i)) for i in places.values))
 
 
-@EXTR.form(
-    main("text", "MOT", en="word"),
-    arg("first", "ENTIER", en="first character", range=POSITIVE),
-    opt("last", "ENTIER", en="last character, the end by default", range=POSITIVE),
-)
-def _extract_word(call: Call, text: str, first: int, last: int | None) -> Mot:
+@EXTR.form()
+def _extract_word(
+    call: Call,
+    text: str = Main("MOT", en="word"),
+    first: int = Arg("ENTIER", en="first character", range=POSITIVE),
+    last: int | None = Opt("ENTIER", en="last character, the end by default", range=POSITIVE),
+) -> Mot:
     end = len(text) if last is None else last
     if not 1 <= first <= max(len(text), 1) or not first <= end <= len(text):
         raise call.error(
@@ -194,8 +190,8 @@ def _letter(call: Call, word: str, i: int) -> str:
     return word[i - 1]
 
 
-@EXTR.form(main("kind", "MOT", en="type word"))
-def _named(call: Call, kind: str) -> Table:
+@EXTR.form()
+def _named(call: Call, kind: str = Main("MOT", en="type word")) -> Table:
     wanted = kind.strip().lstrip("*").upper()
     if wanted not in known_types():
         raise call.error(
@@ -209,8 +205,8 @@ def _named(call: Call, kind: str) -> Table:
     return found
 
 
-@DIME.form(main("text", "MOT", en="word"))
-def _length(text: str) -> int:
+@DIME.form()
+def _length(text: str = Main("MOT", en="word")) -> int:
     return len(text)
 
 

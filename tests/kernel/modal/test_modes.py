@@ -72,6 +72,15 @@ def test_multiplier_of_a_mode_is_the_reaction_at_the_support():
     np.testing.assert_allclose(multiplier, 3.0 * mode.shape.values_at("UX", np.array([1])))
 
 
+def test_terms_that_cancel_leave_a_low_frequency_its_value():
+    n, soft = 700, 1e-14
+    table, K, M = chain(n)
+    ground = replace(M.blocks[0], values=np.full((n, 1, 1), soft))
+    mode = modes_near(Matrix(table, (*K.blocks, ground)), M, [(1e-4, 1)])[0]
+    # 2 + 1E-14 is rounded by up to 2E-16, so the springs by 2 % of the soft ones
+    assert eigenvalue(mode.frequency) == pytest.approx(soft, rel=0.05, abs=0.0)
+
+
 @pytest.mark.parametrize("n", [8, 700])
 def test_free_chain_has_its_rigid_motion_first(n):
     _, K, M = chain(n, 3.0, 0.5)

@@ -19,6 +19,11 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 
 THIN_SHELLS = ("plate", "meridian", "mindlin")
+JOINT_RATES = {
+    "DRN": ("ALPN",), "EXX": ("ALPN",), "GXY": ("ALPS", "ALP1"), "GXZ": ("ALP2",),
+    "CXX": ("ALQN",), "CXY": ("ALQ1",), "CXZ": ("ALQS", "ALQ2"),
+}  # fmt: skip
+"""Jumps of a joint that temperature makes, and their coefficients (m/K, 1/K), in 2D and 3D."""
 SKINS = ("TINF", "TSUP")
 """Temperatures of a shell's lower and upper skin, beside that of its middle, T."""
 
@@ -42,14 +47,36 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
     return found
 
 
+def refuse_expanding(joints: list[Zone], material: CellField) -> None:
+    """Refuse joints that expand where temperatures load a model in time.
+
+    Raises
+    ------
+    MaterialError
+        If one has a coefficient of expansion: laws of joints take no free jumps.
+    """
+    for seen in (zone_field(z, material) for z in joints):
+        for name in {n for rates in JOINT_RATES.values() for n in rates if n in seen}:
+            if np.any(seen.at(name, "STRESSES")):
+                raise MaterialError("kernel.elements.joints-expand-in-time", name=name)
+
+
 def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField) -> FloatArray:
     """Strains ALPH (T - TALP), (n_cells, n_strains, n_points); zero where ALPH is not given.
 
     Orthotropic elements expand by ALP1 ALP2 (ALP3) along their axes. Shells take TINF T TSUP, the
-    temperatures of the lower skin, the middle and the upper skin, or T alone.
+    temperatures of the lower skin, the middle and the upper skin, or T alone. Joints open by ALPN
+    and slide and turn by its kin, of temperatures at their own points.
+
+    Raises
+    ------
+    FieldError
+        If the temperatures of a joint stand at nodes, of which it has two at one place.
     """
     family = family_of(zone)
     parameters = zone_field(zone, material)
+    if ELEMENTS[zone.element].family == "joint" and isinstance(field, NodeField):
+        raise FieldError("kernel.elements.temperature-joints-cells", element=zone.element)
     rise = temperature(zone, field) - parameters.at("TALP", "STRESSES", 0.0)
     names = family.strain_names(zone)
     values = np.zeros((len(zone.cells), len(names), rise.shape[1]))
@@ -64,7 +91,10 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
             raise MaterialError("kernel.elements.thermal-expansion-sections-fibres")
         return values
     if kind == "joint":
-        raise MaterialError("kernel.elements.thermal-expansion-joints-not")
+        for i, name in enumerate(names):
+            rates = JOINT_RATES.get(name, ())
+            values[:, i] = sum(parameters.at(r, "STRESSES", 0.0) for r in rates) * rise
+        return values
     if kind in THIN_SHELLS:
         return _thin_shell(zone, parameters, field, names)
     if kind == "thick":

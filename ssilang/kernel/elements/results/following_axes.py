@@ -65,7 +65,7 @@ def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
     plain = Rotation.from_rotvec(mean)
     if zone.element != "JOI1":
         return plain.as_matrix()
-    starts = ends - displacements(zone.cells.nodes, motion)[nodes]
+    starts = ends - displacements(motion)[nodes]
     before, after = starts[:, 1] - starts[:, 0], ends[:, 1] - ends[:, 0]
     lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
     apart = lengths > 0.0

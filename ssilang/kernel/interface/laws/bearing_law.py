@@ -23,12 +23,18 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
+from ssilang.kernel.interface.laws.law import SLIPS, Law
+from ssilang.kernel.interface.laws.parameters import refuse
 
 TURNS = 60
 ENOUGH = 1e-15
@@ -204,3 +210,64 @@ def pendulum_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
         gap -= 0.5 * w[i] * w[i] / p[Par.RAYO]
         stored += 0.5 * p[Par.KS1] * (w[i] - state[Var.SLIP1 + i]) ** 2
     return stored + 0.5 * p[Par.KN] * gap * gap if gap < 0.0 else 0.0
+
+
+def check_lead_parameters(parameters: FloatArray) -> None:
+    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    columns = _bearing_columns(parameters)
+    refuse(columns["QD"] <= 0, columns["QD"], "QD", "> 0")
+    refuse(columns["KPOS"] < 0, columns["KPOS"], "KPOS", ">= 0")
+    refuse(columns["KPOS"] >= columns["KS1"], columns["KPOS"], "KPOS", "< KS")
+    refuse(columns["ETA"] < 1, columns["ETA"], "ETA", ">= 1")
+    refuse((columns["BETA"] < 0.5) | (columns["BETA"] > 1), columns["BETA"], "BETA", "0.5 ... 1")
+
+
+def check_pendulum_parameters(parameters: FloatArray) -> None:
+    """Refuse a friction pendulum without bowl or friction.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    columns = _bearing_columns(parameters)
+    refuse(columns["RAYO"] <= 0, columns["RAYO"], "RAYO", "> 0")
+    refuse(columns["FROT"] < 0, columns["FROT"], "FROT", ">= 0")
+
+
+def _bearing_columns(parameters: FloatArray) -> dict[str, FloatArray]:
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    columns = {p.name: parameters[:, p] for p in Par}
+    for name in ("KN", "KS1"):
+        refuse(columns[name] <= 0, columns[name], name, "> 0")
+    # KS2 is 0 in the plane, where there is no second direction
+    other = (columns["KS2"] != columns["KS1"]) & (columns["KS2"] != 0)
+    refuse(other, columns["KS2"], "KS2", "= KS1")
+    return columns
+
+
+LAWS = {
+    "APPUI_PLOMB": Law(
+        LawCode.LEAD,
+        ("KN", "KS", "QD", "KPOS"),
+        ("ETA", "BETA"),
+        check_lead_parameters,
+        variables={**SLIPS, "HYS1": (Var.HYSTERETIC1,), "HYS2": (Var.HYSTERETIC2,)},
+        two_points=True,
+    ),
+    "APPUI_PENDULE": Law(
+        LawCode.PENDULUM,
+        ("KN", "KS", "RAYO", "FROT"),
+        (),
+        check_pendulum_parameters,
+        variables=SLIPS,
+        two_points=True,
+    ),
+}

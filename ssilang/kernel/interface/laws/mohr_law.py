@@ -11,16 +11,22 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
     IN_CONTACT,
     IS_OPEN,
+    LawCode,
 )
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
+from ssilang.kernel.interface.laws.law import Law
+from ssilang.kernel.interface.laws.parameters import refuse
 
 ROUNDING = 1e-10
 """What of the cohesion a normal traction may pull beyond the strength: faces that slide at no
@@ -194,3 +200,47 @@ def _cumulate(state: FloatArray, new: FloatArray, n: int) -> None:
     for i in range(n):
         total += (new[Var.SLIP1 + i] - state[Var.SLIP1 + i]) ** 2
     new[Var.CUMULATED] = state[Var.CUMULATED] + math.sqrt(2.0 / 3.0 * total)
+
+
+def check_mohr_parameters(parameters: FloatArray) -> None:
+    """Refuse parameters of a Mohr-Coulomb joint that have no meaning.
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, or a shear stiffness, angle, cohesion or strength is negative, or the
+        hardening in compression is not below the elastic stiffness.
+    """
+    columns = {p.name: parameters[:, p] for p in Par}
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite-or-steep")
+    refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("KS1", "KS2", "TPHI", "TPSI", "COHE", "FTRC", "EF", "ECN", "FNE", "QT"):
+        refuse(columns[name] < 0, columns[name], name, ">= 0")
+    refuse((columns["FNE"] > 0) & (columns["QT"] >= columns["KN"]), columns["QT"], "QT", "< KN")
+
+
+_PLASTIC = {
+    "EPSE": (Var.CUMULATED,), "STAT": (Var.STATUS,), "EPOU": (Var.OPENING,),
+    "LAM1": (Var.DAMAGE,), "PLA1": (Var.SLIP1,), "PLA2": (Var.SLIP2,),
+    "PLA3": (Var.XI, Var.OPENING),
+}  # fmt: skip
+
+LAWS = {
+    "JOINT_DILATANT": Law(
+        LawCode.MOHR,
+        ("KN", "KS", "PHI", "MU"),
+        ("FTRC", "COHE"),
+        check_mohr_parameters,
+        angles={"PHI": ("TPHI",), "MU": ("TPSI",)},
+        variables=_PLASTIC,
+    ),
+    "COULOMB": Law(
+        LawCode.MOHR,
+        ("KN", "KS", "FRIC", "COHE"),
+        ("FTRC", "EF", "ECN", "FNE", "QT", "TYPE"),
+        check_mohr_parameters,
+        angles={"FRIC": ("TPHI", "TPSI")},
+        variables=_PLASTIC,
+    ),
+}

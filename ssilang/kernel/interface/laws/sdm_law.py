@@ -20,16 +20,22 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
     OPEN_SHEAR,
+    LawCode,
 )
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
+from ssilang.kernel.interface.laws.law import Law
+from ssilang.kernel.interface.laws.parameters import refuse
 
 
 @compiled
@@ -216,3 +222,57 @@ def _slide(
         if p[Par.KS1 + i] > 0.0:
             new[Var.SLIP1 + i] += (1.0 - ratio) * (w[i] - new[Var.SLIP1 + i])
         t[i] *= ratio
+
+
+def check_sdm_parameters(parameters: FloatArray) -> None:
+    """Refuse parameters for which the SDM law has no traction or several.
+
+    Parameters
+    ----------
+    parameters : array (n, N_PARAMETERS)
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, KS < 0, FU < 0, GF < 0, FC > 0, a perfectly brittle point (FU > 0 with
+        GF = 0), or KN <= FU^2 / GF: softening would be steeper than the elastic unloading, so
+        that one opening would have several tractions. The message names the least admissible KN
+        and the largest admissible FU.
+    """
+    columns = {p.name: parameters[:, p] for p in Par}
+    refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("KS1", "KS2", "FU", "GF"):
+        refuse(columns[name] < 0, columns[name], name, ">= 0")
+    refuse(columns["FC"] > 0, columns["FC"], "FC", "<= 0 (it is a compression)")
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    brittle = (columns["FU"] > 0) & (columns["GF"] == 0)
+    if brittle.any():
+        fu, kn = columns["FU"][brittle].max(), columns["KN"][brittle].min()
+        raise MaterialError("kernel.interface.joint-fu-gf-perfectly", fu=fu, fu_2=fu * fu / kn)
+    _check_snap_back(columns["KN"], columns["FU"], columns["GF"])
+
+
+def _check_snap_back(kn: FloatArray, fu: FloatArray, gf: FloatArray) -> None:
+    steep = (fu > 0) & (kn * gf <= fu * fu)
+    if steep.any():
+        at = int(np.flatnonzero(steep)[0])
+        least, largest = fu[at] ** 2 / gf[at], np.sqrt(kn[at] * gf[at])
+        raise MaterialError(
+            "kernel.interface.kn-must-exceed-fu", kn=kn[at], least=least, largest=largest
+        )
+
+
+LAWS = {
+    "JOINT_SDM": Law(
+        LawCode.SDM,
+        ("KN", "KS"),
+        ("FU", "GF", "FC", "FROT"),
+        check_sdm_parameters,
+        variables={
+            "SAUT": (Var.XI,),
+            "GLI1": (Var.SLIP1,),
+            "GLI2": (Var.SLIP2,),
+        },
+    ),
+}

@@ -46,10 +46,10 @@ class DissectedFactor:
         self.tree, self.panels = tree, factorise_panels(A, tree, most)
         self.room = np.empty(longest(self.panels))
 
-    def another(self, A: sp.csr_array, most: float = np.inf) -> DissectedFactor:
+    def another(self, A: sp.csr_array) -> DissectedFactor:
         """Factor of a matrix with the same unknowns and terms, in the same order."""
         made = DissectedFactor.__new__(DissectedFactor)
-        made._factorise(A, self.tree, most)
+        made._factorise(A, self.tree, np.inf)
         return made
 
     def solve(self, b: FloatArray) -> FloatArray:

@@ -21,8 +21,8 @@ _NODES = 8
 _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 
 
-@operator("ZCOL", arg("table", "TABLE", en="layers, motion and depths"), family="dynamics")
-def zcol(call: Call, table: Table) -> Table:
+@operator("ZCOL", family="dynamics")
+def zcol(call: Call, table: Table = Arg("TABLE", en="layers, motion and depths")) -> Table:
     """Read the table, compute, hand back curves."""
     from ssilang.kernel.records.soil_column import SoilColumn, free_field
 

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 _MOTION = ("DEPL", "VITE", "ACCE")
 
 
-@operator("ZDRM", arg("table", "TABLE", en="table of @DRM"), family="dynamics")
-def zdrm(call: Call, table: Table) -> Load:
+@operator("ZDRM", family="dynamics")
+def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
     """Forces at the layer."""
     from ssilang.kernel.waves.free_field_forces import elements_of, layer_forces, load_of
 
@@ -32,8 +32,8 @@ def zdrm(call: Call, table: Table) -> Load:
     return load_of(layer.numbering, motion.times, forces)
 
 
-@operator("ZBOR", arg("table", "TABLE", en="table of @BORDS"), family="dynamics")
-def zbor(call: Call, table: Table) -> Load:
+@operator("ZBOR", family="dynamics")
+def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     """Forces at the edges."""
     from ssilang.kernel.waves.free_field_forces import edge_forces, elements_at, load_of
 

@@ -27,8 +27,8 @@ _IMPOSSIBLE = 0.1
 """Part of it below which a speed is no wave's: km/s, most often, and calculations without end."""
 
 
-@operator("ZBAS", arg("table", "TABLE", en="table of @PASSAGE"), family="dynamics")
-def zbas(call: Call, table: Table) -> Table:
+@operator("ZBAS", family="dynamics")
+def zbas(call: Call, table: Table = Arg("TABLE", en="table of @PASSAGE")) -> Table:
     """Read the table, compute, hand back curves over the frequency and the base's record."""
     from ssilang.kernel.waves.incoherence import factors
 

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 DRIFT = 0.02
 
 
-@operator("ZOPL", arg("table", "TABLE", en="table of @ONDE"), family="dynamics")
-def zopl(call: Call, table: Table) -> Table:
+@operator("ZOPL", family="dynamics")
+def zopl(call: Call, table: Table = Arg("TABLE", en="table of @ONDE")) -> Table:
     """Read the table, compute, hand back instants."""
     from ssilang.kernel.waves.plane_wave import plane_motion
 
@@ -121,8 +121,8 @@ FEWEST = 4
 """Cells through the layer below which it reflects about as much as dampers."""
 
 
-@operator("ZPML", arg("table", "TABLE", en="table of @PML"), family="dynamics")
-def zpml(call: Call, table: Table) -> Table:
+@operator("ZPML", family="dynamics")
+def zpml(call: Call, table: Table = Arg("TABLE", en="table of @PML")) -> Table:
     """Read the table, hand back three matrices."""
     from ssilang.kernel.waves.matched_layer import matched_layer
 

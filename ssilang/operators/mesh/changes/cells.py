@@ -95,14 +95,18 @@ _NUMBERS = opt(
 )
 
 
-@CHAN.form(said(*CELL_TYPES), arg("mesh", "MAILLAGE", en="mesh"), _NUMBERS)
-def change_cells(word: str, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
+@CHAN.form(said(*CELL_TYPES))
+def change_cells(
+    word: str, mesh: Mesh = Arg("MAILLAGE", en="mesh"), numbers: ListEnti | None = _NUMBERS
+) -> Mesh:
     """Mesh of another cell type."""
     return changed(mesh, word) if numbers is None else _by_hand(mesh, word, numbers.values)
 
 
-@CHAN.form(main("mesh", "MAILLAGE", en="mesh"), _NUMBERS)
-def change_to_current(session: Session, mesh: Mesh, numbers: ListEnti | None) -> Mesh:
+@CHAN.form()
+def change_to_current(
+    session: Session, mesh: Mesh = Main("MAILLAGE", en="mesh"), numbers: ListEnti | None = _NUMBERS
+) -> Mesh:
     """Mesh of the cell type of OPTI ELEM."""
     target = workspace(session).element
     if not target:
@@ -119,18 +123,21 @@ _WHOLE = {
 }
 
 
-@CHAN.form(said(*_WHOLE), arg("mesh", "MAILLAGE", en="mesh"))
-def change_whole(word: str, mesh: Mesh) -> Mesh:
+@CHAN.form(said(*_WHOLE))
+def change_whole(word: str, mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     """Edges, faces, linear or quadratic cells."""
     return _WHOLE[word](mesh)
 
 
-@MANU.form(
-    said(*CELL_TYPES),
-    many("given", "POINT", "MAILLAGE", at_least=1, en="points, cell after cell"),
-    choice("colour", COLOURS, en="colour, that of OPTI COUL by default"),
-)
-def by_hand(session: Session, word: str, given: Sequence[Point | Mesh], colour: str | None) -> Mesh:
+@MANU.form(said(*CELL_TYPES))
+def by_hand(
+    session: Session,
+    word: str,
+    given: Sequence[Point | Mesh] = Many(
+        "POINT", "MAILLAGE", at_least=1, en="points, cell after cell"
+    ),
+    colour: str | None = Choice(COLOURS, en="colour, that of OPTI COUL by default"),
+) -> Mesh:
     """Cells given node by node."""
     ws = workspace(session)
     ids = np.concatenate([[g.node] if isinstance(g, Point) else g.node_ids for g in given])
@@ -184,8 +191,8 @@ _COLOURS = {
 _COLOUR_OF = {cell: colour for colour, cells in _COLOURS.items() for cell in cells.split()}
 
 
-@operator("AFCO", arg("mesh", "MAILLAGE", en="mesh"), family="mesh")
-def afco(mesh: Mesh) -> Mesh:
+@operator("AFCO", family="mesh")
+def afco(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     """Colour each block by its type of cell."""
     shades = [index_of(_COLOUR_OF.get(b.cell_type, "BLAN")) for b in mesh.blocks]
     blocks = tuple(

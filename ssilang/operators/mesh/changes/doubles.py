@@ -14,16 +14,14 @@ def _ids(item: Mesh | Point) -> IntArray:
     return np.array([item.node]) if isinstance(item, Point) else item.node_ids
 
 
-@operator(
-    "ELIM",
-    arg("first", "MAILLAGE", "POINT", en="mesh, or point"),
-    opt("second", "MAILLAGE", "POINT", en="mesh whose nodes are merged with those of the first"),
-    DISTANCE,
-    family="mesh",
-    full_name="ELIMINATION",
-)
+@operator("ELIM", family="mesh", full_name="ELIMINATION")
 def elim(
-    call: Call, first: Mesh | Point, second: Mesh | Point | None, distance: float | None
+    call: Call,
+    first: Mesh | Point = Arg("MAILLAGE", "POINT", en="mesh, or point"),
+    second: Mesh | Point | None = Opt(
+        "MAILLAGE", "POINT", en="mesh whose nodes are merged with those of the first"
+    ),
+    distance: float | None = DISTANCE,
 ) -> Mesh | Point:
     """Merge close nodes; gives the first object back."""
     ws = workspace(call.session)
@@ -44,14 +42,12 @@ def elim(
     return first
 
 
-@operator(
-    "REGE",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    flag("check", "VERI", en="warn of what is left"),
-    family="mesh",
-    full_name="REGENERER",
-)
-def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
+@operator("REGE", family="mesh", full_name="REGENERER")
+def rege(
+    session: Session,
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+    check: bool = Flag("VERI", en="warn of what is left"),
+) -> Mesh:
     """Replace degenerate cells."""
     made = regenerate(mesh)
     left = repeated_nodes(made) if check else 0
@@ -60,13 +56,10 @@ def rege(session: Session, mesh: Mesh, check: bool) -> Mesh:
     return made
 
 
-@operator(
-    "DEDO",
-    arg("surface", "MAILLAGE", en="surface"),
-    arg("line", "MAILLAGE", en="line of its edges"),
-    family="mesh",
-    full_name="DEDOUBLER",
-)
-def dedo(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
+@operator("DEDO", family="mesh", full_name="DEDOUBLER")
+def dedo(
+    surface: Mesh = Arg("MAILLAGE", en="surface"),
+    line: Mesh = Arg("MAILLAGE", en="line of its edges"),
+) -> tuple[Mesh, Mesh]:
     """Double the nodes of a line."""
     return cut_open(surface, line)

@@ -23,54 +23,52 @@ _PART = flag(
 )
 
 
-@operator(
-    "RACC",
-    DISTANCE,
-    arg("first", "MAILLAGE", en="line"),
-    arg("second", "MAILLAGE", en="line that faces it"),
-    _PART,
-    family="mesh",
-    full_name="RACCORD",
-)
-def racc(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
+@operator("RACC", family="mesh", full_name="RACCORD")
+def racc(
+    session: Session,
+    distance: float | None = DISTANCE,
+    first: Mesh = Arg("MAILLAGE", en="line"),
+    second: Mesh = Arg("MAILLAGE", en="line that faces it"),
+    part: bool = _PART,
+) -> Mesh:
     """Joints between lines."""
     if first.dimension > 1:
         raise MeshError("operators.mesh.lines-wanted")
     return _joint(session, first, second, distance, part)
 
 
-@operator(
-    "LIAI",
-    DISTANCE,
-    arg("first", "MAILLAGE", en="surface"),
-    arg("second", "MAILLAGE", en="surface that faces it"),
-    _PART,
-    family="mesh",
-    full_name="LIAISON",
-)
-def liai(session: Session, distance: float | None, first: Mesh, second: Mesh, part: bool) -> Mesh:
+@operator("LIAI", family="mesh", full_name="LIAISON")
+def liai(
+    session: Session,
+    distance: float | None = DISTANCE,
+    first: Mesh = Arg("MAILLAGE", en="surface"),
+    second: Mesh = Arg("MAILLAGE", en="surface that faces it"),
+    part: bool = _PART,
+) -> Mesh:
     """Joints between surfaces."""
     if first.dimension < 2:
         raise MeshError("operators.mesh.surfaces-wanted")
     return _joint(session, first, second, distance, part)
 
 
-@operator("GENJ", arg("mesh", "MAILLAGE", en="surfaces or volumes"), DISTANCE, family="mesh")
-def genj(session: Session, mesh: Mesh, distance: float | None) -> Mesh:
+@operator("GENJ", family="mesh")
+def genj(
+    session: Session,
+    mesh: Mesh = Arg("MAILLAGE", en="surfaces or volumes"),
+    distance: float | None = DISTANCE,
+) -> Mesh:
     """Joints between the touching parts of a mesh."""
     ws = workspace(session)
     near = tolerance_of(ws, distance, ws.nodes.coordinates[mesh.node_ids])
     return joints_inside(mesh, max(near, 1e-300))
 
 
-@operator(
-    "TASS",
-    many("meshes", "MAILLAGE", en="meshes"),
-    flag("keep", "NOOP", en="accepted, without effect"),
-    family="mesh",
-    full_name="TASSER",
-)
-def tass(session: Session, meshes: tuple[Mesh, ...], keep: bool) -> Mesh:
+@operator("TASS", family="mesh", full_name="TASSER")
+def tass(
+    session: Session,
+    meshes: tuple[Mesh, ...] = Many("MAILLAGE", en="meshes"),
+    keep: bool = Flag("NOOP", en="accepted, without effect"),
+) -> Mesh:
     """The nodes by number, which stay as they are."""
     nodes = workspace(session).nodes
     return poi1(nodes, np.unique(nodes.resolve(np.arange(len(nodes)))))

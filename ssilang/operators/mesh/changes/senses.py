@@ -19,25 +19,21 @@ from ssilang.operators.dispatch import INVE, ORDO
 from ssilang.operators.prelude import *
 
 
-@INVE.form(main("mesh", "MAILLAGE", en="mesh"))
-def inverted(mesh: Mesh) -> Mesh:
+@INVE.form()
+def inverted(mesh: Mesh = Main("MAILLAGE", en="mesh")) -> Mesh:
     """Mesh turned inside out."""
     return reversed_line(mesh)
 
 
-@operator(
-    "ORIE",
-    choice(
-        "towards",
-        ("DIRECTION", "POINT"),
-        en="normals go in a direction, the default, or towards a point",
+@operator("ORIE", family="mesh", full_name="ORIENTER")
+def orie(
+    call: Call,
+    towards: str | None = Choice(
+        ("DIRECTION", "POINT"), en="normals go in a direction, the default, or towards a point"
     ),
-    arg("mesh", "MAILLAGE", en="cells"),
-    opt("target", "POINT", en="direction, or point"),
-    family="mesh",
-    full_name="ORIENTER",
-)
-def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> Mesh:
+    mesh: Mesh = Arg("MAILLAGE", en="cells"),
+    target: Point | None = Opt("POINT", en="direction, or point"),
+) -> Mesh:
     """Orient cells."""
     if target is not None:
         return orient_towards(mesh, target.coordinates.copy(), towards == "POINT")
@@ -46,16 +42,14 @@ def orie(call: Call, towards: str | None, mesh: Mesh, target: Point | None) -> M
     return orient(mesh, max(workspace(call.session).dimension, 1))
 
 
-@operator(
-    "VERS", arg("mesh", "MAILLAGE", en="lines or surfaces"), family="mesh", full_name="VERSENS"
-)
-def vers(mesh: Mesh) -> Mesh:
+@operator("VERS", family="mesh", full_name="VERSENS")
+def vers(mesh: Mesh = Arg("MAILLAGE", en="lines or surfaces")) -> Mesh:
     """Check the sense of description."""
     return check_consistent(mesh)
 
 
-@ORDO.form(main("mesh", "MAILLAGE", en="mesh"))
-def ordered_cells(mesh: Mesh) -> Mesh:
+@ORDO.form()
+def ordered_cells(mesh: Mesh = Main("MAILLAGE", en="mesh")) -> Mesh:
     """Mesh with its cells in order."""
     return Mesh(mesh.nodes, tuple(_ordered_block(b) for b in mesh.blocks))
 

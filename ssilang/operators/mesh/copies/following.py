@@ -7,12 +7,12 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements, moving_components
 from ssilang.kernel.mesh.changes.follow import followed
 from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
-from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.prelude import *
 
 _EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
@@ -21,16 +21,13 @@ _AFTER = arg("after", "MAILLAGE", en="mesh after, of the same structure")
 _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy")
 
 
-@operator(
-    "DEDU",
-    arg("mesh", "MAILLAGE", en="linear surfaces or volumes"),
-    arg("masters", "MAILLAGE", en="its master nodes"),
-    arg("goal", "MAILLAGE", en="what these become"),
-    _EVEN,
-    family="mesh",
-    full_name="DEDUIRE",
-)
-def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
+@operator("DEDU", family="mesh", full_name="DEDUIRE")
+def dedu(
+    mesh: Mesh = Arg("MAILLAGE", en="linear surfaces or volumes"),
+    masters: Mesh = Arg("MAILLAGE", en="its master nodes"),
+    goal: Mesh = Arg("MAILLAGE", en="what these become"),
+    even: bool = _EVEN,
+) -> Mesh:
     """Copy a mesh that follows its master nodes."""
     target = corresponding_nodes(masters, goal)
     ids = masters.node_ids
@@ -43,49 +40,47 @@ def dedu(mesh: Mesh, masters: Mesh, goal: Mesh, even: bool) -> Mesh:
     return Copier(NodeCopier(mesh.nodes, by_node=moved, copies=kept)).mesh(mesh)
 
 
-@dedu.form(said("ADAP"), opt("mesh", "MAILLAGE", en="linear surfaces or volumes"))
-def dedu_adap(call: Call, mesh: Mesh | None) -> NoReturn:
+@dedu.form(said("ADAP"))
+def dedu_adap(
+    call: Call, mesh: Mesh | None = Opt("MAILLAGE", en="linear surfaces or volumes")
+) -> NoReturn:
     """To a metric: its functional is not published."""
     raise call.error("operators.mesh.functional-not-published")
 
 
-@dedu.form(
-    arg("mesh", "MAILLAGE", en="linear surfaces or volumes"),
-    arg(
-        "field",
-        "CHPOINT",
-        en="displacements of some of its nodes",
-        unit="m",
-    ),
-    _EVEN,
-)
-def extended(mesh: Mesh, field: NodeField, even: bool) -> NodeField:
+@dedu.form()
+def extended(
+    mesh: Mesh = Arg("MAILLAGE", en="linear surfaces or volumes"),
+    field: NodeField = Arg("CHPOINT", en="displacements of some of its nodes", unit="m"),
+    even: bool = _EVEN,
+) -> NodeField:
     """The displacement of all nodes of a mesh from that of some, harmonic in between."""
     given = field.node_ids
     start = mesh.nodes.coordinates
     nodes, places = followed(mesh, given, start[given] + displacements(field, given), even)
     motion = places - start[nodes]
-    axes = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
-    kept = {n: motion[:, k] for k, n in enumerate(axes) if n in field.components}
+    axes = enumerate(moving_components(field))
+    kept = {n: motion[:, k] for k, n in axes if n in field.components}
     return NodeField.of(mesh.nodes, nodes, kept, "DIFFUS")
 
 
-@dedu.form(said("TRAN"), _OBJECTS, _BEFORE, _AFTER, gives=Like("objects"))
-def through_map(objects: Sequence[Any], before: Mesh, after: Mesh) -> tuple[Any, ...]:
+@dedu.form(said("TRAN"), gives=Like("objects"))
+def through_map(
+    objects: Sequence[Any] = _OBJECTS, before: Mesh = _BEFORE, after: Mesh = _AFTER
+) -> tuple[Any, ...]:
     """Copy through the map between two meshes."""
     return _copied(objects, before, after, None)
 
 
-@dedu.form(
-    said("ROTA"),
-    arg("angle", "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER),
-    _OBJECTS,
-    _BEFORE,
-    _AFTER,
-    gives=ANY,
-)
+@dedu.form(said("ROTA"), gives=ANY)
 def through_turn(
-    call: Call, angle: float, objects: Sequence[Any], before: Mesh, after: Mesh
+    call: Call,
+    angle: float = Arg(
+        "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER
+    ),
+    objects: Sequence[Any] = _OBJECTS,
+    before: Mesh = _BEFORE,
+    after: Mesh = _AFTER,
 ) -> tuple[Any, ...]:
     """The same, vectors and tensors turning; the last points are those of the axis."""
     count = 1 if workspace(call.session).dimension < 3 else 2

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.mesh.changes.transform import (
@@ -23,7 +24,6 @@ from ssilang.kernel.mesh.changes.transform import (
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.surfaces.facets import facet_shape
-from ssilang.language.registry import Argument
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,
@@ -38,7 +38,6 @@ from ssilang.operators.mesh.copies.maps import (
     projection_on,
     rotation_matrix,
 )
-from ssilang.operators.mesh.copies.moves import displacements
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.prelude import *
 
@@ -180,7 +179,7 @@ def _shifted(
     return tuple(copier(v) for v in objects)
 
 
-def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Argument:
+def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Any:
     return many(
         "objects", *types, leaving=leaving, left=left, en="objects to copy", range=ANY_NUMBER
     )
@@ -210,11 +209,12 @@ def moin(call: Call, objects: Sequence[Any], by: Point | NodeField) -> tuple[Any
     return _shifted(call, objects, by, -1.0)
 
 
-@moin.form(
-    arg("after", "MAILLAGE", en="mesh after the motion"),
-    arg("before", "MAILLAGE", en="mesh before it"),
-)
-def motion(session: Session, after: Mesh, before: Mesh) -> NodeField:
+@moin.form()
+def motion(
+    session: Session,
+    after: Mesh = Arg("MAILLAGE", en="mesh after the motion"),
+    before: Mesh = Arg("MAILLAGE", en="mesh before it"),
+) -> NodeField:
     """The displacements between two meshes."""
     target = corresponding_nodes(before, after)
     ids = before.node_ids

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,
     affine_through,
@@ -51,30 +52,12 @@ def _move(moved: Mesh | Point, image: PointMap) -> None:
     move(moved.nodes, _ids(moved), image)
 
 
-def displacements(field: NodeField, ids: IntArray) -> FloatArray:
-    """Displacements (n, 3) of nodes (n,) from components UX UY UZ or UR UZ, zero where absent."""
-    names = ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
-    step = np.zeros((len(ids), 3))
-    for k, name in enumerate(names):
-        step[:, k] = field.values_at(name, ids)
-    return step
-
-
-@operator(
-    "DEPL",
-    said("PLUS", "MOINS"),
-    _MOVED,
-    arg(
-        "by",
-        "POINT",
-        "CHPOINT",
-        en="vector, or displacements",
-        unit="m",
-    ),
-    family="mesh",
-    full_name="DEPLACER",
-)
-def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
+@operator("DEPL", said("PLUS", "MOINS"), family="mesh", full_name="DEPLACER")
+def depl(
+    word: str,
+    moved: Mesh | Point = _MOVED,
+    by: Point | NodeField = Arg("POINT", "CHPOINT", en="vector, or displacements", unit="m"),
+) -> None:
     """Move nodes by a vector or by displacements."""
     sign = 1.0 if word == "PLUS" else -1.0
     if isinstance(by, Point):
@@ -84,21 +67,14 @@ def depl(word: str, moved: Mesh | Point, by: Point | NodeField) -> None:
     moved.nodes.coordinates[ids] += sign * displacements(by, ids)
 
 
-@depl.form(
-    said("TOUR"),
-    _MOVED,
-    arg(
-        "angle",
-        "CHPOINT",
-        "FLOTTANT",
-        en="angle, or one for each node",
-        unit="degree",
-        range=ANY_NUMBER,
-    ),
-    AXIS,
-)
+@depl.form(said("TOUR"))
 def turned(
-    call: Call, moved: Mesh | Point, angle: NodeField | float, axis: Sequence[Point]
+    call: Call,
+    moved: Mesh | Point = _MOVED,
+    angle: NodeField | float = Arg(
+        "CHPOINT", "FLOTTANT", en="angle, or one for each node", unit="degree", range=ANY_NUMBER
+    ),
+    axis: Sequence[Point] = AXIS,
 ) -> None:
     """Turn nodes."""
     origin, direction = axis_of(call, axis)
@@ -116,25 +92,30 @@ def turned(
         place[rows] = rotate(place[rows].copy(), float(np.radians(value)), origin, direction / size)
 
 
-@depl.form(said("HOMO"), _MOVED, RATIO, FIXED)
-def scaled(moved: Mesh | Point, ratio: float, fixed: Point) -> None:
+@depl.form(said("HOMO"))
+def scaled(moved: Mesh | Point = _MOVED, ratio: float = RATIO, fixed: Point = FIXED) -> None:
     """Scale about a point."""
     _move(moved, scaling(ratio, fixed.coordinates.copy()))
 
 
-@depl.form(said("AFFI"), _MOVED, RATIO, FIXED, DIRECTION)
-def stretched(moved: Mesh | Point, ratio: float, fixed: Point, towards: Point) -> None:
+@depl.form(said("AFFI"))
+def stretched(
+    moved: Mesh | Point = _MOVED,
+    ratio: float = RATIO,
+    fixed: Point = FIXED,
+    towards: Point = DIRECTION,
+) -> None:
     """Stretch along a direction."""
     _move(moved, affinity(ratio, *positions((fixed, towards))))
 
 
-@depl.form(
-    said("SYME"),
-    choice("about", tuple(MIRRORS), optional=False, en="what is mirrored about"),
-    _MOVED,
-    many("points", "POINT", en="its points"),
-)
-def mirrored(call: Call, about: str, moved: Mesh | Point, points: Sequence[Point]) -> None:
+@depl.form(said("SYME"))
+def mirrored(
+    call: Call,
+    about: str = Choice(tuple(MIRRORS), optional=False, en="what is mirrored about"),
+    moved: Mesh | Point = _MOVED,
+    points: Sequence[Point] = Many("POINT", en="its points"),
+) -> None:
     """Mirror about a point, a line or a plane."""
     _move(moved, _MIRRORS[about](*_exactly(call, points, len(MIRRORS[about]))))
 
@@ -162,20 +143,17 @@ def projected_along(moved: Mesh | Point, vector: Point, surface: Chosen) -> None
     _move(moved, projection_of("CYLI", vector, surface))
 
 
-@depl.form(
-    said("COOR"),
-    choice(
-        "coordinates", ("CYLI", "CART"), optional=False, en="to cylindrical coordinates, or back"
+@depl.form(said("COOR"))
+def changed_coordinates(
+    call: Call,
+    coordinates: str = Choice(
+        ("CYLI", "CART"), optional=False, en="to cylindrical coordinates, or back"
     ),
-    _MOVED,
-    many(
-        "points",
+    moved: Mesh | Point = _MOVED,
+    points: Sequence[Point] = Many(
         "POINT",
         en="origin (in space another point of the axis) and a point of angle 0, with 'CYLI'",
     ),
-)
-def changed_coordinates(
-    call: Call, coordinates: str, moved: Mesh | Point, points: Sequence[Point]
 ) -> None:
     """Take cylindrical coordinates for cartesian ones, or the reverse."""
     if coordinates == "CART":
@@ -191,24 +169,21 @@ def changed_coordinates(
     _move(moved, to_cylindrical(origin, axis, zero))
 
 
-@depl.form(said("MILI"), _MOVED)
-def straightened(moved: Mesh | Point) -> None:
+@depl.form(said("MILI"))
+def straightened(moved: Mesh | Point = _MOVED) -> None:
     """Put middle nodes onto the mediator planes of their edges."""
     if isinstance(moved, Mesh):
         straighten_middles(moved)
 
 
-@depl.form(
-    said("DEDU"),
-    _MOVED,
-    arg("by", "MAILLAGE", "CHPOINT", "POINT", en="points before, or displacements of some"),
-    opt("goal", "MAILLAGE", "POINT", en="points after"),
-)
+@depl.form(said("DEDU"))
 def deduced(
     call: Call,
-    moved: Mesh | Point,
-    by: Mesh | NodeField | Point,
-    goal: Mesh | Point | None,
+    moved: Mesh | Point = _MOVED,
+    by: Mesh | NodeField | Point = Arg(
+        "MAILLAGE", "CHPOINT", "POINT", en="points before, or displacements of some"
+    ),
+    goal: Mesh | Point | None = Opt("MAILLAGE", "POINT", en="points after"),
 ) -> None:
     """Move by the affine map between two sets of points."""
     if isinstance(by, NodeField):

@@ -38,31 +38,19 @@ from ssilang.operators.mesh.lines.ends import (
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "CERC",
-    choice(
-        "through",
+@operator("CERC", family="mesh", full_name="CERCLE", aliases=("C",))
+def cerc(
+    call: Call,
+    through: str = Choice(
         ("CENTR", "PASS"),
         default="CENTR",
         en="the second point is the centre, the default, or lies on the arc",
     ),
-    COUNT,
-    START,
-    arg("middle", "POINT", en="centre, or point of the arc"),
-    END,
-    SIZES,
-    family="mesh",
-    full_name="CERCLE",
-    aliases=("C",),
-)
-def cerc(
-    call: Call,
-    through: str,
-    count: int | None,
-    start: Point | Mesh,
-    middle: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    middle: Point = Arg("POINT", en="centre, or point of the arc"),
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
     curve = arc_through if through == "PASS" else arc_about_centre
@@ -70,23 +58,15 @@ def cerc(
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
 
 
-@cerc.form(
-    said("ROTA"),
-    COUNT,
-    ANGLE,
-    START,
-    AXIS,
-    flag("closed", "ELIM", en="a whole turn ends on its first point"),
-    SIZES,
-)
+@cerc.form(said("ROTA"))
 def turned_point(
     call: Call,
-    count: int | None,
-    angle: float | None,
-    start: Point | Mesh,
-    axis: Sequence[Point],
-    closed: bool,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    angle: float | None = ANGLE,
+    start: Point | Mesh = START,
+    axis: Sequence[Point] = AXIS,
+    closed: bool = Flag("ELIM", en="a whole turn ends on its first point"),
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """The arc that a point describes in a rotation."""
     count, degrees = count_and_angle(call, count, angle)
@@ -102,29 +82,27 @@ def turned_point(
     return drawn_from(call, start, way, cuts, closed=closed)
 
 
-@operator(
-    "CER3", COUNT, START, arg("middle", "POINT", en="point of the arc"), END, SIZES, family="mesh"
-)
+@operator("CER3", family="mesh")
 def cer3(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    middle: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    middle: Point = Arg("POINT", en="point of the arc"),
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the arc through three points."""
     return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(call, count, sizes))
 
 
-@operator("PARC", COUNT, START, arg("centre", "POINT", en="centre"), END, SIZES, family="mesh")
+@operator("PARC", family="mesh")
 def parc(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    centre: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    centre: Point = Arg("POINT", en="centre"),
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw parabolas along an arc."""
     ws = workspace(call.session)
@@ -150,23 +128,16 @@ def parc(
 _CELLS = between(1, 1e7)
 
 
-@operator(
-    "CONG",
-    arg("first", "MAILLAGE", en="first line"),
-    opt("count", "ENTIER", en="number of elements; by the mesh sizes without it", range=_CELLS),
-    opt("radius", "FLOTTANT", range=POSITIVE, en="radius", unit="m"),
-    arg("second", "MAILLAGE", en="line that follows"),
-    flag("double", "DOUBLE", en="two arcs: not available"),
-    family="mesh",
-    full_name="CONGE",
-)
+@operator("CONG", family="mesh", full_name="CONGE")
 def cong(
     call: Call,
-    first: Mesh,
-    count: int | None,
-    radius: float | None,
-    second: Mesh,
-    double: bool,
+    first: Mesh = Arg("MAILLAGE", en="first line"),
+    count: int | None = Opt(
+        "ENTIER", en="number of elements; by the mesh sizes without it", range=_CELLS
+    ),
+    radius: float | None = Opt("FLOTTANT", range=POSITIVE, en="radius", unit="m"),
+    second: Mesh = Arg("MAILLAGE", en="line that follows"),
+    double: bool = Flag("DOUBLE", en="two arcs: not available"),
 ) -> tuple[Mesh, Mesh, Mesh]:
     """Round a corner; an integer alone is the radius."""
     if double:

@@ -24,49 +24,30 @@ from ssilang.operators.mesh.lines.ends import (
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "PARA",
-    COUNT,
-    START,
-    arg("middle", "POINT", en="where the tangents of both ends meet"),
-    END,
-    SIZES,
-    family="mesh",
-    full_name="PARABOLE",
-)
+@operator("PARA", family="mesh", full_name="PARABOLE")
 def para(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    middle: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    middle: Point = Arg("POINT", en="where the tangents of both ends meet"),
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw an arc of parabola."""
     cuts = cuts_of(call, count, sizes)
     return drawn_by_middle(call, parabola, (start, middle, end), cuts)
 
 
-@operator(
-    "CUBP",
-    COUNT,
-    START,
-    arg("first", "POINT", en="first inner point"),
-    arg("second", "POINT", en="second inner point"),
-    END,
-    flag("uniform", "UNIF", en="nodes even in length"),
-    SIZES,
-    family="mesh",
-)
+@operator("CUBP", family="mesh")
 def cubp(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    first: Point,
-    second: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
-    uniform: bool,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    first: Point = Arg("POINT", en="first inner point"),
+    second: Point = Arg("POINT", en="second inner point"),
+    end: Point | Mesh | None = END,
+    uniform: bool = Flag("UNIF", en="nodes even in length"),
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the cubic through four points."""
     ends = ends_of(call, start, end)
@@ -76,24 +57,15 @@ def cubp(
     return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
 
 
-@operator(
-    "CUBT",
-    COUNT,
-    START,
-    arg("first", "POINT", en="tangent at the start"),
-    arg("second", "POINT", en="tangent at the end"),
-    END,
-    SIZES,
-    family="mesh",
-)
+@operator("CUBT", family="mesh")
 def cubt(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    first: Point,
-    second: Point,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    first: Point = Arg("POINT", en="tangent at the start"),
+    second: Point = Arg("POINT", en="tangent at the end"),
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the cubic between two tangents."""
     ends = ends_of(call, start, end)
@@ -103,44 +75,30 @@ def cubt(
     return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
 
 
-@operator(
-    "COUR",
-    COUNT,
-    SIZES,
-    key(
-        "before",
+@operator("COUR", family="mesh", full_name="COURBE")
+def cour(
+    call: Call,
+    count: int | None = COUNT,
+    sizes: Sizes = SIZES,
+    before: Point | Mesh | None = Key(
         "PINI",
         arg("point", "POINT", "MAILLAGE"),
         en="existing point at the start, or a line to go on",
     ),
-    key(
-        "after",
+    after: Point | Mesh | None = Key(
         "PFIN",
         arg("point", "POINT", "MAILLAGE"),
         en="existing point at the end, or a line to reach",
     ),
-    key(
-        "limits",
+    limits: tuple[float, float] = Key(
         "PARAMETRE",
         arg("u1", "FLOTTANT", range=ANY_NUMBER),
         arg("u2", "FLOTTANT", range=ANY_NUMBER),
         default=(0.0, 1.0),
         en="U at the start and at the end",
     ),
-    flag("regular", "REGULIER", en="nodes even in length"),
-    many("points", "POINT", at_least=1, en="P0 P1 P2 ..."),
-    family="mesh",
-    full_name="COURBE",
-)
-def cour(
-    call: Call,
-    count: int | None,
-    sizes: Sizes,
-    before: Point | Mesh | None,
-    after: Point | Mesh | None,
-    limits: tuple[float, float],
-    regular: bool,
-    points: Sequence[Point],
+    regular: bool = Flag("REGULIER", en="nodes even in length"),
+    points: Sequence[Point] = Many("POINT", at_least=1, en="P0 P1 P2 ..."),
 ) -> Mesh:
     """Draw a polynomial curve."""
     if len(points) < 2:

@@ -1,31 +1,20 @@
-"""Lines: DROI LIGN QUEL, and INTE where two simple surfaces cross."""
+"""Lines: DROI LIGN QUEL."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
 from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
-from ssilang.kernel.mesh.surfaces.analytic import (
-    Shape,
-    cone_shape,
-    cylinder_shape,
-    plane_shape,
-    sphere_shape,
-    torus_shape,
-)
-from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     COUNT,
     END,
     SIZES,
     START,
-    Ends,
     Sizes,
     chosen_family,
     count_and_angle,
@@ -38,13 +27,13 @@ from ssilang.operators.mesh.lines.ends import (
 from ssilang.operators.prelude import *
 
 
-@operator("DROI", COUNT, START, END, SIZES, family="mesh", full_name="DROIT", aliases=("D",))
+@operator("DROI", family="mesh", full_name="DROIT", aliases=("D",))
 def droi(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    end: Point | Mesh | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    end: Point | Mesh | None = END,
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a straight line."""
     cuts = cuts_of(call, count, sizes)
@@ -53,26 +42,15 @@ def droi(
     return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
 
 
-@operator(
-    "LIGN",
-    said("ROTA"),
-    COUNT,
-    ANGLE,
-    arg("centre", "POINT", "MAILLAGE", en="centre, a point"),
-    START,
-    opt("normal", "POINT", en="normal to the plane of the arc, in space"),
-    SIZES,
-    family="mesh",
-    full_name="LIGNE",
-)
+@operator("LIGN", said("ROTA"), family="mesh", full_name="LIGNE")
 def lign(
     call: Call,
-    count: int | None,
-    angle: float | None,
-    centre: Point | Mesh,
-    start: Point | Mesh,
-    normal: Point | None,
-    sizes: Sizes,
+    count: int | None = COUNT,
+    angle: float | None = ANGLE,
+    centre: Point | Mesh = Arg("POINT", "MAILLAGE", en="centre, a point"),
+    start: Point | Mesh = START,
+    normal: Point | None = Opt("POINT", en="normal to the plane of the arc, in space"),
+    sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw an arc from a point."""
     if isinstance(centre, Mesh):
@@ -93,21 +71,14 @@ def lign(
     return drawn_from(call, start, way, cuts)
 
 
-@lign.form(
-    said("TRAN"),
-    COUNT,
-    START,
-    arg("vector", "POINT", en="vector to the end", usual=NOT_ZERO),
-    SIZES,
-    opt("angle", "FLOTTANT", en="of 'ROTA' alone, refused", range=ANY_NUMBER),
-)
+@lign.form(said("TRAN"))
 def segment(
     call: Call,
-    count: int | None,
-    start: Point | Mesh,
-    vector: Point,
-    sizes: Sizes,
-    angle: float | None,
+    count: int | None = COUNT,
+    start: Point | Mesh = START,
+    vector: Point = Arg("POINT", en="vector to the end", usual=NOT_ZERO),
+    sizes: Sizes = SIZES,
+    angle: float | None = Opt("FLOTTANT", en="of 'ROTA' alone, refused", range=ANY_NUMBER),
 ) -> Mesh:
     """Draw a segment from a point along a vector."""
     if angle is not None:
@@ -120,16 +91,18 @@ def segment(
     return drawn_from(call, start, way, cuts_of(call, count, sizes), vector.density)
 
 
-@operator(
-    "QUEL",
-    choice("cell_type", ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"),
-    many("lists", "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER),
-    many("points", "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"),
-    family="mesh",
-    full_name="QUELCONQUE",
-)
+@operator("QUEL", family="mesh", full_name="QUELCONQUE")
 def quel(
-    call: Call, cell_type: str | None, lists: Sequence[ListReel], points: Sequence[Point | Mesh]
+    call: Call,
+    cell_type: str | None = Choice(
+        ("SEG2", "SEG3"), en="type of the cells, that of OPTI ELEM by default"
+    ),
+    lists: Sequence[ListReel] = Many(
+        "LISTREEL", en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER
+    ),
+    points: Sequence[Point | Mesh] = Many(
+        "POINT", "MAILLAGE", en="points, or meshes whose points follow one another"
+    ),
 ) -> Mesh:
     """Draw a broken line."""
     ws = workspace(call.session)
@@ -157,72 +130,3 @@ def _given_nodes(call: Call, points: Sequence[Point | Mesh]) -> IntArray:
         )
     ]
     return np.concatenate(parts).astype(np.int64)
-
-
-_CENTRE = arg("centre", "POINT", en="centre")
-_AXIS = arg("axis", "POINT", en="point of the axis")
-_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle")
-
-# word -> surface through the start of the curve (a plane through both its ends)
-_SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
-    "PLAN": lambda p, start, end: plane_shape(start, end, p[0]),
-    "SPHE": lambda p, start, end: sphere_shape(p[0], start),
-    "CYLI": lambda p, start, end: cylinder_shape(p[0], p[1], start),
-    "CONI": lambda p, start, end: cone_shape(p[0], p[1], start),
-    "TORI": lambda p, start, end: torus_shape(p[0], p[1], p[2], start),
-}
-
-
-@INTE.form(
-    select(
-        "surfaces",
-        {
-            "PLAN": [arg("point", "POINT", en="point of the plane")],
-            "SPHE": [_CENTRE],
-            "CYLI": [arg("first", "POINT", en=_AXIS.en), _AXIS],
-            "CONI": [arg("apex", "POINT", en="apex"), _AXIS],
-            "TORI": [
-                _CENTRE,
-                _AXIS,
-                _SMALL_CIRCLE,
-            ],
-        },
-        optional=False,
-        repeated=True,
-        en="the two surfaces that cross, both through the start",
-    ),
-    main("start", "POINT", "MAILLAGE", en=START.en),
-    COUNT,
-    SIZES,
-    key(
-        "length",
-        "LONG",
-        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
-        en="length of the curve, then the end only shows the way",
-    ),
-    END,
-)
-def crossing(
-    call: Call,
-    surfaces: Sequence[Chosen],
-    start: Point | Mesh,
-    count: int | None,
-    sizes: Sizes,
-    length: float | None,
-    end: Point | Mesh | None,
-) -> Mesh:
-    """The line along which two surfaces cross, from a point or a line to another."""
-    cuts = cuts_of(call, count, sizes)
-    if len(surfaces) != 2:
-        raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
-    ends = ends_of(call, start, end)
-    ws = workspace(call.session)
-    first, last = positions(ws, ends.start, ends.end)
-    gaps = [
-        _SURFACES[s.word]([p.coordinates.copy() for p in s.values.values()], first, last).distance
-        for s in surfaces
-    ]
-    curve = crossing_curve((gaps[0], gaps[1]), first, last, length)
-    if length is not None:
-        ends = Ends(ends.start, int(ws.nodes.add(curve.points[-1:], cuts.last)[0]), ends.before)
-    return drawn(call, ends, curve, curve.length, cuts)

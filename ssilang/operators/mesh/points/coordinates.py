@@ -48,12 +48,11 @@ def all_coordinates(
     return tuple(_coordinate(support, axis, False) for axis in axes)
 
 
-@COOR.form(
-    said("CURV"),
-    arg("line", "MAILLAGE", en="line"),
-    opt("axis", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
-)
-def curvilinear_coordinate(line: Mesh, axis: int | None) -> NodeField:
+@COOR.form(said("CURV"))
+def curvilinear_coordinate(
+    line: Mesh = Arg("MAILLAGE", en="line"),
+    axis: int | None = Opt("ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+) -> NodeField:
     """Length along a line."""
     return curvilinear(line)
 
@@ -104,14 +103,16 @@ def _of_model(model: Model, axis: int, density: bool) -> CellField:
     return CellField(blocks, "SCALAIRE")
 
 
-@operator("NOEU", arg("point", "POINT", en="point"), family="mesh", full_name="NOEUD")
-def noeu(point: Point) -> int:
+@operator("NOEU", family="mesh", full_name="NOEUD")
+def noeu(point: Point = Arg("POINT", en="point")) -> int:
     """The number of a point's node."""
     return point.node + 1
 
 
-@noeu.form(arg("number", "ENTIER", en="number of a node", range=POSITIVE))
-def numbered(session: Session, call: Call, number: int) -> Point:
+@noeu.form()
+def numbered(
+    session: Session, call: Call, number: int = Arg("ENTIER", en="number of a node", range=POSITIVE)
+) -> Point:
     """The point of a node."""
     nodes = workspace(session).nodes
     if not 1 <= number <= len(nodes):
@@ -119,26 +120,20 @@ def numbered(session: Session, call: Call, number: int) -> Point:
     return Point(nodes, number - 1)
 
 
-@operator(
-    "CONF",
-    arg("first", "POINT", en="point that goes"),
-    arg("second", "POINT", en="point that it becomes"),
-    family="mesh",
-    full_name="CONFONDRE",
-)
-def conf(first: Point, second: Point) -> None:
+@operator("CONF", family="mesh", full_name="CONFONDRE")
+def conf(
+    first: Point = Arg("POINT", en="point that goes"),
+    second: Point = Arg("POINT", en="point that it becomes"),
+) -> None:
     """Merge two points."""
     if first.node != second.node:
         first.nodes.merge(np.array([second.node]), np.array([first.node]))
 
 
-@operator(
-    "BARY",
-    arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"),
-    family="mesh",
-    full_name="BARYCENTRE",
-)
-def bary(session: Session, mesh: Mesh | Point) -> Point:
+@operator("BARY", family="mesh", full_name="BARYCENTRE")
+def bary(
+    session: Session, mesh: Mesh | Point = Arg("MAILLAGE", "POINT", en="mesh, or point")
+) -> Point:
     """Mean position of the nodes."""
     if isinstance(mesh, Point):
         return mesh
@@ -148,8 +143,8 @@ def bary(session: Session, mesh: Mesh | Point) -> Point:
     return Point(ws.nodes, int(ws.nodes.add(centre[None], ws.density)[0]))
 
 
-@bary.form(said("ELEM"), arg("mesh", "MAILLAGE", en="cells"))
-def centres_of_cells(session: Session, mesh: Mesh) -> Mesh:
+@bary.form(said("ELEM"))
+def centres_of_cells(session: Session, mesh: Mesh = Arg("MAILLAGE", en="cells")) -> Mesh:
     """Mean position of each cell's nodes."""
     ws = workspace(session)
     _not_empty(mesh)

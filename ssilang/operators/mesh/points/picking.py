@@ -61,15 +61,14 @@ def chosen_components(names: Iterable[str], named: Named) -> list[str]:
 _MESH = main("mesh", "MAILLAGE", en="mesh to pick from")
 
 
-@operator(
-    "POIN",
-    _MESH,
-    arg("number", "ENTIER", en="number of a point, or in the cell", range=POSITIVE),
-    opt("cell", "ENTIER", en="number of the cell", range=POSITIVE),
-    family="mesh",
-    full_name="POINT",
-)
-def poin(session: Session, call: Call, mesh: Mesh, number: int, cell: int | None) -> Point:
+@operator("POIN", family="mesh", full_name="POINT")
+def poin(
+    session: Session,
+    call: Call,
+    mesh: Mesh = _MESH,
+    number: int = Arg("ENTIER", en="number of a point, or in the cell", range=POSITIVE),
+    cell: int | None = Opt("ENTIER", en="number of the cell", range=POSITIVE),
+) -> Point:
     """Pick a point by number."""
     nodes = workspace(session).nodes
     if cell is None:
@@ -97,14 +96,14 @@ def _numbered(call: Call, mesh: Mesh, number: int) -> int:
     return int(ids[number - 1])
 
 
-@poin.form(said("INITIAL", "FINAL"), _MESH)
-def end_of_line(session: Session, word: str, mesh: Mesh) -> Point:
+@poin.form(said("INITIAL", "FINAL"))
+def end_of_line(session: Session, word: str, mesh: Mesh = _MESH) -> Point:
     """The first or the last point of a line."""
     return Point(workspace(session).nodes, line_ends(mesh)[0 if word == "INITIAL" else 1])
 
 
-@poin.form(said("JONC"), _MESH)
-def junctions_of(session: Session, mesh: Mesh) -> Mesh:
+@poin.form(said("JONC"))
+def junctions_of(session: Session, mesh: Mesh = _MESH) -> Mesh:
     """Points that join more than two cells."""
     ids = junctions(mesh)
     if len(ids) == 0:
@@ -118,10 +117,9 @@ def junctions_of(session: Session, mesh: Mesh) -> Mesh:
         {"PROC": [arg("point", "POINT", en="point")]},
         optional=False,
         en="the nearest to a point",
-    ),
-    _MESH,
+    )
 )
-def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
+def nearest(session: Session, near: Chosen, mesh: Mesh = _MESH) -> Point:
     """The point of a mesh that is nearest to another one."""
     return Point(workspace(session).nodes, nearest_node(mesh, near["point"].coordinates))
 
@@ -132,11 +130,11 @@ def nearest(session: Session, near: Chosen, mesh: Mesh) -> Point:
         {w: points for w, points in SHAPES.items() if w not in ("CERC", "CONI", "TORI")},
         optional=False,
         en="points on a line or a surface",
-    ),
-    _MESH,
-    DISTANCE,
+    )
 )
-def on_shape(session: Session, shape: Chosen, mesh: Mesh, distance: float | None) -> Mesh:
+def on_shape(
+    session: Session, shape: Chosen, mesh: Mesh = _MESH, distance: float | None = DISTANCE
+) -> Mesh:
     """The points of a mesh on a line or a surface."""
     ws = workspace(session)
     ids = mesh.node_ids
@@ -195,40 +193,36 @@ def of_cell_field(
     return _doubted_if_empty(session, poi1(nodes, _once(numbers)))
 
 
-@poin.form(
-    many("coordinates", "FLOTTANT", at_least=1, en="coordinates", unit="m", range=ANY_NUMBER),
-    key(
-        "density",
+@poin.form()
+def made(
+    session: Session,
+    coordinates: Sequence[float] = Many(
+        "FLOTTANT", at_least=1, en="coordinates", unit="m", range=ANY_NUMBER
+    ),
+    density: float | None = Key(
         "DENS",
         arg("density", "FLOTTANT", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
-)
-def made(session: Session, coordinates: Sequence[float], density: float | None) -> Point:
+) -> Point:
     """Make a point."""
     ws = workspace(session)
     size = ws.density if density is None else density
     return Point(ws.nodes, int(ws.nodes.add(np.array([coordinates]), size)[0]))
 
 
-@poin.form(
-    many(
-        "lists",
-        "LISTREEL",
-        at_least=1,
-        en="first coordinates, second ones ...",
-        unit="m",
-        range=ANY_NUMBER,
+@poin.form()
+def made_of_lists(
+    session: Session,
+    call: Call,
+    lists: Sequence[ListReel] = Many(
+        "LISTREEL", at_least=1, en="first coordinates, second ones ...", unit="m", range=ANY_NUMBER
     ),
-    key(
-        "density",
+    density: float | ListReel | None = Key(
         "DENS",
         arg("density", "FLOTTANT", "LISTREEL", unit="m", range=POSITIVE),
         en="mesh size there, that of OPTI DENS by default",
     ),
-)
-def made_of_lists(
-    session: Session, call: Call, lists: Sequence[ListReel], density: float | ListReel | None
 ) -> Mesh:
     """Make a mesh of points."""
     ws = workspace(session)

@@ -32,33 +32,36 @@ for _number in ("ENTIER", "FLOTTANT"):
     rule("*", _number, "POINT")(_scale)
 
 
-@PSCA.form(main("first", "POINT", en="vector"), arg("second", "POINT", en="vector"))
-def scalar_product_of_points(first: Point, second: Point) -> float:
+@PSCA.form()
+def scalar_product_of_points(
+    first: Point = Main("POINT", en="vector"), second: Point = Arg("POINT", en="vector")
+) -> float:
     """Scalar product of two points."""
     return float(first.coordinates @ second.coordinates)
 
 
-@PVEC.form(main("first", "POINT", en="vector"), arg("second", "POINT", en="vector"), when=IN_SPACE)
-def vector_product_of_points(first: Point, second: Point) -> Point:
+@PVEC.form(when=IN_SPACE)
+def vector_product_of_points(
+    first: Point = Main("POINT", en="vector"), second: Point = Arg("POINT", en="vector")
+) -> Point:
     """Vector product of two points."""
     return _made(first, np.cross(first.coordinates, second.coordinates))
 
 
-@PVEC.form(main("first", "POINT", en="vector"), when=IN_PLANE)
-def quarter_turn(first: Point) -> Point:
+@PVEC.form(when=IN_PLANE)
+def quarter_turn(first: Point = Main("POINT", en="vector")) -> Point:
     """A vector turned by a quarter turn."""
     return _made(first, np.cross([0.0, 0.0, 1.0], first.coordinates))
 
 
-@operator(
-    "PMIX",
-    arg("first", "POINT", en="vector"),
-    arg("second", "POINT", en="vector"),
-    opt("third", "POINT", en="vector, in space"),
-    family="mesh",
-    full_name="PMIXTE",
-)
-def pmix(session: Session, call: Call, first: Point, second: Point, third: Point | None) -> float:
+@operator("PMIX", family="mesh", full_name="PMIXTE")
+def pmix(
+    session: Session,
+    call: Call,
+    first: Point = Arg("POINT", en="vector"),
+    second: Point = Arg("POINT", en="vector"),
+    third: Point | None = Opt("POINT", en="vector, in space"),
+) -> float:
     """Mixed product."""
     normal = np.cross(first.coordinates, second.coordinates)
     if workspace(session).dimension < 3:
@@ -68,7 +71,7 @@ def pmix(session: Session, call: Call, first: Point, second: Point, third: Point
     return float(normal @ third.coordinates)
 
 
-@operator("NORM", arg("vector", "POINT", en="vector"), family="mesh")
-def norm(vector: Point) -> float:
+@operator("NORM", family="mesh")
+def norm(vector: Point = Arg("POINT", en="vector")) -> float:
     """Length of a vector."""
     return float(np.linalg.norm(vector.coordinates))

@@ -16,14 +16,11 @@ from ssilang.operators.dispatch import listing
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "NBEL",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    opt("types", "LISTMOTS", en="types of cells", kind="element"),
-    family="mesh",
-    empties=True,
-)
-def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
+@operator("NBEL", family="mesh", empties=True)
+def nbel(
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+    types: ListMots | None = Opt("LISTMOTS", en="types of cells", kind="element"),
+) -> int | ListEnti:
     """Count cells, or cells by type."""
     if types is None:
         return mesh.n_cells
@@ -31,23 +28,19 @@ def nbel(mesh: Mesh, types: ListMots | None) -> int | ListEnti:
     return ListEnti([sum(len(b) for b in mesh.blocks if b.cell_type == t) for t in wanted])
 
 
-@operator("NBNO", arg("mesh", "MAILLAGE", "POINT", en="mesh, or point"), family="mesh")
-def nbno(mesh: Mesh | Point) -> int:
+@operator("NBNO", family="mesh")
+def nbno(mesh: Mesh | Point = Arg("MAILLAGE", "POINT", en="mesh, or point")) -> int:
     """Count nodes."""
     return len(mesh.node_ids) if isinstance(mesh, Mesh) else 1
 
 
-@operator(
-    "MESU",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    choice(
-        "what", ("LONG", "SURF", "VOLU"), en="length, area, volume; by default as the cells are"
+@operator("MESU", family="mesh", empties=True, full_name="MESURE")
+def mesu(
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+    what: str | None = Choice(
+        ("LONG", "SURF", "VOLU"), en="length, area, volume; by default as the cells are"
     ),
-    family="mesh",
-    empties=True,
-    full_name="MESURE",
-)
-def mesu(mesh: Mesh, what: str | None) -> float:
+) -> float:
     """Measure a mesh."""
     asked = {"LONG": 1, "SURF": 2, "VOLU": 3}.get(what or "", mesh.dimension)
     if asked == mesh.dimension:
@@ -59,8 +52,8 @@ def mesu(mesh: Mesh, what: str | None) -> float:
     raise MeshError("operators.mesh.no-such-measure", what=what, dimension=mesh.dimension)
 
 
-@mesu.form(said("DENS"), arg("mesh", "MAILLAGE", en="mesh"))
-def sizes(mesh: Mesh) -> NodeField:
+@mesu.form(said("DENS"))
+def sizes(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> NodeField:
     """Field of mesh sizes."""
     ids, values = node_sizes(mesh)
     return NodeField.of(mesh.nodes, ids, {"SCAL": values}, "DIFFUS")
@@ -102,19 +95,17 @@ def list_mesh(mesh: Mesh, short: bool, say: Teller) -> str:
     return "\n".join(lines)
 
 
-@operator(
-    "REFE",
-    arg("small", "MAILLAGE", en="mesh"),
-    arg("large", "MAILLAGE", en="mesh that may hold it"),
-    family="mesh",
-)
-def refe(small: Mesh, large: Mesh) -> bool:
+@operator("REFE", family="mesh")
+def refe(
+    small: Mesh = Arg("MAILLAGE", en="mesh"),
+    large: Mesh = Arg("MAILLAGE", en="mesh that may hold it"),
+) -> bool:
     """Whether a mesh is within another one."""
     return _inside(small, large)
 
 
-@refe.form(arg("mesh", "MAILLAGE", en="mesh"))
-def names_within(session: Session, mesh: Mesh) -> ListMots:
+@refe.form()
+def names_within(session: Session, mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> ListMots:
     """Names of the meshes within a mesh."""
     frame = session.frame
     values = ((name, frame.find(name)) for name in sorted(frame.names()))

@@ -18,39 +18,33 @@ _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]]
 }
 
 
-@operator(
-    "INDI",
-    key(
-        "measures",
+@operator("INDI", family="mesh", full_name="INDICATEUR")
+def indi(
+    call: Call,
+    measures: list[str] = Key(
         tuple(_MEASURES),
         optional=False,
         repeated=True,
         en="flatness of QUA4, aspect ratio, skewness of TRI3 and TET4",
     ),
-    arg("mesh", "MAILLAGE", en="cells"),
-    family="mesh",
-    full_name="INDICATEUR",
-)
-def indi(call: Call, measures: list[str], mesh: Mesh) -> CellField:
+    mesh: Mesh = Arg("MAILLAGE", en="cells"),
+) -> CellField:
     """Shape of cells."""
     blocks = tuple(_block(call, b, measures) for b in mesh.blocks)
     return CellField(blocks, "SCALAIRE")
 
 
-@indi.form(
-    said("TOPO"),
-    arg("mesh", "MAILLAGE", en="triangles or tetrahedra"),
-    opt(
-        "metric",
+@indi.form(said("TOPO"))
+def topological(
+    call: Call,
+    mesh: Mesh = Arg("MAILLAGE", en="triangles or tetrahedra"),
+    metric: float | NodeField | None = Opt(
         "FLOTTANT",
         "CHPOINT",
         en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
         range=POSITIVE,
     ),
-    flag("listed", "LISTREEL", en="a list is given"),
-)
-def topological(
-    call: Call, mesh: Mesh, metric: float | NodeField | None, listed: bool
+    listed: bool = Flag("LISTREEL", en="a list is given"),
 ) -> CellField | ListReel:
     """Quality of cells, in a metric."""
     kinds = {b.cell_type for b in mesh.blocks}
@@ -107,14 +101,14 @@ _CHECKS = (
 )
 
 
-@operator("VERM", arg("mesh", "MAILLAGE", en="mesh"), family="mesh")
-def verm(session: Session, mesh: Mesh) -> None:
+@operator("VERM", family="mesh")
+def verm(session: Session, mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> None:
     """Check a mesh."""
     _tell(session, mesh)
 
 
-@verm.form(said("CORR"), arg("mesh", "MAILLAGE", en="mesh"))
-def corrected(session: Session, mesh: Mesh) -> Mesh:
+@verm.form(said("CORR"))
+def corrected(session: Session, mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     """Check a mesh, and take doubled cells out of it."""
     _tell(session, mesh)
     return without_duplicates(mesh)

@@ -27,20 +27,14 @@ def _whole_lines(mesh: Mesh) -> Mesh:
     return chained(Mesh(mesh.nodes, tuple(join_blocks(b) for b in groups.values())))
 
 
-@operator(
-    "CONT",
-    arg("mesh", "MAILLAGE", en="surface"),
-    choice(
-        "which",
-        ("EXTE", "INTE", "TOUT"),
-        default="EXTE",
-        en="edges of one cell, of three or more, or both",
+@operator("CONT", family="mesh", full_name="CONTOUR")
+def cont(
+    mesh: Mesh = Arg("MAILLAGE", en="surface"),
+    which: str = Choice(
+        ("EXTE", "INTE", "TOUT"), default="EXTE", en="edges of one cell, of three or more, or both"
     ),
-    flag("allowed", "NOID", en="the result may be empty"),
-    family="mesh",
-    full_name="CONTOUR",
-)
-def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
+    allowed: bool = Flag("NOID", en="the result may be empty"),
+) -> Mesh:
     """Contour of a surface."""
     parts: list[CellBlock] = []
     if which in ("EXTE", "TOUT"):
@@ -52,15 +46,12 @@ def cont(mesh: Mesh, which: str, allowed: bool) -> Mesh:
     return _whole_lines(Mesh(mesh.nodes, tuple(parts)))
 
 
-@operator(
-    "ENVE",
-    arg("mesh", "MAILLAGE", en="volume, or surface"),
-    flag("inwards", "ORIE", en="faces described inwards in any case"),
-    flag("allowed", "NOID", en="the result may be empty"),
-    family="mesh",
-    full_name="ENVELOPPE",
-)
-def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
+@operator("ENVE", family="mesh", full_name="ENVELOPPE")
+def enve(
+    mesh: Mesh = Arg("MAILLAGE", en="volume, or surface"),
+    inwards: bool = Flag("ORIE", en="faces described inwards in any case"),
+    allowed: bool = Flag("NOID", en="the result may be empty"),
+) -> Mesh:
     """Skin of a volume."""
     if mesh.dimension == 2:
         skin = lone_surfaces(mesh)
@@ -72,32 +63,27 @@ def enve(mesh: Mesh, inwards: bool, allowed: bool) -> Mesh:
     return skin
 
 
-@operator(
-    "ARET",
-    arg("mesh", "MAILLAGE", en="surface or volume"),
-    opt(
-        "angle",
+@operator("ARET", family="mesh", full_name="ARETE")
+def aret(
+    mesh: Mesh = Arg("MAILLAGE", en="surface or volume"),
+    angle: float = Opt(
         "FLOTTANT",
         range=between(0.0, 180.0),
         default=20.0,
         en="turn of the skin from which on an edge is sharp",
         unit="degree",
     ),
-    family="mesh",
-    full_name="ARETE",
-)
-def aret(mesh: Mesh, angle: float) -> Mesh:
+) -> Mesh:
     """Sharp edges."""
     return sharp_edges(mesh, angle)
 
 
-@operator(
-    "COTE",
-    arg("number", "ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
-    arg("mesh", "MAILLAGE", en="surface"),
-    family="mesh",
-)
-def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
+@operator("COTE", family="mesh")
+def cote(
+    call: Call,
+    number: int = Arg("ENTIER", en="1 initial, 2 right, 3 final, 4 left", range=POSITIVE),
+    mesh: Mesh = Arg("MAILLAGE", en="surface"),
+) -> Mesh:
     """Give back a side."""
     kept = _sides(call, mesh)
     if not 1 <= number <= len(kept):
@@ -105,8 +91,8 @@ def cote(call: Call, number: int, mesh: Mesh) -> Mesh:
     return kept[number - 1]
 
 
-@cote.form(arg("mesh", "MAILLAGE", en="surface"), gives=ANY)
-def all_sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+@cote.form(gives=ANY)
+def all_sides(call: Call, mesh: Mesh = Arg("MAILLAGE", en="surface")) -> tuple[Mesh, ...]:
     """Give back all sides."""
     return _sides(call, mesh)
 
@@ -117,13 +103,12 @@ def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     return mesh.sides
 
 
-@operator(
-    "FACE",
-    arg("number", "ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
-    arg("mesh", "MAILLAGE", en="volume"),
-    family="mesh",
-)
-def face(call: Call, number: int, mesh: Mesh) -> Mesh:
+@operator("FACE", family="mesh")
+def face(
+    call: Call,
+    number: int = Arg("ENTIER", en="1 start, 2 end, 3 around", range=POSITIVE),
+    mesh: Mesh = Arg("MAILLAGE", en="volume"),
+) -> Mesh:
     """Give back a face."""
     kept = _faces(call, mesh)
     if not 1 <= number <= len(kept):
@@ -131,8 +116,8 @@ def face(call: Call, number: int, mesh: Mesh) -> Mesh:
     return kept[number - 1]
 
 
-@face.form(arg("mesh", "MAILLAGE", en="volume"), gives=ANY)
-def all_faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
+@face.form(gives=ANY)
+def all_faces(call: Call, mesh: Mesh = Arg("MAILLAGE", en="volume")) -> tuple[Mesh, ...]:
     """Give back all faces."""
     return _faces(call, mesh)
 

@@ -38,8 +38,13 @@ _FILTERS = key(
 _NUMBERS = opt("which", "ENTIER", "LISTENTI", en="number, or numbers, among those", range=POSITIVE)
 
 
-@operator("ELEM", _MESH, _FILTERS, _NUMBERS, family="mesh", full_name="ELEMENT")
-def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti | None) -> Mesh:
+@operator("ELEM", family="mesh", full_name="ELEMENT")
+def elem(
+    call: Call,
+    mesh: Mesh = _MESH,
+    filters: Sequence[str] = _FILTERS,
+    which: int | ListEnti | None = _NUMBERS,
+) -> Mesh:
     """Pick cells by type, colour and number."""
     return _numbered(call, _filtered(mesh, filters), which)
 
@@ -54,17 +59,14 @@ def elem(call: Call, mesh: Mesh, filters: Sequence[str], which: int | ListEnti |
         },
         optional=False,
         en="cells of a colour; without number the colours that there are",
-    ),
-    _MESH,
-    _FILTERS,
-    _NUMBERS,
+    )
 )
 def of_numbered_colour(
     call: Call,
     colour: Chosen,
-    mesh: Mesh,
-    filters: Sequence[str],
-    which: int | ListEnti | None,
+    mesh: Mesh = _MESH,
+    filters: Sequence[str] = _FILTERS,
+    which: int | ListEnti | None = _NUMBERS,
 ) -> Mesh | ListMots:
     """Pick cells of a colour, or list the colours."""
     chosen = _filtered(mesh, filters)
@@ -76,21 +78,19 @@ def of_numbered_colour(
     return ListMots([COLOURS[shades[k]] for k in np.sort(first)])
 
 
-@elem.form(said("TYPE"), _MESH)
-def types(mesh: Mesh) -> ListMots:
+@elem.form(said("TYPE"))
+def types(mesh: Mesh = _MESH) -> ListMots:
     """List the types of the cells."""
     names = [TIE if is_tie(b.cell_type) else b.cell_type for b in mesh.blocks]
     return ListMots(list(dict.fromkeys(names)))
 
 
-@elem.form(
-    said("COMPRIS"),
-    _MESH,
-    arg("first", "POINT", en="where the part begins"),
-    arg("second", "POINT", en="where it ends"),
-    of=("MAILLAGE",),
-)
-def between(mesh: Mesh, first: Point, second: Point) -> Mesh:
+@elem.form(said("COMPRIS"), of=("MAILLAGE",))
+def between(
+    mesh: Mesh = _MESH,
+    first: Point = Arg("POINT", en="where the part begins"),
+    second: Point = Arg("POINT", en="where it ends"),
+) -> Mesh:
     """The part of a line between two points; of a network, the shortest way."""
     try:
         return stretch(chained(mesh), first.node, second.node)
@@ -106,12 +106,14 @@ def between(mesh: Mesh, first: Point, second: Point) -> Mesh:
         {"CONTENANT": [arg("point", "POINT", en="point")]},
         optional=False,
         en="cell that holds a point",
-    ),
-    _MESH,
-    flag("every", "TOUS", en="all cells that hold it"),
-    _ALLOWED,
+    )
 )
-def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Mesh:
+def holding_point(
+    holding: Chosen,
+    mesh: Mesh = _MESH,
+    every: bool = Flag("TOUS", en="all cells that hold it"),
+    allowed: bool = _ALLOWED,
+) -> Mesh:
     """Pick the cells that hold a point."""
     made = containing(mesh, holding["point"].coordinates, every)
     if not made.blocks and not allowed:
@@ -137,12 +139,13 @@ def holding_point(holding: Chosen, mesh: Mesh, every: bool, allowed: bool) -> Me
         optional=False,
         en="cells that rest on points",
     ),
-    opt("mesh", "MAILLAGE", en="cells to pick from"),
-    many("more", "MAILLAGE", "POINT", en="further points"),
     gives="MAILLAGE",
 )
 def resting_on_points(
-    call: Call, resting: Chosen, mesh: Mesh | None, more: Sequence[Mesh | Point]
+    call: Call,
+    resting: Chosen,
+    mesh: Mesh | None = Opt("MAILLAGE", en="cells to pick from"),
+    more: Sequence[Mesh | Point] = Many("MAILLAGE", "POINT", en="further points"),
 ) -> Mesh:
     """Pick the cells that rest on points; the mesh stands first, or last behind the word."""
     support = [*resting["support"], *more]

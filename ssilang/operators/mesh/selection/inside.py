@@ -15,21 +15,15 @@ from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "DEDA",
-    arg("point", "POINT", en="point"),
-    arg("mesh", "MAILLAGE", en="closed line or closed surface"),
-    opt(
-        "tolerance",
-        "FLOTTANT",
-        default=0.0,
-        en="distance still inside",
-        unit="m",
-        range=NOT_NEGATIVE,
+@operator("DEDA", family="mesh")
+def deda(
+    session: Session,
+    point: Point = Arg("POINT", en="point"),
+    mesh: Mesh = Arg("MAILLAGE", en="closed line or closed surface"),
+    tolerance: float = Opt(
+        "FLOTTANT", default=0.0, en="distance still inside", unit="m", range=NOT_NEGATIVE
     ),
-    family="mesh",
-)
-def deda(session: Session, point: Point, mesh: Mesh, tolerance: float) -> bool:
+) -> bool:
     """Whether a point is inside."""
     at = point.coordinates[None].copy()
     if workspace(session).dimension < 3:
@@ -45,34 +39,21 @@ def deda(session: Session, point: Point, mesh: Mesh, tolerance: float) -> bool:
     return bool(np.linalg.norm(gaps, axis=1).min() <= tolerance)
 
 
-@operator(
-    "INCL",
-    flag("volume", "VOLU", en="inside volume cells"),
-    arg("mesh", "MAILLAGE", en="cells to pick from"),
-    arg("outer", "MAILLAGE", en="closed line, surface with such a contour, or volume cells"),
-    choice(
-        "how",
-        ("STRI", "LARG", "BARY"),
-        en="nodes on the border do not count, or do; or centres decide",
+@operator("INCL", family="mesh", full_name="INCLUS")
+def incl(
+    call: Call,
+    volume: bool = Flag("VOLU", en="inside volume cells"),
+    mesh: Mesh = Arg("MAILLAGE", en="cells to pick from"),
+    outer: Mesh = Arg("MAILLAGE", en="closed line, surface with such a contour, or volume cells"),
+    how: str | None = Choice(
+        ("STRI", "LARG", "BARY"), en="nodes on the border do not count, or do; or centres decide"
     ),
-    flag("allowed", "NOID", en="the result may be empty"),
-    opt(
-        "margin",
+    allowed: bool = Flag("NOID", en="the result may be empty"),
+    margin: float | None = Opt(
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="with 'VOLU' how far outside still counts, 1E-2 by default",
     ),
-    family="mesh",
-    full_name="INCLUS",
-)
-def incl(
-    call: Call,
-    volume: bool,
-    mesh: Mesh,
-    outer: Mesh,
-    how: str | None,
-    allowed: bool,
-    margin: float | None,
 ) -> Mesh:
     """Cells inside a contour (or the contour of a surface), or inside a volume."""
     if margin is not None and not volume:

@@ -43,14 +43,20 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     return union(first, second, as_given=as_given)
 
 
-@DIFF.form(main("first", "MAILLAGE", en="mesh"), _SECOND)
-def difference_of_meshes(first: Mesh, second: Mesh | Point) -> Mesh:
+@DIFF.form()
+def difference_of_meshes(
+    first: Mesh = Main("MAILLAGE", en="mesh"), second: Mesh | Point = _SECOND
+) -> Mesh:
     """Symmetric difference of two meshes."""
     return symmetric_difference(first, as_mesh(second))
 
 
-@INTE.form(main("first", "MAILLAGE", en="mesh"), _SECOND, _ALLOWED)
-def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> Mesh:
+@INTE.form()
+def intersection_of_meshes(
+    first: Mesh = Main("MAILLAGE", en="mesh"),
+    second: Mesh | Point = _SECOND,
+    allowed: bool = _ALLOWED,
+) -> Mesh:
     """Common cells of two meshes."""
     made = intersection(first, as_mesh(second))
     if not made.blocks and not allowed:
@@ -58,13 +64,12 @@ def intersection_of_meshes(first: Mesh, second: Mesh | Point, allowed: bool) -> 
     return made
 
 
-@INTE.form(
-    said("GEOM"),
-    arg("first", "MAILLAGE", en="surface of TRI3"),
-    arg("second", "MAILLAGE", en="surface of TRI3"),
-    _ALLOWED,
-)
-def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh, Mesh, Mesh, Mesh]:
+@INTE.form(said("GEOM"))
+def surfaces_that_cross(
+    first: Mesh = Arg("MAILLAGE", en="surface of TRI3"),
+    second: Mesh = Arg("MAILLAGE", en="surface of TRI3"),
+    allowed: bool = _ALLOWED,
+) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Surfaces cut along their common lines, and these lines."""
     cut = crossed(first, second)
     if not cut[2].blocks and not allowed:
@@ -75,15 +80,15 @@ def surfaces_that_cross(first: Mesh, second: Mesh, allowed: bool) -> tuple[Mesh,
 _NONE = np.empty(0, dtype=np.int64)
 
 
-@operator(
-    "VISA",
-    DISTANCE,
-    arg("first", "MAILLAGE", en="mesh"),
-    opt("second", "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"),
-    family="mesh",
-    full_name="VISAVIS",
-)
-def visa(call: Call, distance: float | None, first: Mesh, second: Mesh | None) -> tuple[Mesh, Mesh]:
+@operator("VISA", family="mesh", full_name="VISAVIS")
+def visa(
+    call: Call,
+    distance: float | None = DISTANCE,
+    first: Mesh = Arg("MAILLAGE", en="mesh"),
+    second: Mesh | None = Opt(
+        "MAILLAGE", en="mesh whose nodes may face them; without it the first itself"
+    ),
+) -> tuple[Mesh, Mesh]:
     """Pairs of nodes."""
     ws = workspace(call.session)
     reach = ws.density / 10 if distance is None else distance

@@ -15,8 +15,8 @@ _MESH = main("mesh", "MAILLAGE", en="mesh")
 _COUNT = arg("count", "ENTIER", range=POSITIVE, en="number of parts")
 
 
-@operator("PART", said("CONN"), _MESH, _FREE, family="mesh", full_name="PARTITION")
-def part(mesh: Mesh, free: bool) -> Table:
+@operator("PART", said("CONN"), family="mesh", full_name="PARTITION")
+def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
     """Parts joined by common nodes."""
     return _table(connected(mesh), free)
 
@@ -65,19 +65,18 @@ def separated_parts(
     return _table(separated(mesh, **said), free)
 
 
-@part.form(
-    said("OPTI"),
-    _MESH,
-    opt("count", "ENTIER", range=POSITIVE, default=2, en="number of parts, a power of 2"),
-    _FREE,
-)
-def equal_parts(mesh: Mesh, count: int, free: bool) -> Table:
+@part.form(said("OPTI"))
+def equal_parts(
+    mesh: Mesh = _MESH,
+    count: int = Opt("ENTIER", range=POSITIVE, default=2, en="number of parts, a power of 2"),
+    free: bool = _FREE,
+) -> Table:
     """Parts of equal size."""
     return _table(balanced(mesh, count), free)
 
 
-@part.form(said("ARLE"), _MESH, _COUNT, _FREE, of=("MAILLAGE",))
-def dealt_out(call: Call, mesh: Mesh, count: int, free: bool) -> Table:
+@part.form(said("ARLE"), of=("MAILLAGE",))
+def dealt_out(call: Call, mesh: Mesh = _MESH, count: int = _COUNT, free: bool = _FREE) -> Table:
     """Cells dealt out in turn."""
     return _table(scattered(mesh, _positive(call, count)), free)
 
@@ -107,16 +106,12 @@ def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:
     return Table.numbered(zones, "" if free else "ESCLAVE")
 
 
-@operator(
-    "CCON",
-    arg("mesh", "MAILLAGE", en="mesh"),
-    choice(
-        "strict",
-        ("STR1", "STR2"),
-        en="points of more than two lines, edges of more than two cells separate",
+@operator("CCON", family="mesh")
+def ccon(
+    mesh: Mesh = Arg("MAILLAGE", en="mesh"),
+    strict: str | None = Choice(
+        ("STR1", "STR2"), en="points of more than two lines, edges of more than two cells separate"
     ),
-    family="mesh",
-)
-def ccon(mesh: Mesh, strict: str | None) -> Table:
+) -> Table:
     """Connected parts."""
     return _table(separated(mesh, by_branching=True) if strict else connected(mesh), True)

@@ -181,16 +181,14 @@ def polynomial_surface(
     return mesh_polynomial_surface(ws.nodes, shape, ws.density, surface, regular, ws.colour)
 
 
-@operator(
-    "COUP",
-    arg("mesh", "MAILLAGE", en="mesh in space"),
-    arg("p1", "POINT", en="point of the plane"),
-    arg("p2", "POINT", en="second point of the plane"),
-    arg("p3", "POINT", en="third point of the plane"),
-    family="mesh",
-    full_name="COUPER",
-)
-def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
+@operator("COUP", family="mesh", full_name="COUPER")
+def coup(
+    call: Call,
+    mesh: Mesh = Arg("MAILLAGE", en="mesh in space"),
+    p1: Point = Arg("POINT", en="point of the plane"),
+    p2: Point = Arg("POINT", en="second point of the plane"),
+    p3: Point = Arg("POINT", en="third point of the plane"),
+) -> Mesh:
     """Section by a plane."""
     a, b, c = (p.coordinates for p in (p1, p2, p3))
     normal = np.cross(b - a, c - a)
@@ -205,14 +203,12 @@ def coup(call: Call, mesh: Mesh, p1: Point, p2: Point, p3: Point) -> Mesh:
     return isovalue(CellField(tuple(blocks), ""), 0.0)
 
 
-@operator(
-    "FUIT",
-    arg("contour", "MAILLAGE", en="closed contour of SEG2"),
-    arg("first", "MAILLAGE", "POINT", en="where the segment may begin"),
-    arg("second", "MAILLAGE", "POINT", en="where it may end"),
-    family="mesh",
-)
-def fuit(contour: Mesh, first: Mesh | Point, second: Mesh | Point) -> tuple[Mesh, Mesh, Mesh]:
+@operator("FUIT", family="mesh")
+def fuit(
+    contour: Mesh = Arg("MAILLAGE", en="closed contour of SEG2"),
+    first: Mesh | Point = Arg("MAILLAGE", "POINT", en="where the segment may begin"),
+    second: Mesh | Point = Arg("MAILLAGE", "POINT", en="where it may end"),
+) -> tuple[Mesh, Mesh, Mesh]:
     """Cut a contour in two."""
     return split_contour(contour, _nodes(first), _nodes(second))
 
@@ -226,19 +222,15 @@ def _nodes(given: Mesh | Point) -> Mesh:
 _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}
 
 
-@operator(
-    "ISOV",
-    arg("field", "MCHAML", en="field at nodes, one component"),
-    choice(
-        "side",
+@operator("ISOV", family="mesh", full_name="ISOVALEUR")
+def isov(
+    field: CellField = Arg("MCHAML", en="field at nodes, one component"),
+    side: str = Choice(
         tuple(_SIDES),
         default="EGAL",
         en="places of the value, the default, or of smaller or larger ones",
     ),
-    arg("value", "FLOTTANT", en="value", range=ANY_NUMBER),
-    family="mesh",
-    full_name="ISOVALEUR",
-)
-def isov(field: CellField, side: str, value: float) -> Mesh:
+    value: float = Arg("FLOTTANT", en="value", range=ANY_NUMBER),
+) -> Mesh:
     """Isovalue, or part on one side of it."""
     return isovalue(field, value, _SIDES[side])

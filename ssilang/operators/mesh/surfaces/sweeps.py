@@ -77,30 +77,28 @@ def _swept(
     return grown(mesh, made)
 
 
-@operator(
-    "TRAN",
-    _SWEPT,
-    LAYERS,
-    SIZES,
-    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
-    family="mesh",
-    full_name="TRANSLATION",
-)
-def tran(call: Call, swept: Mesh, count: int | None, sizes: Sizes, vector: Point) -> Mesh:
+@operator("TRAN", family="mesh", full_name="TRANSLATION")
+def tran(
+    call: Call,
+    swept: Mesh = _SWEPT,
+    count: int | None = LAYERS,
+    sizes: Sizes = SIZES,
+    vector: Point = Arg("POINT", en="vector", unit="m", usual=NOT_ZERO),
+) -> Mesh:
     """Sweep a line along a vector."""
     shift = vector.coordinates.copy()
     cuts = cuts_of(call, count, sizes)
     return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
 
 
-@operator("ROTA", _SWEPT, LAYERS, ANGLE, SIZES, AXIS, family="mesh", full_name="ROTATION")
+@operator("ROTA", family="mesh", full_name="ROTATION")
 def rota(
     call: Call,
-    swept: Mesh,
-    count: int | None,
-    angle: float | None,
-    sizes: Sizes,
-    axis: Sequence[Point],
+    swept: Mesh = _SWEPT,
+    count: int | None = LAYERS,
+    angle: float | None = ANGLE,
+    sizes: Sizes = SIZES,
+    axis: Sequence[Point] = AXIS,
 ) -> Mesh:
     """Sweep a line about a centre or an axis."""
     count, degrees = count_and_angle(call, count, angle)
@@ -117,16 +115,14 @@ def turning(
     return (lambda mesh: rotation(mesh, degrees, origin, direction)), size
 
 
-@operator(
-    "REGL",
-    _SWEPT,
-    LAYERS,
-    SIZES,
-    arg("goal", "MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
-    family="mesh",
-    full_name="REGLER",
-)
-def regl(call: Call, swept: Mesh, count: int | None, sizes: Sizes, goal: Mesh) -> Mesh:
+@operator("REGL", family="mesh", full_name="REGLER")
+def regl(
+    call: Call,
+    swept: Mesh = _SWEPT,
+    count: int | None = LAYERS,
+    sizes: Sizes = SIZES,
+    goal: Mesh = Arg("MAILLAGE", en="line to reach, or surface whose side 1 is reached"),
+) -> Mesh:
     """Sweep a line to another one."""
     reached = goal
     if goal.dimension > 1:
@@ -164,14 +160,12 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
     return Path(motion, length), Subdivision(fractions, float(sizes[0]), float(sizes[1]))
 
 
-@operator(
-    "GENE",
-    arg("line", "MAILLAGE", en="line that is swept"),
-    arg("way", "MAILLAGE", en="line along which it goes"),
-    family="mesh",
-    full_name="GENERATRICE",
-)
-def gene(call: Call, line: Mesh, way: Mesh) -> Mesh:
+@operator("GENE", family="mesh", full_name="GENERATRICE")
+def gene(
+    call: Call,
+    line: Mesh = Arg("MAILLAGE", en="line that is swept"),
+    way: Mesh = Arg("MAILLAGE", en="line along which it goes"),
+) -> Mesh:
     """Sweep a line along another line."""
     path, layers = generator_path(way)
     surface = chosen_family(workspace(call.session)).need_surface()

@@ -24,15 +24,13 @@ from ssilang.kernel.mesh.volumes.volume import fill_volume
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "TRIA",
-    arg("mesh", "MAILLAGE", en="closed lines, or points"),
-    flag("convex", "CONV", en="of points: their convex hull, as always"),
-    opt("limit", "ENTIER", en="accepted, without effect", range=ANY_NUMBER),
-    family="mesh",
-    full_name="TRIANGULATION",
-)
-def tria(session: Session, mesh: Mesh, convex: bool, limit: int | None) -> Mesh:
+@operator("TRIA", family="mesh", full_name="TRIANGULATION")
+def tria(
+    session: Session,
+    mesh: Mesh = Arg("MAILLAGE", en="closed lines, or points"),
+    convex: bool = Flag("CONV", en="of points: their convex hull, as always"),
+    limit: int | None = Opt("ENTIER", en="accepted, without effect", range=ANY_NUMBER),
+) -> Mesh:
     """Triangulate a contour or points."""
     ws = workspace(session)
     if mesh.dimension == 0:
@@ -53,14 +51,15 @@ def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
     return Mesh.of(mesh.nodes, "TRI3", ids[table], ws.colour)
 
 
-@tria.form(
-    said("TOPO"),
-    arg("boundary", "MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
-    choice("points", ("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
-    opt("parameters", "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"),
-)
+@tria.form(said("TOPO"))
 def tria_topo(
-    call: Call, session: Session, boundary: Mesh, points: str, parameters: Table | None
+    call: Call,
+    session: Session,
+    boundary: Mesh = Arg("MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
+    points: str = Choice(("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
+    parameters: Table | None = Opt(
+        "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"
+    ),
 ) -> Mesh:
     """Fill a boundary with simplices."""
     ws = workspace(session)
@@ -95,19 +94,15 @@ _FLAT = 1e-11
 """Share of the mean cell below which one counts as flat."""
 
 
-@operator(
-    "RAFT",
-    arg("mesh", "MAILLAGE", en="plane triangles"),
-    opt(
-        "sizes",
-        "CHPOINT",
-        en="mesh sizes wanted; without it the densities of the nodes",
-        unit="m",
+@operator("RAFT", family="mesh")
+def raft(
+    session: Session,
+    mesh: Mesh = Arg("MAILLAGE", en="plane triangles"),
+    sizes: NodeField | None = Opt(
+        "CHPOINT", en="mesh sizes wanted; without it the densities of the nodes", unit="m"
     ),
-    opt("limit", "ENTIER", en="most nodes of the result", range=POSITIVE),
-    family="mesh",
-)
-def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | None) -> Mesh:
+    limit: int | None = Opt("ENTIER", en="most nodes of the result", range=POSITIVE),
+) -> Mesh:
     """Refine triangles."""
     ids = mesh.node_ids
     if sizes is None:
@@ -119,29 +114,25 @@ def raft(session: Session, mesh: Mesh, sizes: NodeField | None, limit: int | Non
     return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
-@operator(
-    "COUT",
-    arg("first", "MAILLAGE", en="line, or cells"),
-    arg("second", "MAILLAGE", "POINT", en="line in the same sense, or point"),
-    family="mesh",
-    full_name="COUTURE",
-)
-def cout(session: Session, first: Mesh, second: Mesh | Point) -> Mesh:
+@operator("COUT", family="mesh", full_name="COUTURE")
+def cout(
+    session: Session,
+    first: Mesh = Arg("MAILLAGE", en="line, or cells"),
+    second: Mesh | Point = Arg("MAILLAGE", "POINT", en="line in the same sense, or point"),
+) -> Mesh:
     """Stitch lines together, or join cells to a point."""
     if isinstance(second, Point):
         return cone(first, second.node)
     return stitch(first, second, workspace(session).colour)
 
 
-@operator(
-    "VORO",
-    arg("germs", "MAILLAGE", en="points of the cells"),
-    arg("contour", "MAILLAGE", en="closed line of SEG2"),
-    opt("weights", "CHPOINT", en="weights of the points", unit="m"),
-    family="mesh",
-    full_name="VORONOI",
-)
-def voro(call: Call, germs: Mesh, contour: Mesh, weights: NodeField | None) -> Table:
+@operator("VORO", family="mesh", full_name="VORONOI")
+def voro(
+    call: Call,
+    germs: Mesh = Arg("MAILLAGE", en="points of the cells"),
+    contour: Mesh = Arg("MAILLAGE", en="closed line of SEG2"),
+    weights: NodeField | None = Opt("CHPOINT", en="weights of the points", unit="m"),
+) -> Table:
     """Cells, edges and neighbours."""
     ws = workspace(call.session)
     if ws.dimension != 2:

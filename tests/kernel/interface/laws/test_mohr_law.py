@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
-from ssilang.kernel.interface.laws.parameters import check_mohr_parameters
+from ssilang.kernel.interface.laws.mohr_law import check_mohr_parameters
 from ssilang.kernel.interface.laws.point_laws import respond
 
 MOHR = 2

@@ -15,9 +15,8 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
     Variable,
 )
-from ssilang.kernel.interface.laws.parameters import check_sdm_parameters
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
-from ssilang.kernel.interface.laws.sdm_law import normal_law
+from ssilang.kernel.interface.laws.sdm_law import check_sdm_parameters, normal_law
 
 SDM = 1
 

@@ -1,0 +1,66 @@
+"""What is known of a joint's law beside its equations, as each law's file declares it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.interface.laws.columns import LawCode, Variable
+
+
+@dataclass(frozen=True)
+class Law:
+    """What is known of a law beside its equations.
+
+    Attributes
+    ----------
+    code : int
+        Number that compiled code knows it by.
+    required, optional : tuple of str
+        Parameters as scripts name them (KS stands for KS1 and KS2).
+    check : callable or None
+        Refuses inadmissible parameters (n, N_PARAMETERS).
+    linear : bool
+        True if the elastic stiffness says all.
+    angles : dict
+        Parameters in degrees, with the columns that take their tangents.
+    variables : dict
+        Internal variables that results show, with their columns of the state, whose sum they are.
+    rocking : callable or None
+        For a whole footing at a joint of two points, whose jumps are rotations and opening: its
+        stiffness in full contact about t1 and t2, each (n,), from the parameters; `turning` has
+        what counts in the plane.
+    in_space : tuple of str or None
+        Parameters that it needs in three dimensions beside; None if it is plane.
+    two_points : bool
+        Stands between two points alone (JOI1).
+    """
+
+    code: LawCode
+    required: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    check: Callable[[FloatArray], None] | None = None
+    linear: bool = False
+    angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    variables: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
+    rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
+    in_space: tuple[str, ...] | None = ()
+    two_points: bool = False
+
+    @property
+    def macro(self) -> bool:
+        """True for a whole footing."""
+        return self.rocking is not None
+
+    def turning(self, p: FloatArray, dimension: int) -> tuple[FloatArray, FloatArray]:
+        """Stiffness (n,) of a whole footing about t1 and t2; in the plane about t2 alone, twice.
+
+        The plane has the side LARG, along t1; LONG is how far the footing goes on behind it.
+        """
+        assert self.rocking is not None
+        about_1, about_2 = self.rocking(p)
+        return (about_2 if dimension == 2 else about_1), about_2
+
+
+SLIPS: dict[str, tuple[Variable, ...]] = {"GLI1": (Variable.SLIP1,), "GLI2": (Variable.SLIP2,)}

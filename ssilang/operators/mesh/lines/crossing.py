@@ -1,0 +1,91 @@
+"""INTE: the line along which two simple surfaces cross."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
+from ssilang.kernel.mesh.surfaces.analytic import (
+    Shape,
+    cone_shape,
+    cylinder_shape,
+    plane_shape,
+    sphere_shape,
+    torus_shape,
+)
+from ssilang.operators.dispatch import INTE
+from ssilang.operators.mesh.lines.ends import (
+    COUNT,
+    END,
+    SIZES,
+    START,
+    Ends,
+    Sizes,
+    cuts_of,
+    drawn,
+    ends_of,
+    positions,
+)
+from ssilang.operators.prelude import *
+
+_CENTRE = arg("centre", "POINT", en="centre")
+_AXIS = arg("axis", "POINT", en="point of the axis")
+_SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle")
+
+# word -> surface through the start of the curve (a plane through both its ends)
+_SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
+    "PLAN": lambda p, start, end: plane_shape(start, end, p[0]),
+    "SPHE": lambda p, start, end: sphere_shape(p[0], start),
+    "CYLI": lambda p, start, end: cylinder_shape(p[0], p[1], start),
+    "CONI": lambda p, start, end: cone_shape(p[0], p[1], start),
+    "TORI": lambda p, start, end: torus_shape(p[0], p[1], p[2], start),
+}
+
+
+@INTE.form(
+    select(
+        "surfaces",
+        {
+            "PLAN": [arg("point", "POINT", en="point of the plane")],
+            "SPHE": [_CENTRE],
+            "CYLI": [arg("first", "POINT", en=_AXIS.en), _AXIS],
+            "CONI": [arg("apex", "POINT", en="apex"), _AXIS],
+            "TORI": [
+                _CENTRE,
+                _AXIS,
+                _SMALL_CIRCLE,
+            ],
+        },
+        optional=False,
+        repeated=True,
+        en="the two surfaces that cross, both through the start",
+    )
+)
+def crossing(
+    call: Call,
+    surfaces: Sequence[Chosen],
+    start: Point | Mesh = Main("POINT", "MAILLAGE", en=START.en),
+    count: int | None = COUNT,
+    sizes: Sizes = SIZES,
+    length: float | None = Key(
+        "LONG",
+        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
+        en="length of the curve, then the end only shows the way",
+    ),
+    end: Point | Mesh | None = END,
+) -> Mesh:
+    """The line along which two surfaces cross, from a point or a line to another."""
+    cuts = cuts_of(call, count, sizes)
+    if len(surfaces) != 2:
+        raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
+    ends = ends_of(call, start, end)
+    ws = workspace(call.session)
+    first, last = positions(ws, ends.start, ends.end)
+    gaps = [
+        _SURFACES[s.word]([p.coordinates.copy() for p in s.values.values()], first, last).distance
+        for s in surfaces
+    ]
+    curve = crossing_curve((gaps[0], gaps[1]), first, last, length)
+    if length is not None:
+        ends = Ends(ends.start, int(ws.nodes.add(curve.points[-1:], cuts.last)[0]), ends.before)
+    return drawn(call, ends, curve, curve.length, cuts)
