@@ -6,10 +6,10 @@ work (Laursen and Chawla's persistency, Moreau's impact of restitution 1, since 
 `C v_1 = -C v_0`). A relation turns back at most one step's way before its stop, and never crosses
 it. Penalty: the mean reaction is that of the spring's energy, `p* = -(psi_1 - psi_0)/dg`.
 
-On the unknowns of the interface, with h = 2 f* - R y and P = 2 p*,
+On the unknowns of the interface, with h = f* - f_0 - R y,
 
-    y  = y_0  - S_JJ h + S_JG P
-    dg = dg_0 - S_GJ h + S_GG P
+    y  = y_0  - S_JJ h + S_JG p*
+    dg = dg_0 - S_GJ h + S_GG p*
 """
 
 from __future__ import annotations
@@ -22,8 +22,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.contact.unilateral import ContactOptions
+from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.newton import evaluate
+from ssilang.kernel.interface.response import accept, interface_stiffness, new_trial
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
+from ssilang.kernel.stepping.state import Motion
 
 TOLERANCE = 1e-14
 ACCEPTED = 1e-11
@@ -51,7 +57,7 @@ class Joints(Protocol):
 
 @dataclass(frozen=True)
 class Found:
-    """Joint loads h, reactions P = 2 p*, turns (<= 0: not converged), residual."""
+    """Joint loads h, mean reactions P, turns (<= 0: not converged), residual."""
 
     h: FloatArray
     P: FloatArray
@@ -138,7 +144,7 @@ class ConservingContact:
         scale, before, step = float(np.abs(z0).max(initial=1e-300)), np.inf, np.zeros(n + m)
         for turn in range(1, MOST_TURNS + 1):
             loads[:n] = joints.respond(z[:n]) if n else 0.0
-            loads[n:], slope = mean_penalty(gap, z[n:], 2.0 * (self.options.coefficient or 0.0))
+            loads[n:], slope = mean_penalty(gap, z[n:], self.options.coefficient or 0.0)
             rest = z - z0 + S @ loads
             size = float(np.abs(rest).max(initial=0.0))
             scale = max(scale, float(np.abs(z).max(initial=0.0)))
@@ -152,6 +158,54 @@ class ConservingContact:
             z = z + (1.0 if turn <= PLAIN_TURNS or size < before else 0.5) * step
             before = size
         return Found(loads[:n], loads[n:], -MOST_TURNS, size / scale)
+
+
+class ConservingSolver:
+    """Steps with unilateral relations; `motion.contact` becomes their mean reaction."""
+
+    def __init__(self, problem: Problem, effective: Effective, rows: ContactRows) -> None:
+        joints, share = problem.interface, 1 - problem.scheme.alpha_f
+        self.effective, self.rows, self.interface = effective, rows, joints
+        J = None if joints is None else joints.J
+        self.contact = ConservingContact(effective, rows, problem.contact_options, J)
+        self._condensed = Condensed(effective.S, effective.R, share)
+        if joints is not None:
+            self._trial = new_trial((joints.n_points, joints.dimension), joints.size, mean=True)
+            self._K = np.zeros((joints.size, joints.size))
+
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gaps: FloatArray) -> StepOutcome:
+        """The step's increment; `gaps` (2, m) are those of both ends for du = 0."""
+        e, joints, self._now = self.effective, self.interface, motion.joints
+        du = e.solve(r)
+        if dd.any():
+            du = du + e.imposed(dd)
+        y0 = np.zeros(0) if joints is None else joints.J @ du
+        found = self.contact.solve(self, y0, gaps[0], self.rows.G @ du + gaps[1] - gaps[0])
+        motion.contact[:] = found.P
+        du = du + self.contact.YG @ found.P
+        if joints is not None and found.turns > 0:
+            du = du - e.Y @ found.h
+            accept(self._trial, self._now)
+        return StepOutcome(du, found.turns, found.residual)
+
+    @property
+    def size(self) -> int:
+        """Unknowns of the joints."""
+        return len(self.effective.S)
+
+    def respond(self, y: FloatArray) -> FloatArray:
+        """h at the increment y of the jumps."""
+        assert self.interface is not None
+        self._trial.y[:] = y
+        evaluate(self.interface.points, self._condensed, self._now, self._trial)
+        return self._trial.h.copy()
+
+    def tangent(self) -> FloatArray:
+        """dh/dy at the last response."""
+        assert self.interface is not None
+        interface_stiffness(self.interface.points, self._trial.D, self._K)
+        found: FloatArray = self._condensed.c * self._K - self.effective.R
+        return found
 
 
 def mean_penalty(

@@ -83,8 +83,8 @@ class ContactRows:
         return np.concatenate([gaps, np.zeros(f.H.shape[0]), f.offset + f.watched @ u])
 
     def gaps(self, u: FloatArray, factors: FloatArray) -> FloatArray:
-        """Gaps (m,) at displacement u (n,) and load factors (k,)."""
-        found: FloatArray = self.G @ u - self.imposed @ factors
+        """Gaps (..., m) at displacement u (n,) and load factors (..., k)."""
+        found: FloatArray = self.G @ u - factors @ self.imposed.T
         return found
 
     def closed(self, forces: FloatArray) -> BoolArray:

@@ -183,6 +183,10 @@ def stopped_motions(contact: ContactRows, free: FloatArray) -> FloatArray:
 
 def step_solver(problem: Problem, effective: Effective) -> StepSolver:
     """The condensed interface, with active sets where there are unilateral relations."""
+    if problem.contact is not None and problem.scheme.conserving:
+        from ssilang.kernel.contact.conserving import ConservingSolver
+
+        return ConservingSolver(problem, effective, problem.contact)
     if problem.contact is not None:
         return ContactSolver(problem, effective, problem.contact)
     return CondensedSolver(problem, effective)

@@ -32,16 +32,6 @@ class Basis:
     rates: FloatArray
     back: FloatArray
 
-    @property
-    def orders(self) -> FloatArray:
-        """k of each coefficient (2 H + 1,)."""
-        return orders(self.harmonics)
-
-
-def orders(harmonics: int) -> FloatArray:
-    """k of each coefficient: 0, 1, 1, 2, 2 ..."""
-    return np.concatenate([[0.0], np.repeat(np.arange(1.0, harmonics + 1), 2)])
-
 
 def basis_at(harmonics: int, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Values and rates (N, 2 H + 1) at angles (N,)."""

@@ -31,6 +31,7 @@ from ssilang.kernel.interface.response import (
     interface_forces,
     interface_response,
     local_jumps,
+    mean_response,
     new_trial,
 )
 
@@ -220,9 +221,13 @@ class Workspace(NamedTuple):
     shares: FloatArray  # (n_points, d), see `projected`; NaN: not looked at yet
 
 
-def workspace(shape: tuple[int, ...], q: int) -> Workspace:
-    """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
-    return Workspace(new_trial(shape, q), new_factors(shape, q), np.full(shape, np.nan))
+def workspace(shape: tuple[int, ...], q: int, mean: bool = False) -> Workspace:
+    """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet.
+
+    Steps of `mean` tractions have no start by projected ones.
+    """
+    shares = np.full(shape, 1.0 if mean else np.nan)
+    return Workspace(new_trial(shape, q, mean), new_factors(shape, q), shares)
 
 
 @compiled
@@ -250,11 +255,13 @@ def hold_shear(joints: Joints, t: FloatArray, state: FloatArray) -> bool:
 
 @apart
 @compiled
-def _evaluate(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
+def evaluate(joints: Joints, condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     """Tractions and forces at the increment y of the trial; the largest residual."""
     for i in range(len(trial.y)):
         trial.delta[i] = now.delta[i] + trial.y[i]
     interface_response(joints, now.state, trial.delta, trial)
+    if len(trial.mean):
+        mean_response(joints, now, trial)
     return residual(condensed, now, trial)
 
 
@@ -264,9 +271,8 @@ def _restart_held(joints: Joints, condensed: Condensed, now: InterfaceState, tri
     """Start again with the shear held that a step's start has, where no other shear is possible."""
     interface_response(joints, now.state, now.delta, trial)
     if hold_shear(joints, trial.t, now.state):
-        for i in range(len(trial.y)):
-            trial.y[i] = trial.y0[i]
-    return _evaluate(joints, condensed, now, trial)
+        copy_state(trial.y0, trial.y)
+    return evaluate(joints, condensed, now, trial)
 
 
 @apart
@@ -298,7 +304,7 @@ def solve_interface(
             shares[0, 0] = 1.0  # looked at; the others stay no number, which is not stiff
     if is_stiff(shares):
         find_start(joints, condensed, now, trial, work.factors, shares)
-    size = _evaluate(joints, condensed, now, trial)
+    size = evaluate(joints, condensed, now, trial)
     scale = max(largest(trial.y0), largest(now.delta), 1e-300)
     turns = -MOST_TURNS
     for turn in range(1, MOST_TURNS + 1):
@@ -320,7 +326,7 @@ def solve_interface(
         for halving in range(HALVINGS):
             for i in range(len(y)):
                 y[i] += length * dy[i]
-            size = _evaluate(joints, condensed, now, trial)
+            size = evaluate(joints, condensed, now, trial)
             if turn <= PLAIN_TURNS or size < before or halving == HALVINGS - 1:
                 break
             for i in range(len(y)):

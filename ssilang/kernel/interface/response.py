@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart
+from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
-from ssilang.kernel.interface.laws.point_laws import point_energies, point_response, respond
+from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
 
 
@@ -73,6 +73,8 @@ class Trial(NamedTuple):
         Tangents dt/dw.
     h, r, dy : arrays (q,)
         Load that corrects the linear solution, residual, Newton's direction.
+    mean : array (n_points, d)
+        Tractions that are means over the step; f and D are theirs (no rows: those of the end).
     """
 
     y0: FloatArray
@@ -86,14 +88,16 @@ class Trial(NamedTuple):
     h: FloatArray
     r: FloatArray
     dy: FloatArray
+    mean: FloatArray
 
 
-def new_trial(shape: tuple[int, ...], q: int) -> Trial:
+def new_trial(shape: tuple[int, ...], q: int, mean: bool = False) -> Trial:
     """Zeros for (n_points, d) local jumps and q jumps of pairs."""
     n_points, d = shape
     w, t, state = np.zeros(shape), np.zeros(shape), np.zeros((n_points, N_STATE))
     y0, y, delta, f, h, r, dy = (np.zeros(q) for _ in range(7))
-    return Trial(y0, y, delta, f, w, t, state, np.zeros((n_points, d, d)), h, r, dy)
+    D, means = np.zeros((n_points, d, d)), np.zeros((n_points if mean else 0, d))
+    return Trial(y0, y, delta, f, w, t, state, D, h, r, dy, means)
 
 
 @compiled
@@ -231,14 +235,11 @@ def _branch(w: float, xi: float, new_xi: float, k: float, fc: float) -> int:
 
 
 @compiled
-def _mean_point(
-    joints: Joints, now: InterfaceState, end: Trial, tm: FloatArray, point: int
-) -> None:
-    """A point's end traction and state, mean traction tm and its tangent dtm/dw, in place."""
+def _mean_point(joints: Joints, now: InterfaceState, end: Trial, point: int) -> None:
+    """A point's mean traction tm, its tangent dtm/dw, the loss by its work, in place."""
     p, state, new, D = joints.p[point], now.state[point], end.state[point], end.D[point]
-    w0, t0, w1, t1 = now.w[point], now.t[point], end.w[point], end.t[point]
+    w0, t0, w1, t1, tm = now.w[point], now.t[point], end.w[point], end.t[point], end.mean[point]
     n = w0.shape[0] - 1
-    point_response(joints.codes[point], w1, state, p, t1, new, D)
     slope = D[n, n]
     # shear, and whatever has no energy of its own: the mean of both ends
     work = 0.0
@@ -256,9 +257,8 @@ def _mean_point(
     k, fc, xi0, xi1 = p[Parameter.KN], p[Parameter.FC], state[Variable.XI], new[Variable.XI]
     before, after = _branch(w0[n], xi0, xi0, k, fc), _branch(w1[n], xi0, xi1, k, fc)
     step = w1[n] - w0[n]
-    if before == after and after != OPENING:
-        return
-    if abs(k * step) <= TINY * max(abs(t0[n]), abs(t1[n])) or step == 0.0:
+    straight = before == after and after != OPENING
+    if straight or abs(k * step) <= TINY * max(abs(t0[n]), abs(t1[n])):
         return
     # elsewhere work over path; its tangent is kept below that which Newton could not leave
     fu, gf = p[Parameter.FU], p[Parameter.GF]
@@ -270,16 +270,10 @@ def _mean_point(
         D[n, n] = 0.5 * k
 
 
+@seldom
 @compiled
-def mean_response(
-    joints: Joints, now: InterfaceState, delta: FloatArray, end: Trial, tm: FloatArray
-) -> None:
-    """Mean tractions tm (n_points, d) of a step that ends at the pair jumps delta, into `end`.
-
-    There w, t and state are those of the end; D are tangents of the mean tractions, f (q,) their
-    forces.
-    """
-    local_jumps(joints, delta, end.w)
+def mean_response(joints: Joints, now: InterfaceState, end: Trial) -> None:
+    """Mean tractions of a step, from its end as `interface_response` leaves it, with D and f."""
     for i in range(end.w.shape[0]):
-        _mean_point(joints, now, end, tm[i], i)
-    interface_forces(joints, tm, end.f)
+        _mean_point(joints, now, end, i)
+    interface_forces(joints, end.mean, end.f)

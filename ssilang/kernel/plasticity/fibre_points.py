@@ -19,15 +19,15 @@ from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.materials.plastic import uniaxial
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.materials.plastic.uniaxial import Along, Fibres, elastic
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
 
 COMPONENTS = (0, 3, 4)
 """XX XY XZ in the tensor."""
-ELASTIC = PlasticLaw(uniaxial.elastic, (), (), uniaxial=True)
+ELASTIC = PlasticLaw(Fibres(elastic), (), ())
 STRESS_FIELD, VARIABLE_FIELD = "VONS", "VAIS"
 """Internal variables of a beam: fields of stresses and of internal variables on its section."""
 
@@ -74,6 +74,16 @@ class FibreGroup:
         kept[..., :k] = found.variables.reshape(n, f, k)
         return after.reshape(n, f, 6), kept, tangent.reshape(n, f, 6, 6)
 
+    def along(self, stress: FloatArray, strain: FloatArray, variables: FloatArray) -> Along:
+        """Stress, variables and slope along the fibres of one section that is not sheared."""
+        law = self.law.respond
+        if isinstance(law, Fibres):
+            return law.along(self.parameters, stress, strain, variables)
+        s, e = np.zeros((2, 1, len(stress), 6))
+        s[0, :, 0], e[0, :, 0] = stress, strain
+        after, kept, tangent = self.respond(s, e, variables[None])
+        return Along(after[0, :, 0], kept[0], tangent[0, :, 0, 0])
+
     def tiled(self, n: int) -> tuple[PointParameters, FloatArray]:
         """Parameters and shares of shear (n n_fibres, 2) at n sections; the last n is kept."""
         if n not in self.kept:
@@ -111,6 +121,15 @@ class SectionLaw:
     def width(self) -> int:
         """Number of internal variables that a fibre is given."""
         return max(len(g.law.variables) for g in self.groups)
+
+    def along(self, stress: FloatArray, strain: FloatArray, variables: FloatArray) -> Along:
+        """Stress, variables and slope along the fibres of one section that is not sheared."""
+        found = Along(np.empty_like(stress), variables.copy(), np.empty_like(stress))
+        for group in self.groups:
+            rows, k = group.part.rows, len(group.law.variables)
+            made = group.along(stress[rows], strain[rows], variables[rows, :k])
+            found.stress[rows], found.variables[rows, :k], found.slope[rows] = made
+        return found
 
     def __call__(
         self,

@@ -11,7 +11,13 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.elements.beams.fibre_section import FibreSection
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.plasticity.fibre_points import SectionLaw, fibre_groups, section_fields
+from ssilang.kernel.materials.plastic.uniaxial import Along
+from ssilang.kernel.plasticity.fibre_points import (
+    FibreGroup,
+    SectionLaw,
+    fibre_groups,
+    section_fields,
+)
 
 TURNS = 200
 
@@ -26,14 +32,24 @@ class BentSection:
         MOMY and MOMZ.
     strains : array (n,)
         EPS, the strain of the line.
-    stresses, variables : list of CellField
-        On the section, at each value.
+    groups : tuple of FibreGroup
+    ends : list of Along
+        What the fibres have at each value.
     """
 
     moments: FloatArray
     strains: FloatArray
-    stresses: list[CellField]
-    variables: list[CellField]
+    groups: tuple[FibreGroup, ...]
+    ends: list[Along]
+
+    def fields(self) -> tuple[list[CellField], list[CellField]]:
+        """Stresses, and internal variables, on the section at each value."""
+        found = []
+        for end in self.ends:
+            stress = np.zeros((len(end.stress), 6))
+            stress[:, 0] = end.stress
+            found.append(section_fields(self.groups, stress, end.variables))
+        return [s for s, _ in found], [v for _, v in found]
 
 
 def bend(
@@ -59,41 +75,33 @@ def bend(
     f = len(section.areas)
     law = SectionLaw(groups, f)
     y, z = section.places.T
-    stress, variables = np.zeros((f, 6)), np.zeros((f, law.width))
+    end = Along(np.zeros(f), np.zeros((f, law.width)), np.zeros(f))
     eps, bent = 0.0, np.zeros(2)
-    moments, strains, fields = np.zeros((len(forces), 2)), np.zeros(len(forces)), []
+    moments, strains, ends = np.zeros((len(forces), 2)), np.zeros(len(forces)), []
     for i, (wanted, force) in enumerate(zip(curvatures, forces, strict=True)):
         turn = z * (wanted[0] - bent[0]) - y * (wanted[1] - bent[1])
 
-        def answer(
-            step: float, turn: FloatArray = turn, s: FloatArray = stress, q: FloatArray = variables
-        ) -> tuple[FloatArray, FloatArray, FloatArray]:
-            strain = np.zeros((f, 6))
-            strain[:, 0] = step + turn
-            found = law(groups[0].parameters, s, strain, q)
-            return found.stress, found.variables, found.tangent[:, 0, 0]
+        def answer(step: float, turn: FloatArray = turn, start: Along = end) -> Along:
+            return law.along(start.stress, step + turn, start.variables)
 
-        step, stress, variables = _balanced(answer, section, float(force), tolerance, i)
+        step, end = _balanced(answer, section, float(force), tolerance, i)
         eps, bent = eps + step, wanted
-        along = section.areas * stress[:, 0]
+        along = section.areas * end.stress
         moments[i], strains[i] = (along @ z, -along @ y), eps
-        fields.append(section_fields(groups, stress, variables))
-    return BentSection(moments, strains, [s for s, _ in fields], [v for _, v in fields])
+        ends.append(end)
+    return BentSection(moments, strains, groups, ends)
 
 
 def _balanced(
-    answer: Callable[[float], tuple[FloatArray, FloatArray, FloatArray]],
+    answer: Callable[[float], Along],
     section: FibreSection,
     force: float,
     tolerance: float,
     row: int,
-) -> tuple[float, FloatArray, FloatArray]:
-    """Step of the strain of the line that gives the normal force, by Newton inside a bracket.
+) -> tuple[float, Along]:
+    """Step of the strain of the line that gives the normal force, and what fibres have then.
 
-    Returns
-    -------
-    step, stress, variables
-        Stresses and variables are those of the step.
+    By Newton inside a bracket.
     """
     areas = section.areas
     elastic = float(areas @ section.moduli[:, 0])
@@ -101,17 +109,17 @@ def _balanced(
         raise KernelError("kernel.plasticity.fibres-no-area-no")
     low, high, step = -np.inf, np.inf, 0.0
     for _ in range(TURNS):
-        stress, variables, slope = answer(step)
-        rest = float(areas @ stress[:, 0]) - force
-        size = float(areas @ np.abs(stress[:, 0])) + abs(force)
+        found = answer(step)
+        rest = float(areas @ found.stress) - force
+        size = float(areas @ np.abs(found.stress)) + abs(force)
         if abs(rest) <= max(tolerance, 1e-14) * size:
-            return step, stress, variables
+            return step, found
         low, high = (low, step) if rest > 0 else (step, high)
-        tangent = float(areas @ slope)
+        tangent = float(areas @ found.slope)
         newton = step - rest / (tangent if tangent > 1e-9 * elastic else elastic)
         step = newton if low < newton < high else 0.5 * (low + high)
         if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
-            return (step, *answer(step)[:2])
+            return step, answer(step)
     raise ConvergenceError(
         "kernel.plasticity.section-not-find-normal",
         force=force,

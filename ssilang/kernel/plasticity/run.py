@@ -418,7 +418,7 @@ class _BulkLoop(SparseLoop):
             work = impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
         # the bodies' forces are no loads: their part in the work of the loads is taken back
         loads = np.stack([load0 - old, load1 - solver.force])
-        self._account(outcome.du, dd, loads, pushed, factors)
+        self._account(n, outcome.du, dd, loads, pushed, factors)
         if p.contact is not None:
             run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
         m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force + driven)

@@ -8,9 +8,9 @@ each brings compiled functions, a hundredth of a second or two.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -34,8 +34,8 @@ from ssilang.messages.message import Sentence
 
 if TYPE_CHECKING:
     from ssilang.kernel.contact.modal import ContactLoop
+    from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
     from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
-    from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 
 
 class Loop(Protocol):
@@ -76,8 +76,7 @@ class Case:
     def effective(self) -> Effective:
         """The step's linear system."""
         p = self.problem
-        end = 2.0 if p.scheme.conserving else 1 - p.scheme.alpha_f
-        return effective_of(p, effective_matrix(p, self.dt), self.dt, end)
+        return effective_of(p, effective_matrix(p, self.dt), self.dt, 1 - p.scheme.alpha_f)
 
     @cached_property
     def iterated(self) -> bool:
@@ -89,6 +88,11 @@ class Case:
         """Whether dense matrices serve."""
         p = self.problem
         return p.small and (p.numbering.size <= SMALL or _supports_are_still(p))
+
+    @property
+    def dense(self) -> bool:
+        """Whether dense matrices of all unknowns serve."""
+        return self.small and self.problem.numbering.size <= SMALL
 
     @cached_property
     def modal(self) -> SmallLoop | None:
@@ -123,13 +127,15 @@ def _supports_are_still(problem: Problem) -> bool:
 def _adaptive(case: Case) -> Loop:
     from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 
-    return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed)
+    def part(dt: float) -> DenseLoop | SparseSteps:
+        own = case if dt == case.dt else replace(case, dt=dt)
+        return _dense(own) if own.dense else _condensed(own)
+
+    return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed, part)
 
 
 def _conserving(case: Case) -> Loop:
-    from ssilang.kernel.stepping.rests.conserving import ConservingLoop
-
-    return ConservingLoop(case.problem, case.motion, case.effective)
+    return _dense(case) if case.dense else _condensed(case)
 
 
 def _stops(case: Case) -> Loop:
@@ -147,7 +153,7 @@ def _by(way: str) -> Callable[[Case], Loop]:
     return make
 
 
-def _dense(case: Case) -> Loop:
+def _dense(case: Case) -> DenseLoop:
     from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
 
     return DenseLoop(case.problem, case.motion, case.effective)
@@ -164,7 +170,7 @@ def _iterated(case: Case) -> Loop:
     return _sparse(case, IteratedSolver(p, system, share))
 
 
-def _condensed(case: Case) -> Loop:
+def _condensed(case: Case) -> SparseSteps:
     from ssilang.kernel.contact.solver import step_solver
 
     return _sparse(case, step_solver(case.problem, case.effective))
@@ -178,9 +184,9 @@ def _full_newton(case: Case) -> Loop:
     return _sparse(case, FullNewtonSolver(p, A, 1 - p.scheme.alpha_f))
 
 
-def _sparse(case: Case, solver: StepSolver) -> Loop:
+def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
     p, impact = case.problem, None
-    if p.contact is not None:
+    if p.contact is not None and not p.scheme.conserving:
         from ssilang.kernel.contact.impact import ImpactRule
 
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
@@ -283,7 +289,7 @@ RULES = (
         "dense", "compiled",
         "small",
         "kernel.stepping.loop-dense",
-        lambda c: c.small and c.problem.numbering.size <= SMALL,
+        lambda c: c.dense,
         _dense,
     ),
     Rule(
@@ -342,8 +348,6 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     loop = rule.make(case)
     if rule.make is _iterated:
         solver = MULTIGRID
-    elif rule.make is _adaptive:
-        solver = cast("AdaptiveLoop", loop).solver
     else:
         solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name
     return Choice(rule, loop, solver)

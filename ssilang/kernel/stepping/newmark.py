@@ -23,9 +23,11 @@ Quantity = TypeVar("Quantity", float, FloatArray)
 
 @dataclass(frozen=True)
 class Scheme:
-    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`; `conserving` takes mean tractions.
+    """A scheme: `alpha_m`, `alpha_f`, `beta`, `gamma`.
 
-    `adaptive` halves steps in which joints open or close.
+    `conserving` is the midpoint rule with forces of joints and relations that are means over the
+    step (`MIDPOINT`; for linear systems the average acceleration), and gives mean accelerations and
+    reactions; `adaptive` halves steps in which joints open or close.
     """
 
     alpha_m: float = 0.0
@@ -39,6 +41,10 @@ class Scheme:
     def average_acceleration(self) -> bool:
         """True for the scheme that keeps the energy of linear systems."""
         return (self.alpha_m, self.alpha_f, self.beta, self.gamma) == (0.0, 0.0, 0.25, 0.5)
+
+
+MIDPOINT = (0.0, 0.5, 0.5, 1.0)
+"""The four numbers of the midpoint rule: equilibrium of mean forces, `a = (v_1 - v_0)/dt`."""
 
 
 def newmark(beta: float = 0.25, gamma: float = 0.5) -> Scheme:
@@ -86,6 +92,8 @@ class Newmark(NamedTuple):
         Weights of the forces at both ends of a step, `alpha_f` and `1 - alpha_f`.
     inertia_start, inertia_end : float
         Those of the inertia, `alpha_m` and `1 - alpha_m`.
+    before : float
+        Weight of the start in the reactions that are kept: 0, or 1/2 where they are means.
     v_du, v_v, v_a : float
         `v_1 = v_du du + v_v v_0 + v_a a_0`.
     a_du, a_a : float
@@ -104,6 +112,7 @@ class Newmark(NamedTuple):
     end: float
     inertia_start: float
     inertia_end: float
+    before: float
     v_du: float
     v_v: float
     v_a: float
@@ -124,10 +133,13 @@ class Newmark(NamedTuple):
 def newmark_of(scheme: Scheme, dt: float) -> Newmark:
     """The coefficients of a scheme for steps of length dt."""
     am, af, beta, gamma = scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma
+    if scheme.conserving:
+        am, af, beta, gamma = MIDPOINT
     v_du, v_v, v_a = gamma / (beta * dt), 1 - gamma / beta, dt * (1 - 0.5 * gamma / beta)
     a_du, a_v, a_a = 1 / (beta * dt**2), 1 / (beta * dt), 1 - 0.5 / beta
     return Newmark(
         dt=dt, start=af, end=1 - af, inertia_start=am, inertia_end=1 - am,
+        before=0.5 * scheme.conserving,
         v_du=v_du, v_v=v_v, v_a=v_a, a_du=a_du, a_a=a_a,
         mass=(1 - am) * a_du, damping=(1 - af) * v_du,
         m_v=(1 - am) * a_v, m_a=-(1 - am) * a_a - am, c_v=(1 - af) * v_v + af, c_a=(1 - af) * v_a,

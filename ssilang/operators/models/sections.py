@@ -89,10 +89,11 @@ def _results(found: BentSection, moments: list[ListReel], checked: bool) -> tupl
     results = (*moments, ListReel.of(found.strains))
     if not checked:
         return results
+    stresses, variables = found.fields()
     table = Table.of(
         {
-            "CONTRAINTES": Table.numbered(found.stresses),
-            "VARIABLES_INTERNES": Table.numbered(found.variables),
+            "CONTRAINTES": Table.numbered(stresses),
+            "VARIABLES_INTERNES": Table.numbered(variables),
             "DEFORMATION": Table.numbered(float(e) for e in found.strains),
         }
     )

@@ -10,7 +10,13 @@ from ssilang.kernel.interface.laws.columns import (
     Parameter,
 )
 from ssilang.kernel.interface.laws.point_laws import point_energies
-from ssilang.kernel.interface.response import InterfaceState, Joints, mean_response, new_trial
+from ssilang.kernel.interface.response import (
+    InterfaceState,
+    Joints,
+    interface_response,
+    mean_response,
+    new_trial,
+)
 
 KN, KS = 3e8, 1.1e8
 LAWS = {
@@ -37,10 +43,10 @@ def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
     now = InterfaceState(zero(n * d), zero(n * d), zero((n, d)), zero((n, d)), zero((n, N_STATE)))
 
     def answered(w):
-        end = new_trial((n, d), n * d)
-        tm = zero((n, d))
-        mean_response(joints, now, w[::-1].ravel(), end, tm)
-        return end, tm
+        end = new_trial((n, d), n * d, mean=True)
+        interface_response(joints, now.state, w[::-1].ravel(), end)
+        mean_response(joints, now, end)
+        return end, end.mean
 
     def energies(w, t, state):
         return np.array([point_energies(1, *one) for one in zip(w, t, state, p, strict=True)])

@@ -21,14 +21,6 @@ def test_direction_is_normalised_and_turned():
         assert support == "GRAVITE"
 
 
-def test_radius_points_from_each_integration_point_to_the_centre():
-    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
-    values, support = axis_parameters(zone, Directions(np.zeros(3), None, radial=True))
-    assert support == "RIGIDITE"
-    assert values["V1X"].shape == (1, 4)
-    assert (values["V1X"] < 0).all()  # the cell stands at x > 0
-
-
 def test_space_needs_two_vectors_that_are_not_parallel():
     zone = cell_zone("CUB8", Mode.THREE_DIMENSIONAL)
     with pytest.raises(MaterialError, match="two vectors"):

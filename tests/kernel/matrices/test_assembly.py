@@ -1,5 +1,7 @@
 """Assembly: against dense sums written out by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -11,6 +13,7 @@ from ssilang.kernel.matrices.assembly import (
     constraint_matrix,
     field_to_vector,
     imposed_values,
+    is_symmetric,
     may_be_positive,
     numbering_of,
     outside,
@@ -106,6 +109,28 @@ def test_relations_become_rows_and_repeated_ones_count_once(table):
     assert D is C
     given = NodeField.of(table, np.array([5]), {"FLX": np.array([0.25])})
     np.testing.assert_allclose(imposed_values(given, multipliers), [0.0, 0.25])
+
+
+@pytest.mark.parametrize("copies", [1, 2])
+def test_rows_that_push_elsewhere_stay_so_beside_others_and_their_copies(table, copies):
+    def rows(node, name, value, mark):
+        return Relations(table, np.array([0, 1]), np.array([node]), (name,), np.array([value]),
+                         np.array([mark]), np.array([0], np.int8))  # fmt: skip
+
+    plain, second = rows(0, "UX", 2.0, 4), rows(2, "UX", 3.0, 5)
+    turned = replace(second, dual=rows(1, "UX", -7.0, 5))
+    chained = chain(table, np.array([0, 1, 2]), 1.0)
+    again = tuple(replace(r) for r in (turned, plain)) * (copies - 1)
+    whole = Matrix(table, chained.blocks, (plain, turned, *again))
+    C, multipliers, _, D = constraint_matrix(whole)
+    np.testing.assert_allclose(C.toarray(), [[2, 0, 0], [0, 0, 3]])
+    np.testing.assert_allclose(D.toarray(), [[2, 0, 0], [0, -7, 0]])
+    assert list(multipliers) == [4, 5]
+    assert not is_symmetric(whole)
+    assert is_symmetric(Matrix(table, chained.blocks, (plain, second, replace(plain))))
+    C, _, _, D = constraint_matrix(Matrix(table, chained.blocks, (plain, second, replace(plain))))
+    assert D is C
+    np.testing.assert_allclose(C.toarray(), [[2, 0, 0], [0, 0, 3]])
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,8 @@ import pytest
 from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.boundary import envelope
 from ssilang.kernel.mesh.changes.merge import merge_close
-from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.changes.transform import NodeCopier, shift
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.interfaces import joints_inside
@@ -23,7 +22,6 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
-from ssilang.kernel.mesh.surfaces.constrained import delaunay_mesh, refined_triangles
 from ssilang.kernel.mesh.volumes.block import fill_block
 
 X, Y, Z = np.eye(3)
@@ -68,12 +66,6 @@ def test_block_of_six_faces_is_filled_with_bricks(quadratic: bool, name: str) ->
     assert set(skin.node_ids) == set(union(*faces).node_ids)
 
 
-def test_block_whose_faces_do_not_match_is_refused() -> None:
-    faces = six_faces(False)
-    with pytest.raises(MeshError, match="side faces"):
-        fill_block([faces[0], faces[2], faces[1], faces[3], *faces[4:]])
-
-
 @pytest.mark.parametrize("quadratic", [False, True])
 def test_rounded_corner_is_tangent_to_both_lines(quadratic: bool) -> None:
     nodes = NodeTable()
@@ -99,26 +91,6 @@ def test_too_large_a_radius_is_refused() -> None:
         fillet(first, second, 2.0, 4)
     with pytest.raises(MeshError, match="parallel"):
         fillet(first, first, 0.1, 4)
-
-
-def test_refined_triangles_keep_the_contour_and_the_area() -> None:
-    base = line(NodeTable(), [0, 0], [1, 0], 5)
-    coarse = split_quadrangles(sheet(base, Y, 5))
-    ids = coarse.node_ids
-    fine = refined_triangles(coarse, ids, np.full(len(ids), 0.08))
-    assert total_measure(fine) == pytest.approx(1.0)
-    assert set(contour(fine).node_ids) == set(contour(coarse).node_ids)
-    assert fine.n_cells > 2 * coarse.n_cells
-
-
-def test_delaunay_triangulation_fills_the_hull_of_points() -> None:
-    nodes = NodeTable()
-    rng = np.random.default_rng(0)
-    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T
-    ids = nodes.add(np.vstack([corners, rng.uniform(0.1, 0.9, (40, 3))]))
-    made = delaunay_mesh(Mesh.of(nodes, "POI1", ids[:, None]), 3)
-    assert (signed_volumes(made.single_block()) > 0).all()
-    assert total_measure(made) == pytest.approx(1.0)
 
 
 def test_frames_of_a_closed_circle_are_exact() -> None:

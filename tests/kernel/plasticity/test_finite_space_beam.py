@@ -2,9 +2,16 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from script_runs import ran
 
-from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, rotation, spin_of
+from ssilang.kernel.plasticity.finite_space_beam import (
+    finite_space_beam,
+    rotation,
+    skew,
+    spin_of,
+    vector_of,
+)
 
 BEAMS = """
 OPTI DIME 3 ELEM SEG2 ;
@@ -23,8 +30,26 @@ def random_beams(tmp_path, element="POUT", points=2):
     return finite_space_beam(find("MO").zones[0], find("MA"), points)
 
 
+VECTORS = np.array([[0.3, -1.2, 0.8], [1e-4, 2e-4, -1e-4], [2.0, 1.0, -1.5]])
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-6, 1e-3, 0.02, 0.09, 0.11, 0.3, 0.8, 1.5, 3.1])
+def test_rotations_are_those_of_quaternions(size):
+    """Also where series stand in for quotients of small angles, and for complex steps."""
+    v = size * np.array([[2.0, -1.0, 2.0], [3.0, 4.0, 12.0]]) / [[3.0], [13.0]]
+    R = Rotation.from_rotvec(v).as_matrix()
+    np.testing.assert_allclose(rotation(v), R, atol=1e-14)
+    step = rotation(v + 1e-30j * np.array([0.3, 1.0, -0.7])).imag / 1e-30
+    spun = step @ np.swapaxes(R, 1, 2)
+    spin = np.stack([spun[:, 2, 1], spun[:, 0, 2], spun[:, 1, 0]], axis=1)
+    np.testing.assert_allclose(spin_of(v) @ [0.3, 1.0, -0.7], spin, atol=1e-13)
+    np.testing.assert_allclose(spun, skew(spin), atol=1e-13)
+    if size < 1.55:
+        np.testing.assert_allclose(vector_of(R), v, atol=1e-13)
+
+
 def test_spin_is_the_derivative_of_the_rotation():
-    v = np.array([[0.3, -1.2, 0.8], [1e-4, 2e-4, -1e-4], [2.0, 1.0, -1.5]])
+    v = VECTORS
     for k in range(3):
         h = np.zeros((3, 3))
         h[:, k] = 1e-6

@@ -111,3 +111,14 @@ def test_the_stiffest_and_the_softest_part_are_named():
     assert found.number == pytest.approx(4e13, rel=0.05)
     assert found.stiffest[1] == pytest.approx(1e13)
     assert found.softest == ("UY at node 1", 1.0)
+
+
+def test_what_multigrid_solves_and_what_is_free_has_no_number(monkeypatch):
+    bench = Bench()
+    a, b = bench.node(0.0, 0.0), bench.node(1.0, 0.0)
+    bench.spring(1.0, a)
+    bench.spring(3.0, a, b)
+    system = linear_system(bench.stiffness)
+    assert system_extremes(system, bench.stiffness).number > 1.0
+    monkeypatch.setattr(conditioning, "MULTIGRID", system.inverse.factor.name)
+    assert system_extremes(system, bench.stiffness) is None

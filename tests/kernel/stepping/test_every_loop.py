@@ -217,10 +217,13 @@ def test_parts_of_adapted_steps_are_those_of_the_equations():
         problem = awkward.problem()
         problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
         recorder = Recorder(len(problem.times))
+        compiled = Recorder(len(problem.times))
+        steps = integrate(problem, [compiled])
         with pytest.MonkeyPatch.context() as patch:
             parts = parts_of(patch)
+            patch.setattr(choose.Case, "dense", property(lambda _: False))
             history = integrate(problem, [recorder])
-        assert history.loop == "adaptive"
+        assert history.loop == steps.loop == "adaptive"
         instants = [recorder.snapshots[0], *(state for _, state in parts)]
         lengths = np.array([dt for dt, _ in parts])
         times = np.cumsum([problem.times[0], *lengths])
@@ -230,6 +233,8 @@ def test_parts_of_adapted_steps_are_those_of_the_equations():
         near(times[ends], problem.times, problem.times[-1], 1e-12)
         near(energies[ends], history.energies, np.abs(energies).max(), 1e-12)
         near(recorder.of("u"), [instants[k].u for k in ends], 1.0, 1e-15)
+        near(compiled.of("u"), recorder.of("u"), np.abs(recorder.of("u")).max(), 1e-11)
+        near(steps.energies, history.energies, np.abs(energies).max(), 1e-11)
         whole = np.diff(problem.times)[np.searchsorted(ends, np.arange(1, len(times))) - 1]
         halvings = np.log2(whole / lengths)
         near(halvings, halvings.round(), 1.0)

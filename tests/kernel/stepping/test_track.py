@@ -8,13 +8,15 @@ from references.assembled import Bench
 from references.recorder import Recorder
 from references.soil_block import FRICTION, soil_block
 
+from ssilang.kernel.contact.friction_rows import Friction
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.relations import Term, relation_rows
+from ssilang.kernel.matrices.relations import Term, joined, relation_rows
 from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.force_track import ForceTrack
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.node_track import NodeTrack
 from ssilang.kernel.stepping.problem.loading import Loading
@@ -346,6 +348,7 @@ def test_extremes_are_the_maximum_over_all_steps(name, monkeypatch):
     integrate(problem, [recorder, extremes], full_newton=rule == "full Newton")
     assert_largest(extremes, recorder)
     unasked = Extremes(problem=problem, asked=False)
+    assert not unasked.known  # before a loop is taken nobody compares
     integrate(problem, [unasked], full_newton=rule == "full Newton")
     assert unasked.known is (rule not in ON_COORDINATES)
     if unasked.known:
@@ -431,6 +434,7 @@ def test_multipliers_of_relations_are_followed(rule, monkeypatch):
     integrate(problem, [recorder, few, every])
     exact = np.array([s.displacement.components["LX"].at(marks) for s in recorder.snapshots])
     assert (np.abs(exact).max(axis=0) > 0.0).all()
+    assert np.isfinite(exact).all()
     scale = np.abs(exact).max()
     for j, mark in enumerate(marks.tolist()):
         for track in (few, every):
@@ -442,3 +446,63 @@ def test_multipliers_of_relations_are_followed(rule, monkeypatch):
         assert field.components["UX"].nodes.tolist() == [nodes[2]]
     assert few.history("u", "LX", nodes[0]) is None
     assert few.history("u", "UX", nodes[0]) is None
+
+
+def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
+    """A block slides on two stops, tied to a third mass: each name has what its rows push by."""
+    bench = Bench()
+    a, b, c = (bench.node(float(i), 0.0) for i in range(3))
+    for node, mass in ((a, 20.0), (b, 30.0), (c, 25.0)):
+        bench.mass(mass, node)
+        bench.spring(3e4, node, unknown="UX")
+    bench.spring(2e5, a, b, "UX")
+    stops = [bench.relate([(1.0, "UY", n)], sense=1) for n in (a, b)]
+    tie = bench.relate([(1.0, "UX", c), (-2.0, "UX", b), (0.5, "UY", c)])
+    seat = bench.relate([(3.0, "UY", c), (-1.0, "UX", c)])
+    rows = [relation_rows(bench.table, [Term(1.0, "UX", np.array([n]))], 0) for n in (b, a)]
+    rubbing = Friction(joined(rows), 1, np.array([0.3, 0.5]), np.zeros(2), np.array(stops[::-1]),
+                       None, np.zeros(2))  # fmt: skip
+    t = 2e-3 * np.arange(81)
+    weight = bench.field((a, "FY", -200.0), (b, "FY", -400.0), (c, "FY", -90.0))
+    push = bench.field((a, "FX", 300.0), (c, "FX", 500.0), (b, "FY", 500.0))
+    load = Load(bench.load(weight).parts + bench.load(push, t, np.sin(60.0 * t)).parts)
+    problem = make_problem(
+        Inputs(bench.stiffness, t, bench.mass_matrix, load=load, friction=(rubbing,))
+    )
+    recorder, wanted = Recorder(len(t)), np.arange(len(t)) % 3 == 1
+    named = {"all": np.array([*stops, tie, seat]), "left": np.array([stops[0], seat]),
+             "right": np.array([stops[1]]), "tie": np.array([tie])}  # fmt: skip
+    track = ForceTrack(wanted, problem=problem, named=named)
+    history = integrate(problem, [recorder, track])
+    assert history.loop
+    D, index = problem.constraints.D.toarray(), problem.numbering.index_of
+    at = {m: i for i, m in enumerate(problem.multipliers.tolist())}
+    found = track.histories
+    np.testing.assert_allclose(track.times, t[wanted])
+    slid = 0.0
+    for k, now in enumerate(np.array(recorder.snapshots)[wanted]):
+        p = now.contact
+        rest = now.reaction - problem.contact.pushing.T @ p
+        lam = np.linalg.lstsq(D.T, rest)[0]
+        whole = {n: np.zeros(problem.numbering.size) for n in named}
+        for name, nodes in named.items():
+            for m in nodes:
+                if m in at:
+                    whole[name] += lam[at[m]] * D[at[m]]
+            for i, m in enumerate(problem.contact.multipliers):
+                if m in nodes:
+                    node = {stops[0]: a, stops[1]: b}[m]
+                    whole[name][index(node, "UY")] += p[i]
+                    place = problem.contact.friction.normal.tolist().index(i)
+                    whole[name][index(node, "UX")] += p[len(problem.contact) + place]
+                    slid = max(slid, abs(p[len(problem.contact) + place]))
+        for (name, dual), values in found.items():
+            mine = problem.numbering.codes == problem.numbering.duals.index(dual)
+            assert values[k] == pytest.approx(whole[name][mine].sum(), abs=1e-6), (name, dual)
+    assert slid > 10.0
+    assert set(found) == {(n, f) for n in named for f in ("FX", "FY")}
+    kept = track.content()
+    again = ForceTrack(wanted, problem=problem, named=named)
+    again.restore(kept)
+    for key, values in again.histories.items():
+        np.testing.assert_array_equal(values, found[key])

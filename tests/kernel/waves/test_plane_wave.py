@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.waves.free_field_forces import along_columns
 from ssilang.kernel.waves.layered_half_space import HalfSpace
 from ssilang.kernel.waves.plane_wave import PlaneWave, plane_motion
@@ -55,3 +56,43 @@ def test_points_between_those_of_a_column_move_between_them():
     np.testing.assert_allclose(
         along_columns(heights, column) @ motion, np.transpose(wanted), atol=1e-6
     )
+
+
+@pytest.mark.parametrize(("kind", "speed"), [("SH", 300.0), ("P", 620.0)])
+def test_an_incident_wave_passes_its_point_then_comes_back_from_the_surface(kind, speed):
+    """In a ground without contrast: two waves, one up and one down, each by its own delay."""
+    ground = HalfSpace(
+        np.array([4.0]), np.array([1800.0] * 2), np.array([300.0] * 2), np.array([620.0] * 2),
+        np.zeros(2),
+    )  # fmt: skip
+    angle = 0.4 if kind == "SH" else 0.0
+    record = rough()
+    record -= record.mean()  # the series is without it
+    lead = STEP * speed / np.cos(angle)  # a step up
+    wave = PlaneWave(kind, angle, "INCIDENTE", 0.0, STEP, record, 7 * lead)
+    ahead = 3 * STEP * speed / np.sin(angle) if angle else 0.0
+    points = [(0.0, 0.0), (0.0, 2 * lead), (ahead, 5 * lead)]
+    along, depths = np.array(points).T
+    found = plane_motion(ground, wave, along, depths).acceleration
+    component = 1 if kind == "P" else 0
+    padded = np.concatenate([record, np.zeros(128 - len(record))])
+    for i, (x, z) in enumerate(points):
+        later = round((x * np.sin(angle) / speed) / STEP)
+        up, down = (later + round((7 * lead + s * z) / lead) for s in (-1, 1))
+        expected = np.roll(padded, up) + np.roll(padded, down)
+        expected = expected[: len(record)]
+        np.testing.assert_allclose(found[i, component], expected, atol=1e-8)
+    assert wave.delay(ground) == pytest.approx(7 * STEP)
+    assert PlaneWave(kind, angle, "SURFACE", 0.0, STEP, record, 9.0).delay(ground) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "step", "match"),
+    [({"step": 0.0}, None, "record"), ({"acceleration": np.ones(1)}, None, "record"),
+     ({}, 0.0, "step"), ({"angle": np.pi / 2}, None, "90 degrees")],
+)  # fmt: skip
+def test_records_of_nothing_are_refused(change, step, match):
+    given = {"kind": "SH", "angle": 0.2, "given": "SURFACE", "start": 0.0, "step": STEP,
+             "acceleration": rough()} | change  # fmt: skip
+    with pytest.raises(MaterialError, match=match):
+        plane_motion(GROUND, PlaneWave(**given), ALONG, DEPTHS, step)

@@ -19,7 +19,8 @@ from ssilang.kernel.materials.model import Zone
 def pipe_parameters(zone: Zone, parameters: ZoneField, bends: bool = True) -> ZoneField:
     """The parameters with the ring's SECT INRY INRZ TORS, the flexibility of elbows included.
 
-    Without `bends` the inertia is that of the ring: the intensity factors of stresses hold for it.
+    Without `bends` the inertia is that of the ring: the intensity factors of stresses
+    and the mass hold for it.
     """
     if "EPAI" not in parameters or "SECT" in parameters:
         return parameters
@@ -62,5 +63,5 @@ class Pipe(Beam):
         return super().section(zone, pipe_parameters(zone, parameters))
 
     def linear_mass(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, FloatArray]:
-        """Mass per length of the ring."""
-        return super().linear_mass(zone, pipe_parameters(zone, parameters))
+        """Mass per length of the ring, which no bend makes lighter to turn."""
+        return super().linear_mass(zone, pipe_parameters(zone, parameters, bends=False))

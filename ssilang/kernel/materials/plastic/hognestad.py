@@ -27,8 +27,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.conditions import require
-from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.materials.plastic.uniaxial import Along, fibres
+from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.materials.plastic.uniaxial import Along
 
 REQUIRED = ("STFC", "EZER", "STFT", "ZETA", "ST85", "TRAF")
 DEFAULTS = {"ALF1": 0.0, "OME1": 0.0, "FAMX": -1.0}
@@ -52,16 +52,18 @@ def confined(p: PointParameters) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def respond(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Response:
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Along:
     """Concrete (see the head of this module)."""
     from ssilang.kernel.materials.plastic.fibre_cycles import concrete_points
 
-    along = Along(stress[:, 0].copy(), variables.copy(), np.empty(len(stress)))
-    rest = (parameters[n] for n in ("ST85", "STFT", "TRAF"))
-    table = np.stack([*confined(parameters), *rest])
-    concrete_points(table, strain[:, 0].copy(), *along)
-    return fibres(parameters, stress, strain, along)
+    along = Along(stress.copy(), variables.copy(), np.empty(len(stress)))
+    concrete_points(p.once(_table), strain, *along)
+    return along
+
+
+def _table(p: PointParameters) -> FloatArray:
+    return np.stack([*confined(p), *(p[n] for n in ("ST85", "STFT", "TRAF"))])
 
 
 def check(p: PointParameters) -> None:

@@ -52,8 +52,6 @@ class PlasticLaw:
         Refuses other inadmissible parameters.
     symmetric : bool
         Whether the tangent is symmetric.
-    uniaxial : bool
-        A law of fibres: its stresses across the fibre are zero by themselves.
     optional : tuple of str
         Parameters that are taken and count for nothing here.
     defaults : mapping of str to float
@@ -82,7 +80,6 @@ class PlasticLaw:
     curves: tuple[str, ...] = ()
     check: Callable[[PointParameters], None] | None = None
     symmetric: bool = True
-    uniaxial: bool = False
     optional: tuple[str, ...] = ()
     defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
@@ -91,6 +88,11 @@ class PlasticLaw:
     shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
     parts: Backbones | None = None
     slid: Callable[[PointParameters, FloatArray, FloatArray, FloatArray], FloatArray] | None = None
+
+    @property
+    def uniaxial(self) -> bool:
+        """Whether it is a law along fibres."""
+        return isinstance(self.respond, uniaxial.Fibres)
 
 
 def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
@@ -176,31 +178,29 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         locked=cam_clay.locked,
     ),
     "PARFAIT_UNI": PlasticLaw(
-        uniaxial.kinematic, ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",), uniaxial=True
+        uniaxial.Fibres(uniaxial.kinematic), ("SIGY", "H"), ("EPSE", "ALXX"), positive=("SIGY",)
     ),
     "BETON_BAEL": PlasticLaw(
-        uniaxial.concrete, ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete, uniaxial=True
+        uniaxial.Fibres(uniaxial.concrete), ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete
     ),
     "ACIER_UNI": PlasticLaw(
-        menegotto_pinto.respond,
+        uniaxial.Fibres(menegotto_pinto.respond),
         menegotto_pinto.REQUIRED,
         menegotto_pinto.VARIABLES,
         positive=("STSY",),
         check=menegotto_pinto.check,
-        uniaxial=True,
         defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
     ),
     "BETON_UNI": PlasticLaw(
-        hognestad.respond,
+        uniaxial.Fibres(hognestad.respond),
         hognestad.REQUIRED,
         hognestad.VARIABLES,
         positive=("STFC", "EZER"),
         check=hognestad.check,
-        uniaxial=True,
         optional=hognestad.UNUSED,
         defaults=hognestad.DEFAULTS,
     ),
-    "SECTION": PlasticLaw(uniaxial.elastic, ()),
+    "SECTION": PlasticLaw(uniaxial.Fibres(uniaxial.elastic), ()),
 }
 """By the word after PLASTIQUE; ISOTROPE is meant where there is none."""
 

@@ -27,8 +27,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.materials.plastic.conditions import require
-from ssilang.kernel.materials.plastic.response import PointParameters, Response
-from ssilang.kernel.materials.plastic.uniaxial import Along, fibres
+from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.materials.plastic.uniaxial import Along
 
 REQUIRED = ("STSY", "STSU", "EPSH", "EPSU", "ROFA", "BFAC", "A1FA", "A2FA")
 BUCKLING = ("FALD", "A6FA", "CFAC", "AFAC")
@@ -40,15 +40,20 @@ loading, +-2 on the branches of cycles that go up and down; FLAM 1 after a branc
 
 
 def respond(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Response:
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Along:
     """Steel in cycles (see the head of this module)."""
-    from ssilang.kernel.materials.plastic.fibre_cycles import STEEL, steel_points
+    from ssilang.kernel.materials.plastic.fibre_cycles import steel_points
 
-    along = Along(stress[:, 0].copy(), variables.copy(), np.empty(len(stress)))
-    table = np.stack([parameters[n] for n in STEEL])
-    steel_points(table, strain[:, 0].copy(), *along)
-    return fibres(parameters, stress, strain, along)
+    along = Along(stress.copy(), variables.copy(), np.empty(len(stress)))
+    steel_points(p.once(_table), strain, *along)
+    return along
+
+
+def _table(p: PointParameters) -> FloatArray:
+    from ssilang.kernel.materials.plastic.fibre_cycles import STEEL
+
+    return np.stack([p[n] for n in STEEL])
 
 
 def check(p: PointParameters) -> None:

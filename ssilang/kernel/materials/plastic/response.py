@@ -6,8 +6,10 @@ Stresses are XX YY ZZ XY XZ YZ, strains the same with engineering shears (GAXY =
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -36,6 +38,17 @@ class PointParameters:
 
     values: Mapping[str, FloatArray]
     curves: Mapping[str, tuple[list[Curve], IntArray]]
+
+    @cached_property
+    def kept(self) -> dict[Any, FloatArray]:
+        """What `once` made."""
+        return {}
+
+    def once(self, make: Callable[[PointParameters], FloatArray]) -> FloatArray:
+        """What a law makes of its parameters, made when it is first asked for."""
+        if make not in self.kept:
+            self.kept[make] = make(self)
+        return self.kept[make]
 
     def __getitem__(self, name: str) -> FloatArray:
         return self.values[name]

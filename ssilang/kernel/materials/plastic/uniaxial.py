@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -19,37 +21,48 @@ class Along(NamedTuple):
     slope: FloatArray
 
 
-def fibres(p: PointParameters, stress: FloatArray, strain: FloatArray, along: Along) -> Response:
-    """What fibres answer: a law along them, elastic shear."""
-    found, D = np.zeros_like(stress), np.zeros((len(stress), 6, 6))
-    found[:, 0] = along.stress
-    found[:, 3:5] = stress[:, 3:5] + p.shear[:, None] * strain[:, 3:5]
-    D[:, 0, 0] = along.slope
-    D[:, 3, 3] = D[:, 4, 4] = p.shear
-    return Response(found, along.variables, D)
+@dataclass(frozen=True)
+class Fibres:
+    """A law along fibres as a law of points, with elastic shear beside it.
+
+    Attributes
+    ----------
+    along : callable
+        `along(parameters, stress, strain, variables)` of stresses and steps of strain (m,).
+    """
+
+    along: Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Along]
+
+    def __call__(
+        self, p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+    ) -> Response:
+        along = self.along(p, stress[:, 0].copy(), strain[:, 0].copy(), variables)
+        found, D = np.zeros_like(stress), np.zeros((len(stress), 6, 6))
+        found[:, 0] = along.stress
+        found[:, 3:5] = stress[:, 3:5] + p.shear[:, None] * strain[:, 3:5]
+        D[:, 0, 0] = along.slope
+        D[:, 3, 3] = D[:, 4, 4] = p.shear
+        return Response(found, along.variables, D)
 
 
 def elastic(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Response:
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Along:
     """`s = YOUN e`."""
-    E = parameters["YOUN"]
-    along = Along(stress[:, 0] + E * strain[:, 0], variables, E)
-    return fibres(parameters, stress, strain, along)
+    return Along(stress + p["YOUN"] * strain, variables, p["YOUN"])
 
 
 def kinematic(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Response:
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Along:
     """`|s - X| <= SIGY`, `dX = H dep`; variables EPSE (cumulated) and X."""
-    E, limit, H = (parameters[n] for n in ("YOUN", "SIGY", "H"))
-    trial = stress[:, 0] + E * strain[:, 0]
+    E, limit, H = (p[n] for n in ("YOUN", "SIGY", "H"))
+    trial = stress + E * strain
     over = trial - variables[:, 1]
     slip = np.maximum(np.abs(over) - limit, 0.0) / (E + H)
     sense = np.sign(over)
     after = np.column_stack([variables[:, 0] + slip, variables[:, 1] + H * slip * sense])
-    along = Along(trial - E * slip * sense, after, np.where(slip > 0, E * H / (E + H), E))
-    return fibres(parameters, stress, strain, along)
+    return Along(trial - E * slip * sense, after, np.where(slip > 0, E * H / (E + H), E))
 
 
 BAEL_PEAK = 2e-3
@@ -57,24 +70,23 @@ BAEL_PEAK = 2e-3
 
 
 def concrete(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Response:
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Along:
     """Concrete of the French rules BAEL: parabola and plateau in compression, no tension.
 
     The parabola `s = FC x (2 - x)`, x = -e / 0.002, ends in the plateau FC, without crushing.
     Unloading has the slope YOUN down to no stress; variables EPSE (plastic strain) and EPSO
     (strain).
     """
-    E, strength = parameters["YOUN"], np.abs(parameters["FC"])
-    plastic, e = variables[:, 0], variables[:, 1] + strain[:, 0]
+    E, strength = p["YOUN"], np.abs(p["FC"])
+    plastic, e = variables[:, 0], variables[:, 1] + strain
     x = np.clip(-e / BAEL_PEAK, 0.0, 1.0)
     curve, rise = -strength * x * (2 - x), 2 * strength * (1 - x) / BAEL_PEAK
     line = np.minimum(E * (e - plastic), 0.0)
     yields = line < curve
     slope = np.where(yields, rise, np.where(line < 0, E, 0.0))
     after = np.column_stack([np.where(yields, e - curve / E, plastic), e])
-    along = Along(np.where(yields, curve, line), after, slope)
-    return fibres(parameters, stress, strain, along)
+    return Along(np.where(yields, curve, line), after, slope)
 
 
 def check_concrete(parameters: PointParameters) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
-from ssilang.kernel.mesh.lines.curves import unit_vector
+from ssilang.kernel.mesh.lines.curves import plane_normal, unit_vector
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -54,7 +54,7 @@ def mirror_line(a: FloatArray, b: FloatArray) -> PointMap:
 
 def mirror_plane(a: FloatArray, b: FloatArray, c: FloatArray) -> PointMap:
     """Symmetry about the plane through three points (3,)."""
-    unit = unit_vector(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    unit = plane_normal(a, b, c)
     return lambda x: x - 2.0 * ((x - a) @ unit)[:, None] * unit
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 
+_IN_LINE = "kernel.mesh.three-points-plane-line"
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
 
 
@@ -25,6 +26,12 @@ def unit_vector(vector: FloatArray, code: str) -> FloatArray:
         raise MeshError(code)
     unit: FloatArray = vector / size
     return unit
+
+
+def plane_normal(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    """Unit normal of the plane through three points (3,); an error where they are in line."""
+    normal = np.cross(unit_vector(b - a, _IN_LINE), unit_vector(c - a, _IN_LINE))
+    return unit_vector(normal * (np.linalg.norm(normal) > 1e-12), _IN_LINE)
 
 
 @dataclass(frozen=True, slots=True)

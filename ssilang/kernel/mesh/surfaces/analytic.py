@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.lines.curves import unit_vector
+from ssilang.kernel.mesh.lines.curves import plane_normal, unit_vector
 
 # positions (m, 3) -> signed or unsigned distances (m,)
 Level = Callable[[FloatArray], FloatArray]
@@ -47,7 +47,7 @@ def line_shape(a: FloatArray, b: FloatArray) -> Shape:
 
 def plane_shape(a: FloatArray, b: FloatArray, c: FloatArray) -> Shape:
     """The plane through three points (3,)."""
-    normal = unit_vector(np.cross(b - a, c - a), "kernel.mesh.three-points-plane-line")
+    normal = plane_normal(a, b, c)
     return Shape(lambda x: (x - a) @ normal, lambda x, d: _plane_hit(x, d, a, normal))
 
 
@@ -87,7 +87,7 @@ def cone_shape(apex: FloatArray, axis_point: FloatArray, on: FloatArray) -> Shap
     along = float((on - apex) @ unit)
     away = float(np.linalg.norm(_across((on - apex)[None], unit)))
     size = float(np.hypot(along, away))
-    if size == 0.0 or along == 0.0:
+    if abs(along) <= 1e-12 * size:
         raise MeshError("kernel.mesh.point-opens-cone-lies")
     cosine, sine = abs(along) / size, away / size
     tangent2 = (away / along) ** 2

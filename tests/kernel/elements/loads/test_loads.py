@@ -6,7 +6,7 @@ import pytest
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
-from ssilang.kernel.elements.loads.loads import body_force, loaded_faces, pressure, traction
+from ssilang.kernel.elements.loads.loads import body_force, pressure
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model
@@ -43,18 +43,6 @@ def test_pressure_all_around_is_in_balance_with_minus_the_identity(element):
         np.testing.assert_allclose(got.values_at(name, part.nodes), part.values, atol=exact * 50)
 
 
-def test_the_side_may_be_walked_either_way():
-    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
-    nodes = zone.cells.connectivity[0]
-    one, two = (
-        pressure(Model((zone,)), Mesh.of(zone.cells.nodes, "SEG2", np.array([pair])), P)
-        for pair in (nodes[[0, 1]], nodes[[1, 0]])
-    )
-    for name in ("FX", "FY"):
-        np.testing.assert_allclose(one.components[name].values, two.components[name].values)
-    assert one.components["FY"].values.sum() > 0  # the lower side is pushed up
-
-
 def test_pressure_on_a_ring_counts_the_circumference():
     zone = cell_zone("QUA8", Mode.AXISYMMETRIC)
     got = pressure(Model((zone,)), _skin(zone), P)
@@ -62,45 +50,6 @@ def test_pressure_on_a_ring_counts_the_circumference():
     section = cell_zone("QUA8", Mode.PLANE_STRAIN)  # the same shape: its weights are the area
     area = families.integration_weights(section, "RIGIDITE").sum()
     assert got.components["FR"].values.sum() == pytest.approx(-2 * np.pi * P * area, rel=1e-10)
-
-
-def test_nodal_pressure_cellwise_pressure_and_number_agree():
-    zone = cell_zone("CUB8", Mode.THREE_DIMENSIONAL)
-    skin = _skin(zone)
-    whole = pressure(Model((zone,)), skin, P)
-    nodal = field(zone, SCAL=lambda x: P)
-    faces = loaded_faces(Model((zone,)), nodal)
-    by_nodes = pressure(Model((zone,)), faces, nodal)
-    cells = CellField(
-        tuple(CellFieldBlock(b, {"PRES": np.full(b.connectivity.shape, P)}) for b in skin.blocks)
-    )
-    by_cells = pressure(Model((zone,)), skin, cells)
-    for other in (by_nodes, by_cells):
-        for name, part in whole.components.items():
-            np.testing.assert_allclose(other.values_at(name, part.nodes), part.values, atol=1e-12)
-
-
-def test_linear_pressure_has_its_resultant_and_moment():
-    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
-    table, nodes = zone.cells.nodes, zone.cells.connectivity[0]
-    table.coordinates[nodes[:2]] = [[0, 0, 0], [6, 0, 0]]
-    side = Mesh.of(table, "SEG2", nodes[None, :2])
-    forces = pressure(Model((zone,)), side, field(zone, SCAL=lambda x: x[:, 0] / 6))
-    np.testing.assert_allclose(forces.values_at("FY", nodes[:2]), [1.0, 2.0], rtol=1e-12)
-
-
-def test_traction_resultant_in_space_and_thickness_in_plane_stress():
-    zone = cell_zone("CU20", Mode.THREE_DIMENSIONAL)
-    skin = _skin(zone)
-    got = traction(Model((zone,)), skin, np.array([1.0, 2.0, -3.0]))
-    ratio = [got.components[n].values.sum() for n in ("FX", "FY", "FZ")]
-    np.testing.assert_allclose(np.array(ratio) / ratio[0], [1, 2, -3], rtol=1e-12)
-    flat = cell_zone("QUA4", Mode.PLANE_STRESS)
-    nodes = flat.cells.connectivity[0]
-    side = Mesh.of(flat.cells.nodes, "SEG2", nodes[None, :2])
-    length = np.linalg.norm(np.diff(flat.cells.coordinates[0, :2], axis=0))
-    thin = traction(Model((flat,)), side, np.array([0.0, 5.0, 0.0]), material(flat, DIM3=0.2))
-    assert thin.components["FY"].values.sum() == pytest.approx(5.0 * 0.2 * length)
 
 
 @pytest.mark.parametrize("element", [*PLANE, *SPACE])

@@ -18,10 +18,7 @@ from ssilang.kernel.elements.results.supports import (
     nodal_of_cells,
 )
 from ssilang.kernel.elements.results.tensors import (
-    PRINCIPAL,
     as_tensor,
-    invariants,
-    principal,
     tresca,
     von_mises,
 )
@@ -84,32 +81,12 @@ def test_nodes_take_the_mean_or_the_sum_of_their_cells():
     assert total.at(np.array([0, shared, 2])).tolist() == [1.0, 4.0, 3.0]
 
 
-def test_principal_values_rebuild_the_tensor_and_are_ordered_as_the_hypothesis_says():
-    values = np.array([[[30.0], [10.0], [25.0], [12.0]]])
-    T = as_tensor(values, strains=False)
-    plane = cell_zone("QUA4", Mode.PLANE_STRAIN)
-    for ordered in (False, True):
-        P = principal(plane, T, ordered)[0, :, 0]
-        D = P[3:].reshape(3, 3)
-        np.testing.assert_allclose(np.einsum("k,ki,kj->ij", P[:3], D, D), T[0, 0], atol=1e-12)
-    assert principal(plane, T, False)[0, 2, 0] == pytest.approx(25.0)
-    assert (np.diff(principal(plane, T, True)[0, :3, 0]) <= 0).all()
-    assert PRINCIPAL[:5] == ("SI11", "SI22", "SI33", "COX1", "COY1")
-
-
 def test_equivalent_stresses_of_simple_states():
     shear = as_tensor(np.array([[[0.0], [0.0], [0.0], [5.0]]]), strains=False)
     pull = as_tensor(np.array([[[7.0], [0.0], [0.0], [0.0]]]), strains=False)
     assert von_mises(shear)[0, 0] == pytest.approx(5 * np.sqrt(3))
     assert tresca(shear)[0, 0] == pytest.approx(10.0)
     assert von_mises(pull)[0, 0] == tresca(pull)[0, 0] == pytest.approx(7.0)
-
-
-def test_invariants_are_those_of_the_eigenvalues():
-    T = as_tensor(np.arange(1.0, 7.0)[None, :, None], strains=False)
-    a, b, c = np.linalg.eigvalsh(T[0, 0])
-    got = [v[0, 0] for v in invariants(T)]
-    np.testing.assert_allclose(got, [a + b + c, a * b + b * c + c * a, a * b * c])
 
 
 @pytest.mark.parametrize("element", ["QUA8", "CU20", "TE10"])

@@ -89,3 +89,34 @@ def test_the_same_jump_again_changes_nothing(name, d):
         np.testing.assert_allclose(again, t, atol=1e-9 * KN * 1e-3)
         np.testing.assert_allclose(point.state, state, rtol=1e-9, atol=1e-12)
         np.testing.assert_allclose(same, energies, atol=1e-9 * KN * 1e-6)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("name", LAWS)
+def test_all_that_is_answered_is_written_and_the_tangent_is_its_slope(name, d):
+    """Nothing of what stood there stays; slopes are compared where both sides agree."""
+    point, codes = Point(name, d), np.array([int(LAWS[name][0])] * 2)
+    size = np.array([*(1e-3, 8e-4)[: d - 1], 3e-4])
+    rng, compared = np.random.default_rng(8), 0
+
+    def answers(w, fill):
+        t, new, D = (np.full(s, fill) for s in ((2, d), (2, N_STATE), (2, d, d)))
+        state = np.concatenate([0 * point.state, point.state])  # not the first of its table
+        respond(codes, np.stack([0 * w, w]), state, np.repeat(point.p, 2, 0), t, new, D)
+        return t[1], new[1], D[1]
+
+    for w in rng.uniform(-1.0, 1.0, (60, d)) * size:
+        clean, filled = answers(w, 0.0), answers(w, np.nan)
+        for a, b in zip(clean, filled, strict=True):
+            np.testing.assert_array_equal(a, b)
+        h = 1e-6 * size
+        slopes = np.zeros((2, d, d))
+        for j in range(d):
+            e = h * np.eye(d)[j]
+            ends = answers(w + e, 0.0)[0], answers(w - e, 0.0)[0]
+            slopes[:, :, j] = (ends[0] - clean[0]) / h[j], (clean[0] - ends[1]) / h[j]
+        if np.abs(slopes[0] - slopes[1]).max() < 1e-3 * KN:
+            np.testing.assert_allclose(clean[2], slopes.mean(axis=0), atol=2e-3 * KN)
+            compared += 1
+        point.to(w)
+    assert compared > 25

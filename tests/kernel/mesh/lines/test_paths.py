@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
+from ssilang.kernel.mesh.lines.lines import line_chain, network_of_lines, shortest_line
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -33,3 +33,21 @@ def test_points_that_no_way_joins_are_refused():
         shortest_line(mesh, int(ids[0]), int(ids[5]))
     with pytest.raises(MeshError, match="ends"):
         shortest_line(mesh, int(ids[0]), int(ids[0]))
+
+
+@pytest.mark.parametrize("kind", ["SEG2", "SEG3"])
+@pytest.mark.parametrize("closed", [False, True])
+def test_cells_of_a_line_in_no_order_are_put_one_behind_the_other(kind, closed):
+    nodes, step = NodeTable(), 1 if kind == "SEG2" else 2
+    angle = np.arange(5 * step + 1) * 1.1 / step
+    ids = nodes.add(np.column_stack([np.cos(angle), np.sin(angle), angle]))[::-1].copy()
+    chain = np.append(ids[:-1], ids[0]) if closed else ids
+    cells = np.stack([chain[k : len(chain) - step + k : step] for k in range(step + 1)], axis=1)
+    found = line_chain(Mesh.of(nodes, kind, cells[[3, 0, 4, 1, 2]]))
+    wanted = chain if not closed else np.roll(chain[:-1], -3 * step).tolist()
+    assert found.tolist()[: len(wanted)] == list(wanted)
+    assert (found[0] == found[-1]) is np.bool_(closed)
+    back = cells.copy()
+    back[2] = back[2, ::-1]
+    with pytest.raises(MeshError, match="follow"):
+        line_chain(Mesh.of(nodes, kind, back))

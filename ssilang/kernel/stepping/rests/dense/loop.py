@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_state
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
@@ -48,7 +48,7 @@ class DenseLoop:
         self._operators = operators_of(problem, effective)
         self._joints = joints_of(problem)
         self._motion = motion
-        self._work = workspace(motion.w.shape, len(motion.f))
+        self._work = workspace(motion.w.shape, len(motion.f), problem.scheme.conserving)
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
@@ -62,6 +62,12 @@ class DenseLoop:
             factors,
             recorder,
         )
+
+    def renew(self, problem: Problem) -> None:
+        """Go on with other loads, all else being the same."""
+        loads = (problem.loading.forces, problem.loading.imposed)
+        forces, imposed = (np.ascontiguousarray(x) for x in loads)
+        self._system = self._system._replace(forces=forces, imposed=imposed)
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are."""
@@ -91,13 +97,13 @@ def operators_of(problem: Problem, effective: Effective) -> StepOperators:
     n, n_rows = problem.numbering.size, problem.constraints.C.shape[0]
     P = effective.solve(np.eye(n))
     Q = np.array([effective.imposed(e) for e in np.eye(n_rows)]).reshape(n_rows, n)
+    R = effective.R if effective.R.any() else np.zeros((0, 0))
     return StepOperators(
         newmark_of(problem.scheme, effective.dt),
         np.ascontiguousarray(P),
         np.ascontiguousarray(Q.T),
         np.ascontiguousarray(effective.Y),
-        effective.S,
-        effective.R if effective.R.any() else np.zeros((0, 0)),
+        Condensed(effective.S, R, 1 - problem.scheme.alpha_f),
     )
 
 
@@ -136,8 +142,7 @@ class StepOperators(NamedTuple):
     P: FloatArray  # (n, n)
     Q: FloatArray  # (n, n_rows)
     Y: FloatArray  # (n, q)
-    S: FloatArray  # (q, q)
-    R: FloatArray  # (q, q)
+    condensed: Condensed
 
 
 class Sweep(NamedTuple):
@@ -161,7 +166,7 @@ def sweep_of(system: System) -> Sweep:
     return Sweep(r, du, np.zeros(len(system.rows)), load0, load1, v0, past, product, old)
 
 
-@compiled
+@compiled_fast
 def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
     for i in range(A.shape[0]):
         total = 0.0
@@ -170,7 +175,7 @@ def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
         out[i] = total
 
 
-@compiled
+@compiled_fast
 def _form(A: FloatArray, x: FloatArray) -> float:
     """x^T A x."""
     total = 0.0
@@ -247,8 +252,8 @@ def _advance(n: Newmark, x: Motion, sweep: Sweep) -> None:
 
 @apart
 @compiled
-def _account(system: System, joints: Joints, x: Motion, sweep: Sweep) -> None:
-    """Reactions and energies of the new state.
+def _account(system: System, joints: Joints, b: float, x: Motion, sweep: Sweep) -> None:
+    """Reactions, to the part b those of the start, and energies of the new state.
 
     Work is that of mean forces on the increment, exact for the average acceleration.
     """
@@ -260,13 +265,17 @@ def _account(system: System, joints: Joints, x: Motion, sweep: Sweep) -> None:
     for i in range(n):
         elastic += 0.5 * product[i] * x.u[i]
         external += 0.5 * (sweep.load0[i] + sweep.load1[i]) * du[i]
-        x.reaction[i] += product[i] - sweep.load1[i]
+        x.reaction[i] += product[i] - (1.0 - b) * sweep.load1[i] - b * sweep.load0[i]
+    if b > 0.0:
+        _times_vector(system.K, du, product)
+        _add(x.reaction, -b, product)
     if system.damped:
         _times_vector(system.C, x.v, product)
-        _add(x.reaction, 1.0, product)
+        _add(x.reaction, 1.0 - b, product)
         for i in range(n):
             damped += 0.5 * du[i] * product[i]
         _times_vector(system.C, sweep.v0, product)
+        _add(x.reaction, b, product)
         for i in range(n):
             damped += 0.5 * du[i] * product[i]
         x.energies[DAMPED] += damped
@@ -274,6 +283,8 @@ def _account(system: System, joints: Joints, x: Motion, sweep: Sweep) -> None:
         if x.f[j] != 0.0:
             for i in range(n):
                 x.reaction[i] += system.J[j, i] * x.f[j]
+    if b > 0.0:
+        copy_state(x.reaction, sweep.old)
     for row in range(len(dd)):
         if dd[row] != 0.0:
             for i in range(n):
@@ -305,8 +316,7 @@ def run_dense(
     factors : array (n_steps + 1, k)
         Load factors at the times, the first being that of the current state.
     """
-    scheme, worst = step.newmark, 0
-    trial, condensed = work.trial, Condensed(step.S, step.R, scheme.end)
+    scheme, trial, worst = step.newmark, work.trial, 0
     now = InterfaceState(motion.delta, motion.f, motion.w, motion.t, motion.state)
     _times_vector(system.forces, factors[0], sweep.load0)
     for k in range(len(to.row)):
@@ -317,7 +327,7 @@ def run_dense(
         if len(motion.f):  # solve: Newton's method on the interface
             _times_vector(system.J, sweep.du, trial.y0)
             copy_state(trial.y0, trial.y)
-            turns, residual = solve_interface(joints, condensed, now, work)
+            turns, residual = solve_interface(joints, step.condensed, now, work)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
@@ -327,7 +337,7 @@ def run_dense(
         _advance(scheme, motion, sweep)
         if not _finite(motion.u):
             return k, -1, np.inf
-        _account(system, joints, motion, sweep)
+        _account(system, joints, scheme.before, motion, sweep)
         end_of_step(motion, to, k)
         copy_state(sweep.load1, sweep.load0)
     return len(to.row), worst, 0.0

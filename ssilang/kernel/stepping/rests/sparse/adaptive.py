@@ -6,99 +6,124 @@ within a step.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.rows import BoolArray
-from ssilang.kernel.contact.solver import step_solver
-from ssilang.kernel.stepping.effective import effective_matrix, effective_of
-from ssilang.kernel.stepping.keeping import memory, recall
-from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.keeping import leaves, memory, put_back, recall
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepSolver, end_of_step
-from ssilang.kernel.stepping.state import N_ENERGIES, Motion, Outcome, Recorder, recorder_of
+from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
+from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, end_of_step
+from ssilang.kernel.stepping.state import (
+    N_ENERGIES,
+    Motion,
+    Outcome,
+    Recorder,
+    none_kept,
+    recorder_of,
+    tap_of,
+)
 from ssilang.kernel.stepping.track import View, whole_view
 
 DEEPEST = 5
+BLOCK = 64  # steps that a compiled loop is let run at most before it is asked what closed in them
 
 Memory = list[dict[str, Any]]
+Part = DenseLoop | SparseSteps
 
 
 class AdaptiveLoop:
     """Steps of one dt, split at contact events.
 
-    `closed` (m,) are the unilateral relations that are closed at the start; kept up to date.
+    `closed` (m,) are the unilateral relations that are closed at the start; kept up to date. `part`
+    makes the loop of steps of a length.
     """
 
-    def __init__(self, problem: Problem, motion: Motion, dt: float, closed: BoolArray) -> None:
+    def __init__(
+        self, problem: Problem, motion: Motion, dt: float, closed: BoolArray,
+        part: Callable[[float], Part],
+    ) -> None:  # fmt: skip
         self.problem, self.motion, self.dt, self.closed = problem, motion, dt, closed
-        self._impacts: dict[int, ImpactRule] = {}
-        self.loop = SparseLoop(problem, motion)
-        self._solvers: dict[int, StepSolver] = {}
-        self.solver = ""
-        self._solver(0)
+        self._make, self._parts = part, dict[int, Part]()
+        self._part(0)
 
     def memory(self) -> Memory:
-        """What the solvers of the levels remember, in the order in which they were made."""
-        return [{"level": level, "kept": memory(s)} for level, s in self._solvers.items()]
+        """What the loops of the levels remember, in the order in which they were made."""
+        return [{"level": level, "kept": memory(p)} for level, p in self._parts.items()]
 
     def recall(self, kept: Memory) -> None:
         """Give it back to them."""
         for part in kept:
-            recall(self._solver(part["level"]), part["kept"])
+            recall(self._part(part["level"]), part["kept"])
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
-        self.problem = self.loop.problem = problem
+        self.problem = problem
+        for part in self._parts.values():
+            part.renew(problem)
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps of dt, each in as many parts as it takes."""
-        worst, r = 0, recorder
-        for k in range(len(r.row)):
+        worst, k, block, r = 0, 0, 1, recorder
+        while k < len(r.row):
+            part, n = self._part(0), 0
+            if isinstance(part, DenseLoop):
+                given = factors[k : k + block + 1]
+                n = self._quiet(part, given)
+                rows = slice(k, k + n)
+                kept = r._replace(
+                    row=r.row[rows], energies=r.energies[rows],
+                    tap=r.tap._replace(row=r.tap.row[rows]),
+                    peaks=r.peaks._replace(first=r.peaks.first + k),
+                )  # fmt: skip
+                worst = max(worst, part.run(given[: n + 1], kept)[1])
+                k, block = k + n, min(2 * block, BLOCK) if n == len(given) - 1 else max(n, 1)
+                if n == len(given) - 1:
+                    continue
             turns, residual = self._step(0, factors[k], factors[k + 1])
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
             end_of_step(self.motion, r, k)
+            k += 1
         return len(r.row), worst, 0.0
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are."""
         return whole_view(self.motion, unknowns)
 
-    def _solver(self, level: int) -> StepSolver:
-        if level not in self._solvers:
-            dt = self.dt / 2**level
-            share = 1 - self.problem.scheme.alpha_f
-            effective = effective_of(self.problem, effective_matrix(self.problem, dt), dt, share)
-            self.solver = effective.inverse.factor.name
-            self._solvers[level] = step_solver(self.problem, effective)
-            if self.problem.contact is not None:
-                rule = ImpactRule(self.problem, effective, self.problem.contact, self.closed)
-                self._impacts[level] = rule
-        return self._solvers[level]
+    def _part(self, level: int) -> Part:
+        if level not in self._parts:
+            self._parts[level] = self._make(self.dt / 2**level)
+            self._parts[level].renew(self.problem)
+        return self._parts[level]
+
+    def _quiet(self, part: Part, factors: FloatArray) -> int:
+        """Steps before the first in which a joint opens or closes; the state is left as it is."""
+        m, steps = self.motion, len(factors) - 1
+        before, closed = leaves(m), self._closed()
+        tap = tap_of(np.arange(steps), np.zeros(0, np.int64), {"t": m.t.shape})
+        energies = np.zeros((steps, N_ENERGIES))
+        done, _, _ = part.run(factors, recorder_of(m, none_kept(steps), energies, (), tap=tap))
+        put_back(m, before)
+        changed = ((tap.t[:done, :, -1] < 0.0) != closed).any(axis=1)
+        return int(np.argmax(changed)) if changed.any() else done
 
     def _step(self, level: int, start: FloatArray, end: FloatArray) -> tuple[int, float]:
         """One step between two rows of load factors, split if contact changes in it."""
-        before, touching = [x.copy() for x in self.motion], self.closed.copy()
-        closed = self._closed()
-        solver = self._solver(level)
-        nowhere = recorder_of(self.motion, np.full(1, -1), np.zeros((1, N_ENERGIES)))
-        n = newmark_of(self.problem.scheme, self.dt / 2**level)
-        done, turns, residual = self.loop.run(
-            solver, n, np.stack([start, end]), nowhere, self._impacts.get(level)
-        )
+        state = (*self.motion, self.closed)
+        before, closed = leaves(state), self._closed()
+        nowhere = recorder_of(self.motion, none_kept(1), np.zeros((1, N_ENERGIES)), ())
+        done, turns, residual = self._part(level).run(np.stack([start, end]), nowhere)
         fine = done == 1 and np.array_equal(closed, self._closed())
         if fine or (level == DEEPEST and done == 1):
             return turns, residual
         if level == DEEPEST:
             return min(turns, 0), residual
-        for array, old in zip(self.motion, before, strict=True):
-            array[...] = old
-        self.closed[:] = touching
+        put_back(state, before)
         middle = 0.5 * (start + end)
         first, residual = self._step(level + 1, start, middle)
         if first <= 0:

@@ -54,7 +54,8 @@ class StepSolver(Protocol):
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
         """The step's increment; `motion.delta, f, w, t, state` become those of its end.
 
-        `d` (n_rows,) are the imposed values at the end of the step.
+        `d` (m,) are the gaps of relations for du = 0 and the imposed values at the end of the step;
+        (2, m) with those of both ends where steps conserve energy.
         """
         ...
 
@@ -71,7 +72,8 @@ class CondensedSolver:
         self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
         self._newton: Workspace | None = None
         if (joints := problem.interface) is not None:
-            self._newton = workspace((joints.n_points, joints.dimension), joints.size)
+            shape, mean = (joints.n_points, joints.dimension), problem.scheme.conserving
+            self._newton = workspace(shape, joints.size, mean)
             self._J = for_products(joints.J)
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
@@ -161,7 +163,8 @@ class SparseLoop:
             rest = self._predict(n, loads[k], loads[k + 1])
             dd = imposed[k + 1] - self._by.D @ self.motion.u
             pushed = self.motion.contact.copy()
-            outcome = solver.solve(self.motion, rest, dd, self._gap(factors[k + 1]))
+            ends = factors[k : k + 2] if n.before else factors[k + 1]
+            outcome = solver.solve(self.motion, rest, dd, self._gap(ends))
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
             worst, work = max(worst, outcome.turns), None
@@ -172,7 +175,7 @@ class SparseLoop:
             before = balance(self.motion.energies)
             if not np.isfinite(self.motion.u).all():
                 return k, -1, np.inf
-            self._account(outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            self._account(n, outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
             if work is not None:
                 lose(self.motion, work, before)
             end_of_step(self.motion, r, k)
@@ -217,7 +220,7 @@ class SparseLoop:
         m.v[:], m.a[:] = advanced(n, du, m.v, m.a)
 
     def _account(
-        self, du: FloatArray, dd: FloatArray, loads: FloatArray, pushed: FloatArray,
+        self, n: Newmark, du: FloatArray, dd: FloatArray, loads: FloatArray, pushed: FloatArray,
         factors: FloatArray,
     ) -> None:  # fmt: skip
         """Reactions and energies; `pushed` are the contact reactions at the step's start.
@@ -226,14 +229,16 @@ class SparseLoop:
         """
         p, m = self.problem, self.motion
         old, before = m.reaction.copy(), m.energies[LOST] - self._joints_lost
-        Cv = self._Cv
+        Ku, Cv, b = self._Ku, self._Cv, n.before
         self._begin()
-        m.reaction[:] = self._Ma + self._Ku - loads[1]
+        m.reaction[:] = self._Ma + (1 - b) * (self._Ku - loads[1]) + b * (Ku - loads[0])
         if self._damped:
-            m.reaction[:] += self._Cv
+            m.reaction[:] += (1 - b) * self._Cv + b * Cv
             m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
         if self._by.Jt is not None:
             m.reaction[:] += self._by.Jt @ m.f
+        if b:  # forces of the step, and those of joints and relations, are means by themselves
+            old, pushed = m.reaction, m.contact
         m.energies[EXTERNAL] += 0.5 * du @ (loads[0] + loads[1])
         m.energies[EXTERNAL] += support_work(
             p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]

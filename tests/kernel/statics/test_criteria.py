@@ -1,0 +1,192 @@
+"""Yield criteria of bodies and joints by their definitions, and the slope of the surface there."""
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.interface import family as _joints  # noqa: F401
+from ssilang.kernel.interface.laws.columns import N_STATE
+from ssilang.kernel.interface.laws.law_table import LAWS as LAW_TABLE
+from ssilang.kernel.interface.laws.law_table import shown_variables, state_of
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.statics.yielding import criterion, tangent_modulus
+from tests.kernel.elements.samples import cell_zone
+
+ELASTIC = {"YOUN": 1000.0, "NU": 0.3}
+CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0]), "EPSE", "SIGM"),))
+CONE = {"ALFA": 0.3, "BETA": 1.0, "K": 1.3, "ETA": 0.6, "MU": 2.0, "KL": 4.0, "GAMM": 0.1,
+        "DELT": 1.0}  # fmt: skip
+CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
+LAWS = {
+    "PARFAIT": {"SIGY": 1.2},
+    "ISOTROPE": {"ECRO": CURVE},
+    "CINEMATIQUE": {"SIGY": 1.2, "H": 80.0},
+    "DRUCKER_PARFAIT": {"LTR": 1.0, "LCS": 5.0},
+    "hardens": CONE | {"H": 50.0},
+    "hardens no more": CONE | {"H": 900.0},
+    "softens": CONE | {"H": -0.4, "KL": 1.0},
+    "softens no more": CONE | {"H": -40.0, "KL": 1.0},
+    "stays": CONE | {"H": 0.0},
+    "RH_COULOMB": {"COHE": 1.0, "PHI": 0.5},
+}
+EPSE = np.array([[0.004, 0.0, 0.02, 0.05]])
+
+
+def field_of(zone, values, support="STRESSES"):
+    return CellField((CellFieldBlock(zone.cells, values, support, zone.element),))
+
+
+def body(name, element="QUA4", mode=Mode.PLANE_STRAIN):
+    law = name if name in ("PARFAIT", "ISOTROPE", "CINEMATIQUE", "RH_COULOMB") else (
+        "DRUCKER_PARFAIT" if name == "DRUCKER_PARFAIT" else "DRUCKER_PRAGER")  # fmt: skip
+    zone = cell_zone(element, mode)
+    words = ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", law)
+    zone = Zone(zone.cells, "MECANIQUE", words, element, mode)
+    given = {k: np.full((1, 1), v, object if isinstance(v, Curve) else float)
+             for k, v in (ELASTIC | LAWS[name]).items()}  # fmt: skip
+    return zone, field_of(zone, given, "GRAVITE")
+
+
+def mises(s):
+    d = s - np.trace(s) / 3 * np.eye(3)
+    return np.sqrt(1.5 * (d * d).sum())
+
+
+def expected(name, s, e, centre):
+    p = ELASTIC | LAWS[name]
+    if name == "PARFAIT":
+        return mises(s) - 1.2
+    if name == "ISOTROPE":
+        return mises(s) - np.interp(e, [0, 0.01, 0.1], [1, 2, 3])
+    if name == "CINEMATIQUE":
+        return mises(s - centre) - 1.2
+    if name == "DRUCKER_PARFAIT":  # nought in pure tension LTR and compression -LCS
+        a, b = np.linalg.solve([[1.0, 1.0], [-5.0, 5.0]], [1.0, 1.0])
+        scale = 2 * 5 / 6
+        return scale * (a * np.trace(s) + b * mises(s) - 1.0)
+    if "K" in p:
+        last = p["KL"] * p["BETA"] / p["MU"]
+        k = p["K"] + p["H"] * e
+        if p["H"]:
+            k = max(k, last) if p["H"] < 0 else min(k, last)
+        return p["ALFA"] * np.trace(s) + p["BETA"] * mises(s) - k
+    return None
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_criteria_are_those_of_the_laws(name):
+    zone, field = body(name)
+    rng = np.random.default_rng(3)
+    stress = rng.standard_normal((1, 4, 4))
+    shifts = 0.3 * rng.standard_normal((6, 1, 4))
+    shifts[4:] = 0.0
+    variables = {"EPSE": EPSE} | dict(zip(CENTRE, shifts, strict=True))
+    seen = zone_field(zone, field_of(zone, variables))
+    found = criterion(zone, field, stress, seen)
+    for k in range(4):
+        xx, yy, zz, xy = stress[0, :, k]
+        s = np.array([[xx, xy, 0], [xy, yy, 0], [0, 0, zz]])
+        a = shifts[:, 0, k]
+        centre = np.array([[a[0], a[3], 0], [a[3], a[1], 0], [0, 0, a[2]]])
+        wanted = expected(name, s, EPSE[0, k], centre)
+        if wanted is None:  # rounded inside the pyramid of Mohr and Coulomb
+            e = np.linalg.eigvalsh(s)
+            sharp = (e[2] - e[0]) / 2 + (e[2] + e[0]) / 2 * np.sin(0.5) - np.cos(0.5)
+            assert found[0, k] >= sharp - 1e-9
+            assert found[0, k] == pytest.approx(sharp, abs=0.45)
+        else:
+            assert found[0, k] == pytest.approx(wanted, abs=1e-12)
+    with pytest.raises(FieldError, match="ELASTIQUE"):
+        criterion(cell_zone("QUA4", Mode.PLANE_STRAIN), field, stress, seen)
+
+
+@pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "CINEMATIQUE"])
+def test_the_slope_is_youngs_but_where_it_yields(name):
+    zone, field = body(name)
+    size = {"PARFAIT": 1.2, "CINEMATIQUE": 1.2}.get(name)
+    sizes = np.interp(EPSE[0], [0, 0.01, 0.1], [1, 2, 3]) if size is None else np.full(4, size)
+    slopes = {"PARFAIT": [0] * 4, "CINEMATIQUE": [80] * 4,
+              "ISOTROPE": [100, 100, 1 / 0.09, 1 / 0.09]}[name]  # fmt: skip
+    stress = np.zeros((1, 4, 4))
+    stress[0, 0] = sizes * [1.0, 1.0, 0.9995, 0.99]  # the last one is inside
+    zeros = {n: np.zeros((1, 4)) for n in CENTRE}
+    seen = zone_field(zone, field_of(zone, {"EPSE": EPSE} | zeros))
+    found = tangent_modulus(zone, field, stress, seen, 1e-3)
+    np.testing.assert_allclose(found[0], [slopes[0], 1000.0, slopes[2], 1000.0])
+    elastic = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    plain = field_of(elastic, {k: np.full((1, 1), v) for k, v in ELASTIC.items()}, "GRAVITE")
+    np.testing.assert_allclose(tangent_modulus(elastic, plain, stress, seen, 1e-3), 1000.0)
+    zone, field = body("DRUCKER_PARFAIT")
+    with pytest.raises(FieldError, match="DRUCKER"):
+        tangent_modulus(zone, field, stress, seen, 1e-3)
+
+
+def joint(law, space, **given):
+    table = NodeTable()
+    x = np.array([[0, 0, 0], [2, 0, 0], [0.5, 1.5, 0.0]])[:, : 3 if space else 2]
+    x = x if space else x[:2]
+    ids = table.add(np.concatenate([x, x]))
+    kind, element = ("LIA3", "JOT3") if space else ("RAC2", "JOI2")
+    mode = Mode.THREE_DIMENSIONAL if space else Mode.PLANE_STRAIN
+    zone = Zone(CellBlock.make(table, kind, ids[None]), "MECANIQUE", ("ELASTIQUE", law), element,
+                mode)  # fmt: skip
+    values = {k: np.full((1, 1), float(v)) for k, v in given.items()}
+    return zone, field_of(zone, values)
+
+
+@pytest.mark.parametrize("space", [False, True])
+@pytest.mark.parametrize("rough", [0.0, 0.6])
+@pytest.mark.parametrize("strength", [0.0, 3.0])
+def test_joints_open_or_slide(space, rough, strength):
+    given = {"KN": 1e4, "KS": 1e3, "FROT": rough, "FU": strength, "GF": 0.8}
+    given = {k: v for k, v in given.items() if v}
+    zone, field = joint("JOINT_SDM", space, **given)
+    p, d = 3 if space else 2, 3 if space else 2
+    t = 3 * np.random.default_rng(5).standard_normal((1, d, p))
+    xi = np.linspace(0.1, 0.4, p)[None]
+    seen = zone_field(zone, field_of(zone, {"SAUT": xi}))
+    found = criterion(zone, field, t, seen)
+    shear = np.linalg.norm(t[0, : d - 1], axis=0)
+    normal = t[0, d - 1]
+    soft = strength * np.exp(-strength / 0.8 * xi[0]) if strength else 0.0
+    opening = normal - soft
+    sliding = shear - rough * np.maximum(-normal, 0.0)
+    np.testing.assert_allclose(found[0], np.maximum(opening, sliding) if rough else opening)
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_dilatant_joints_slide_on_coulombs_line(space):
+    zone, field = joint("JOINT_DILATANT", space, KN=1e4, KS=1e3, PHI=30.0, MU=5.0, COHE=2.0,
+                        FTRC=0.7)  # fmt: skip
+    p = d = 3 if space else 2
+    t = 2 * np.random.default_rng(5).standard_normal((1, d, p))
+    found = criterion(zone, field, t, zone_field(zone, None))
+    shear, normal = np.linalg.norm(t[0, : d - 1], axis=0), t[0, d - 1]
+    sliding = shear + normal * np.tan(np.pi / 6) - 2.0
+    np.testing.assert_allclose(found[0], np.maximum(sliding, normal - 0.7))
+
+
+@pytest.mark.parametrize("word", [w for w, law in LAW_TABLE.items() if law.variables])
+def test_states_are_what_their_variables_show(word):
+    """Of a variable that sums several columns the first one takes what the others leave."""
+    zone, _ = joint(word, True)
+    law = LAW_TABLE[word]
+    state = np.random.default_rng(3).uniform(0.1, 1.0, (1, 3, N_STATE))
+    shown = shown_variables(law, state, 3)
+    back = state_of(law, zone_field(zone, field_of(zone, shown)), (1, 3))
+    again = shown_variables(law, back.reshape(1, 3, N_STATE), 3)
+    for name, values in shown.items():
+        single = len(law.variables[name]) == 1
+        np.testing.assert_allclose(again[name] if single else values, values)
+        if single:
+            np.testing.assert_allclose(back[:, law.variables[name][0]], values.ravel())
+    for first, *others in law.variables.values():
+        if others:
+            own = [columns for columns in law.variables.values() if columns[0] == first][-1]
+            total = state[0][:, list(own)].sum(axis=1) - back[:, list(own[1:])].sum(axis=1)
+            np.testing.assert_allclose(back[:, first], total)

@@ -1,0 +1,143 @@
+"""Harmonic responses against full complex matrices, and frequencies against generalised pairs."""
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+from references.assembled import Bench
+
+from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
+from ssilang.kernel.curves.curve import Load, LoadPart
+from ssilang.kernel.statics import frequency
+from ssilang.kernel.statics.frequency import HarmonicInputs, default_frequencies, sweep
+from ssilang.kernel.statics.stability import (
+    free_motion_fields,
+    negative_eigenvalues,
+    negative_unknowns,
+)
+
+M, K, C = (2.0, 3.0, 1.5, 0.7), (4e3, 9e3, 2e3, 6e3), (30.0, 0.0, 12.0, 5.0)
+
+
+class Chain:
+    """Four masses; the last moves as it is told, the second and third are tied unequally."""
+
+    def __init__(self, damped=True):
+        b = self.bench = Bench()
+        self.n = [b.node(float(i), 0.0) for i in range(4)]
+        b.spring(K[0], self.n[0])
+        for i in range(3):
+            b.spring(K[i + 1], self.n[i], self.n[i + 1])
+        for i, n in enumerate(self.n):
+            b.mass(M[i], n, ("UY",))
+            if damped and C[i]:
+                b.dashpot(C[i], n)
+        self.told = b.relate([(2.0, "UY", self.n[3])])
+        self.tie = b.relate([(1.0, "UY", self.n[1]), (-3.0, "UY", self.n[2])])
+        self.K = np.zeros((4, 4))
+        self.K[0, 0] += K[0]
+        for i in range(3):
+            self.K[i : i + 2, i : i + 2] += K[i + 1] * np.array([[1, -1], [-1, 1]])
+        self.M = np.diag(M)
+        self.C = np.diag(C) * damped
+        self.rows = np.array([[0, 0, 0, 2.0], [0, 1.0, -3.0, 0]])
+
+    def load(self):
+        b, n = self.bench, self.n
+        pushes = b.field((n[0], "FY", 5.0), (n[1], "IFY", -3.0), (n[0], "IFY", 2.0))
+        moves = b.field((self.told, "FLX", 0.01), (self.told, "IFLX", 0.004))
+        parts = b.load(pushes, [1.0, 20.0], [1.0, 3.0]).parts
+        return Load(parts + b.load(moves, [1.0, 30.0], [2.0, 0.5]).parts)
+
+    def inputs(self, load=None):
+        b = self.bench
+        return HarmonicInputs(b.stiffness, b.mass_matrix, b.damping, load or self.load())
+
+
+@pytest.mark.parametrize("dense", [True, False])
+def test_responses_are_those_of_the_complex_system(dense, monkeypatch):
+    if not dense:
+        monkeypatch.setattr(frequency, "_DENSE", 0)
+    c = Chain()
+    for f, got in zip((0.0, 3.0, 11.0), sweep(c.inputs(), np.array([0.0, 3.0, 11.0])), strict=True):
+        w = 2 * np.pi * f
+        A = c.K - w**2 * c.M + 1j * w * c.C
+        first, second = np.interp(f, [1, 20], [1, 3]), np.interp(f, [1, 30], [2, 0.5])
+        b = np.array([first * (5 + 2j), first * -3j, 0, 0, second * (0.01 + 0.004j), 0])
+        x = la.solve(np.block([[A, c.rows.T], [c.rows, np.zeros((2, 2))]]), b)
+        u = [got.displacement.values_at(n, np.array(c.n)) for n in ("UY", "IUY")]
+        np.testing.assert_allclose(u[0] + 1j * u[1], x[:4], rtol=1e-9, atol=1e-12)
+        r = [got.reactions.values_at(n, np.array(c.n)) for n in ("FY", "IFY")]
+        np.testing.assert_allclose(r[0] + 1j * r[1], -c.rows.T @ x[4:], rtol=1e-9, atol=1e-9)
+        at = np.array([c.told, c.tie])
+        x_of = [got.displacement.values_at(n, at) for n in ("LX", "ILX")]
+        np.testing.assert_allclose(x_of[0] + 1j * x_of[1], x[4:], rtol=1e-9)
+        assert got.frequency == f
+
+
+def exact_frequencies(c):
+    T = la.null_space(c.rows)
+    return np.sqrt(la.eigh(T.T @ c.K @ T, T.T @ c.M @ T, eigvals_only=True)) / (2 * np.pi)
+
+
+def test_frequencies_of_a_sweep_are_close_where_it_resounds():
+    c = Chain()
+    natural = exact_frequencies(c)
+    found = default_frequencies(c.inputs())
+    np.testing.assert_allclose(frequency.natural_frequencies(frequency._System(c.inputs())),
+                               natural, rtol=1e-9)  # fmt: skip
+    assert found[0] == pytest.approx(max(natural[0] / 20, 1.0))
+    assert found[-1] == pytest.approx(min(2 * natural[-1], 30.0))
+    steps = np.diff(found)
+    assert (steps > 0).all()
+    assert (steps <= 0.02 * found[:-1] * 1.0001).all()
+    for f in natural:  # stepped over, not onto
+        assert 1e-3 * f < np.abs(found - f).min() < 5e-3 * f
+    high = c.bench.load(c.bench.field((c.n[0], "FY", 1.0)), [900.0, 990.0], [1.0, 1.0])
+    with pytest.raises(KernelError, match="900"):
+        default_frequencies(c.inputs(high))
+
+
+def test_what_has_no_response_is_refused(monkeypatch):
+    c = Chain(damped=False)
+    with pytest.raises(SingularMatrixError, match="singular"):
+        list(sweep(c.inputs(), exact_frequencies(c)[:1]))
+    b = c.bench
+    for load, match in (
+        (Load((LoadPart("T", b.field((c.n[0], "T", 1.0))),)), "T"),
+        (Load((LoadPart("MECA", 3.0),)), "nod"),
+        (b.load(b.field((c.n[0], "FX", 1.0))), "FX"),
+        (b.load(b.field((c.n[0], "IFX", 1.0))), "FX"),
+    ):
+        with pytest.raises(FieldError, match=match):
+            list(sweep(c.inputs(load), np.array([1.0])))
+    monkeypatch.setattr(frequency, "_LARGEST_GUESS", 3)
+    with pytest.raises(KernelError, match="4"):
+        default_frequencies(c.inputs())
+    b.relate([(1.0, "UY", c.n[0])], sense=1)
+    with pytest.raises(KernelError, match="unilateral"):
+        list(sweep(c.inputs(), np.array([1.0])))
+
+
+def test_negative_springs_and_free_motions_are_counted_and_named():
+    b = Bench()
+    n = [b.node(float(i), 0.0) for i in range(5)]
+    b.spring(-7.0, n[0])
+    b.spring(2.0, n[0], n[1])
+    b.spring(-3.0, n[2])
+    b.spring(4.0, n[2])
+    b.spring(-1.0, n[3])
+    b.spring(-2.0, n[4], unknown="UX")
+    b.fix(n[3], "UY")
+    found = [(node, name) for node, name, _ in negative_unknowns(b.stiffness)]
+    assert found == [(n[0], "UY"), (n[4], "UX")]
+    assert negative_unknowns(b.stiffness)[0][2] == pytest.approx(-5.0)
+    assert negative_eigenvalues(b.stiffness) == 2  # the held one moves nowhere
+    loose = Bench()
+    m = [loose.node(float(i), 0.0) for i in range(4)]
+    loose.spring(3.0, m[0], m[1])
+    loose.spring(2.0, m[1], m[2])
+    loose.spring(5.0, m[3])
+    fields, pins = free_motion_fields(loose.stiffness)
+    assert len(fields) == 1
+    np.testing.assert_allclose(fields[0].values_at("UY", np.array(m)), [1, 1, 1, 0], atol=1e-9)
+    assert set(pins.tolist()) < set(m[:3])

@@ -1,0 +1,157 @@
+"""What is told of a problem before it steps: loose and sunk bodies, swings, masses alone."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+
+from ssilang.kernel.curves.curve import Load
+from ssilang.kernel.stepping.problem.capacity import stiffness_contrast
+from ssilang.kernel.stepping.problem.plausibility import (
+    Bodies,
+    against_supports,
+    contact_resolution,
+    masses_alone,
+    swings,
+)
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+
+T = 1e-3 * np.arange(41)
+
+
+def block(**change):
+    """A body of two masses over a joint, beside it a held one; pushed by a weight and a sine."""
+    given = {"side": 0.0, "weight": -100.0, "push": 0.0, "kn": 1e6, "ks": 0.0, "stop": False,
+             "size": 2.0} | change  # fmt: skip
+    b = Bench()
+    low, one, two, apart = (b.node(*p) for p in ((0, -1), (0, 0), (given["size"], 0), (9, 9)))
+    b.n = (low, one, two, apart)
+    b.fix(low)
+    b.fix(apart, "UX")
+    b.spring(5e3, apart)
+    for node, m in ((one, 2.0), (two, 3.0), (apart, 1.0)):
+        b.mass(m, node)
+    for u in ("UX", "UY"):
+        b.spring(1e7, one, two, u)
+    if given["side"]:
+        b.spring(given["side"], two, unknown="UX")
+    if given["stop"]:
+        b.relate([(1.0, "UY", two)], sense=1)
+    else:
+        b.joint("SEG2", [low, one], "JOI1", KN=given["kn"], KS=given["ks"], V1X=0.0, V1Y=1.0)
+    parts = ()
+    if given["weight"]:
+        parts += b.load(
+            b.field((one, "FY", given["weight"] / 2), (two, "FY", given["weight"] / 2))
+        ).parts
+    if given["push"]:
+        parts += b.load(b.field((two, "FX", given["push"])), T, np.sin(100 * T)).parts
+    return b, make_problem(
+        Inputs(b.stiffness, T, b.mass_matrix, load=Load(parts) if parts else None, model=b.model,
+               characteristics=b.characteristics)
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({}, []),  # pressed on its joint; nothing moves it along x
+        ({"push": 50.0, "ks": 1e5}, []),
+        ({"push": 50.0, "side": 1e4, "weight": 0.0}, [("UY", True)]),  # nothing presses it
+        ({"push": 50.0, "side": 1e4, "weight": 100.0}, []),  # pulled off, and stands until then
+        ({"stop": True, "push": 50.0}, [("UX", False)]),
+        ({"stop": True, "push": 50.0, "side": 1e3}, []),
+    ],
+)
+def test_bodies_that_nothing_holds_or_presses(change, told):
+    b, problem = block(**change)
+    found = list(Bodies(problem).loose())
+    assert [(x.axis, x.pressed) for x in found] == told
+    assert all(x.node in b.n[1:3] for x in found)
+
+
+@pytest.mark.parametrize(("kn", "size"), [(1e6, 2.0), (3.0, 2.0), (3.0, 90.0)])
+def test_bodies_that_their_joints_let_sink(kn, size):
+    b, problem = block(kn=kn, size=size)
+    found = list(Bodies(problem).sunk())
+    way = 100.0 / kn
+    if way <= size:
+        assert found == []
+        return
+    (one,) = found
+    assert (one.axis, one.node in b.n[1:3]) == ("UY", True)
+    assert (one.way, one.size) == (pytest.approx(way, rel=1e-6), pytest.approx(size))
+
+
+def masses(*loads, c=0.0, v=None, free=False):
+    """Two unlike masses on springs in a row; loads are of both, times curves."""
+    b = Bench()
+    n = [b.node(0.0, 0.0), b.node(1.0, 0.0)]
+    b.n = n
+    for node, m in zip(n, (2.0, 5.0), strict=True):
+        b.mass(m, node, ("UY",))
+    if not free:
+        b.spring(3e4, n[0])
+    b.spring(8e4, n[0], n[1])
+    if c:
+        b.dashpot(c, n[1])
+    parts = ()
+    for first, second, factors in loads:
+        parts += b.load(b.field((n[0], "FY", first), (n[1], "FY", second)), T, factors).parts
+    velocity = None if v is None else b.field((n[0], "UY", v), (n[1], "UY", 2 * v))
+    return make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, Load(parts),
+                               velocity=velocity))  # fmt: skip
+
+
+SINE, STEP = np.sin(30 * T), (T > 0.01) * 1.0
+
+
+def test_periods_are_rayleighs_of_the_static_shape():
+    K, M = np.array([[11e4, -8e4], [-8e4, 8e4]]), np.diag([2.0, 5.0])
+    found = swings(masses((7.0, -2.0, SINE), (1.0, 4.0, STEP), (1.0, 1.0, np.ones(41)), c=60.0,
+                          v=0.3))  # fmt: skip
+    assert [s.sudden for s in found] == [False, True, True]
+    for s, f in zip(found, ([7.0, -2.0], [1.0, 4.0], M @ [0.3, 0.6]), strict=True):
+        x = np.linalg.solve(K, f)
+        moved, work = x @ M @ x, x @ f
+        assert s.period == pytest.approx(2 * np.pi * np.sqrt(moved / work))
+        assert s.damping == pytest.approx(60.0 * x[1] ** 2 / (2 * np.sqrt(work * moved)))
+    for second in (1.0, 0.0, -0.3):
+        (loose,) = swings(masses((1.0, second, SINE), free=True))
+        assert loose.period == np.inf
+    assert swings(masses((1.0, 1.0, SINE), free=True, c=5.0)) == []
+    assert swings(masses((1.0, 2.0, np.ones(41)))) == []
+
+
+def test_masses_alone_and_starts_against_supports():
+    b = Bench()
+    n = [b.node(float(i), 0.0) for i in range(6)]
+    for node in n:
+        b.mass(1.0, node, ("UY",))
+    b.spring(2.0, n[0])
+    b.relate([(1.0, "UY", n[1])])
+    b.dashpot(3.0, n[2])
+    start = b.field((n[1], "UY", 0.2), (n[0], "UY", 0.1))
+    fast = b.field((n[3], "UY", 0.4), (n[1], "UY", 0.0))
+    load = b.load(b.field((n[4], "FY", 1.0)))
+    problem = make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, load, start, fast))
+    assert masses_alone(problem).tolist() == [n[5]]
+    found = against_supports(problem)
+    assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([0], [])
+    fast = b.field((n[1], "UY", 0.5))
+    problem = make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, load, None, fast))
+    found = against_supports(problem)
+    assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([], [0])
+
+
+def test_contact_times_are_those_of_the_mass_that_the_joints_carry():
+    _, problem = block(kn=4e5)
+    found = contact_resolution(problem)
+    assert found.contact_time == pytest.approx(np.pi * np.sqrt(5.0 / 4e5))
+    assert found.dt == pytest.approx(1e-3)
+    assert found.wanted_dt == pytest.approx(found.contact_time / 30)
+    assert found.resolved is (found.dt <= found.wanted_dt * 1.005)
+    _, soft = block(kn=4e1)
+    assert contact_resolution(soft).resolved
+    assert contact_resolution(block(stop=True)[1]) is None
+    assert stiffness_contrast(problem) == pytest.approx(4e5 / 1e7)
+    assert stiffness_contrast(block(stop=True)[1]) is None

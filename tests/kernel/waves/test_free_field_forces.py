@@ -1,0 +1,152 @@
+"""Forces of a free field on a body of springs, by dense algebra."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+
+from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.matrices.assembly import assemble, field_to_vector
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.waves.free_field_forces import (
+    Ground,
+    Motion,
+    along_columns,
+    edge_forces,
+    elements_at,
+    elements_of,
+    layer_forces,
+    load_of,
+)
+from ssilang.kernel.waves.resolution import highest_frequency
+
+N = 7
+
+
+@pytest.fixture
+def body():
+    """A row of masses on springs of two unknowns; inside, a layer of two cells, and beyond."""
+    b = Bench()
+    b.n = np.array([b.node(float(i), 0.3 * i * i) for i in range(N)])
+    rng = np.random.default_rng(3)
+    for i in range(N - 1):
+        for u in ("UX", "UY"):
+            b.spring(rng.uniform(1e3, 4e3), b.n[i], b.n[i + 1], u)
+    for n in b.n:
+        b.mass(rng.uniform(1, 3), n)
+        b.dashpot(rng.uniform(5, 9), n)
+    ground = Ground(b.stiffness, b.mass_matrix, b.damping)
+    numbering = ground.numbering
+    t = np.linspace(0.0, 0.5, 6)
+    u, v, a = rng.standard_normal((3, numbering.size, len(t)))
+    return b, ground, Motion(t, u, v, a)
+
+
+def cells(b, pairs):
+    return Mesh.of(b.table, "SEG2", b.n[np.array(pairs)])
+
+
+def dense(b, ground, pairs, alone):
+    """K, M, C of the springs between some nodes, masses and dashpots of some nodes."""
+    numbering = ground.numbering
+    kept = [sorted(b.n[list(p)].tolist()) for p in pairs]
+
+    def part(matrix):
+        blocks = tuple(
+            x for x in matrix.blocks
+            if (sorted(x.nodes[0].tolist()) in kept if x.nodes.shape[1] == 2 else
+                int(x.nodes[0, 0]) in b.n[list(alone)])
+        )  # fmt: skip
+        return assemble(Matrix(matrix.table, blocks, kind=matrix.kind), numbering).toarray()
+
+    return part(ground.stiffness), part(ground.mass), part(ground.damping)
+
+
+def test_forces_of_a_layer_are_those_that_each_side_lacks_of_the_other(body):
+    b, ground, motion = body
+    layer = elements_of(ground, cells(b, [[3, 4], [2, 3]]))
+    numbering = ground.numbering
+    K, M, _ = dense(b, ground, [(2, 3), (3, 4)], [])
+    inside = Mesh.of(b.table, "SEG2", b.n[[[0, 1], [1, 2]]])
+    found = layer_forces(layer, inside, motion)
+    inner = np.isin(numbering.nodes, b.n[[2]])
+    outer = np.isin(numbering.nodes, b.n[[3, 4]])
+    expected = np.zeros_like(found)
+    u = motion.displacement
+    expected[outer] = (K @ (u * inner[:, None]))[outer]
+    expected[inner] = -(K @ (u * outer[:, None]))[inner]
+    np.testing.assert_allclose(found, expected)
+    assert not M.any()
+    for bad in (cells(b, [[5, 6]]), cells(b, [[0, 1]])):
+        with pytest.raises(FieldError, match="layer"):
+            layer_forces(elements_of(ground, bad), inside, motion)
+    with pytest.raises(FieldError, match="element"):
+        elements_of(ground, cells(b, [[0, 2]]))
+    motion.velocity[numbering.index_of(int(b.n[3]), "UY"), 2] = np.nan
+    with pytest.raises(FieldError, match="UY"):
+        layer_forces(layer, inside, motion)
+    motion.velocity[:] = 0.0
+    motion.displacement[numbering.index_of(int(b.n[6]), "UY")] = np.nan
+    layer_forces(layer, inside, motion)  # nobody asks for it there
+
+
+def test_forces_at_edges_hold_their_elements_and_feed_the_dampers(body):
+    b, ground, motion = body
+    edge = Mesh.of(b.table, "POI1", b.n[[[5]]])
+    row = elements_at(ground, edge)
+    K, M, C = dense(b, ground, [(4, 5), (5, 6)], [5])
+    extra = Bench()
+    extra.table = b.table
+    extra.dashpot(77.0, int(b.n[5]), "UX")
+    extra.dashpot(55.0, int(b.n[2]), "UY")
+    dampers = extra.damping
+    found = edge_forces(row, edge, dampers, motion)
+    touched = (np.abs(K) + np.abs(M) + np.abs(C)).sum(axis=0) > 0
+    u, v, a = (x * touched[:, None] for x in
+               (motion.displacement, motion.velocity, motion.acceleration))  # fmt: skip
+    numbering = ground.numbering
+    at = np.isin(numbering.nodes, b.n[[5]])
+    expected = (M @ a + C @ v + K @ u) * at[:, None]
+    expected += assemble(dampers, numbering).toarray() @ motion.velocity
+    np.testing.assert_allclose(found, expected)
+    assert set(numbering.nodes[row.touched].tolist()) == set(b.n[[4, 5, 6]].tolist())
+    motion.velocity[numbering.index_of(int(b.n[2]), "UY")] = np.nan
+    with pytest.raises(FieldError, match="UY"):
+        edge_forces(row, edge, dampers, motion)
+
+
+def test_histories_become_few_fields_times_curves(body):
+    _, ground, _ = body
+    numbering = ground.numbering
+    rng = np.random.default_rng(1)
+    forces = rng.standard_normal((numbering.size, 3)) @ rng.standard_normal((3, 9))
+    forces[4:7] = 0.0
+    t = np.linspace(0, 2, 9)
+    load = load_of(numbering, t, forces)
+    assert len(load.parts) == 3
+    back = sum(
+        np.outer(field_to_vector(p.space, numbering), p.time.parts[0].ordinates) for p in load.parts
+    )
+    np.testing.assert_allclose(back, forces, atol=1e-12)
+    for p in load.parts:
+        np.testing.assert_array_equal(p.time.parts[0].abscissas, t)
+        assert set(p.space.node_ids) <= set(numbering.nodes[np.abs(forces).sum(axis=1) > 0])
+    assert load_of(numbering, t, 0 * forces).parts == ()
+
+
+def test_heights_beyond_a_column_are_refused():
+    column = np.array([1.0, 4.0, 2.0])
+    for heights, match in (([0.5], "0.5"), ([2.0, 4.5], "4.5")):
+        with pytest.raises(FieldError, match=match):
+            along_columns(np.array(heights), column)
+    with pytest.raises(FieldError, match="column"):
+        along_columns(np.array([1.0]), column[:1])
+
+
+def test_the_highest_frequency_is_that_of_the_velocity_that_counts():
+    t = 0.01 * np.arange(400)
+    slow, fast = (np.sin(2 * np.pi * f * t) * 2 * np.pi * f for f in (2.5, 12.5))
+    both = np.stack([slow, slow + 0.1 * fast])
+    assert highest_frequency(t, both) == pytest.approx(12.5, rel=2e-2)
+    assert highest_frequency(t, both, 0.2) == pytest.approx(2.5, rel=2e-2)
+    assert highest_frequency(t, 0 * both) == 0.0
