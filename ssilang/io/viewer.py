@@ -210,15 +210,10 @@ def show(path: Path, wish: Wish) -> None:
     scene.draw(scene.last)
     if len(series.times) > 1:
         scene.plotter.add_slider_widget(
-            lambda value: scene.draw(round(value) - 1),
-            [1, len(series.times)],
-            value=scene.last + 1,
-            title="",
-            fmt="%.0f",
-            color=_INK,
-            pointa=(0.25, 0.06),
+            lambda value: scene.draw(round(value) - 1), [1, len(series.times)],
+            value=scene.last + 1, title="", fmt="%.0f", color=_INK, pointa=(0.25, 0.06),
             pointb=(0.75, 0.06),
-        )
+        )  # fmt: skip
     scene.plotter.show()
 
 
@@ -312,14 +307,9 @@ class _Scene:
             }  # fmt: skip
             del look["color"]
         self.plotter.add_mesh(
-            moved,
-            edge_opacity=0.35,
-            copy_mesh=True,
-            ambient=0.55,
-            diffuse=0.45,
-            specular=0.0,
+            moved, edge_opacity=0.35, copy_mesh=True, ambient=0.55, diffuse=0.45, specular=0.0,
             **look,
-        )
+        )  # fmt: skip
         self.plotter.add_text("   ".join(notes), font_size=10, color=_INK, position="upper_left")
         self.plotter.add_axes(color=_INK)
 

@@ -710,6 +710,9 @@ _OF_CONTAINERS = frozenset(
 )  # fmt: skip
 """Families of operators that fill, take apart, compare and print: to them nothing is a value."""
 
+OF_MODELS = frozenset(("load", "matrix", "stress"))
+"""Families of operators that take fields on the model that stands beside them."""
+
 
 def shared(
     name: str,

@@ -449,6 +449,12 @@ MAY_BE_EMPTY = frozenset(
 _HOLDERS = ("blocks", "relations", "components", "zones", "parts", "categories", "tags")
 
 
+def is_of_noughts(value: Any) -> bool:
+    """Whether it is a curve that is zero all along."""
+    parts = getattr(value, "parts", ()) if type_of(value) == "EVOLUTIO" else ()
+    return bool(parts) and not any(p.words or p.ordinates.any() for p in parts)
+
+
 def is_empty(value: Any) -> bool:
     """Whether an object holds nothing: a mesh no cell, a field no component, a list no item."""
     if hasattr(value, "n_cells"):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ssilang.language.filled import Filled
 from ssilang.messages.message import Teller
 from ssilang.operators.prelude import *
+from ssilang.operators.tables.soundness import other_values
 
 if TYPE_CHECKING:
     from ssilang.language.text.source import Span
@@ -92,6 +93,9 @@ def united(call: Call, left: Any, right: Any, span: Span, words: Collection[str]
     found: Callable[..., Any] | None = joining(*types)
     if found is None:
         raise SsiError("no-rule", span, operator="ET", left=types[0], right=types[1])
+    if types == ("MCHAML", "MCHAML") and (names := other_values(left, right)):
+        told = {"operator": "ET", "names": sorted(names)}
+        call.session.warn("operators.fields.components-twice", span, **told)
     return found(words, left, right) if types in WORDED_UNIONS else found(left, right)
 
 

@@ -59,6 +59,7 @@ from ssilang.language.values import (
 from ssilang.language.vocabulary.terms import (
     ANY_NUMBER,
     CARRIED,
+    IN_ORDER,
     NOT_NEGATIVE,
     NOT_ZERO,
     POSITIVE,

@@ -104,7 +104,7 @@ def open_session(session: Session) -> Session:
     """Give a session its evaluator, its workspace and its operators."""
     from ssilang.language.run.evaluator import Evaluator
     from ssilang.operators.loader import prepare_operators
-    from ssilang.operators.tables.soundness import flaw_of
+    from ssilang.operators.tables.soundness import apart, flaw_of
 
     prepare_operators()
     Evaluator(session)
@@ -113,5 +113,5 @@ def open_session(session: Session) -> Session:
     session.make_point = made.point
     session.dimension = lambda: made.dimension
     session.units = lambda: made.units
-    session.flaw_of = flaw_of
+    session.flaw_of, session.apart = flaw_of, apart
     return session

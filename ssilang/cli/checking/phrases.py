@@ -163,7 +163,7 @@ class PhraseReader:
         bound = self._bound(found, call)
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
-            self._free(results, operand, call)
+            self._free(results, operand, call, frozenset(keywords_of(found)))
             return
         self._push(results, operand.span, call)
         foresee = _FORESEEN.get(found.name)
@@ -228,12 +228,15 @@ class PhraseReader:
         call.operands[:] = left
         return bound
 
-    def _free(self, results: Results | None, operand: Operand, call: AbstractCall) -> None:
-        """An operator that reads for itself: only when nothing follows is its result known."""
+    def _free(
+        self, results: Results | None, operand: Operand, call: AbstractCall, own: frozenset[str]
+    ) -> None:
+        """An operator that reads for itself, with words of its own: known if no other follows."""
         for other in call.operands:
             if other.value is UNKNOWN or isinstance(other.value, Texte | Procedure | AnyWord):
                 raise Ambiguous
-            if isinstance(other.value, Mot) and find_operator(str(other.value)) is not None:
+            ours = isinstance(other.value, Mot) and str(other.value).upper()[:4] in own
+            if isinstance(other.value, Mot) and not ours and find_operator(str(other.value)):
                 raise Ambiguous
         if not results:
             raise Ambiguous  # what it leaves unread is not known
@@ -335,8 +338,9 @@ class PhraseReader:
 
     def _finish(self, call: AbstractCall, scope: Scope, one_name: bool) -> list[Operand]:
         left = call.operands
-        if any(o.value is SOMETHING for o in left):
-            if one_name:
+        made = any(o.value is SOMETHING for o in left)
+        if made or any(o.value is UNKNOWN for o in left[1:]):
+            if one_name and (made or not left[0].result):
                 self.session.evaluator.refuse_leftovers(
                     [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
                 )

@@ -87,17 +87,9 @@ class Labels:
             for row in np.flatnonzero(seen)[:_MOST_LABELS]:
                 x, y = flat[row]
                 axes.text(
-                    x,
-                    y,
-                    texts[row],
-                    fontsize=size,
-                    color=colour,
-                    ha="center",
-                    va="center",
-                    path_effects=halo,
-                    zorder=5,
-                    clip_on=True,
-                )
+                    x, y, texts[row], fontsize=size, color=colour, ha="center", va="center",
+                    path_effects=halo, zorder=5, clip_on=True,
+                )  # fmt: skip
 
 
 def labels_of(
@@ -202,15 +194,10 @@ def colour_bar(
     bounds = levels.bounds
     every = max(1, -(-len(bounds) // (8 if wide else 12)))
     bar = axes.figure.colorbar(
-        ScalarMappable(levels.norm, levels.colours),
-        ax=axes,
-        orientation="horizontal" if wide else "vertical",
-        ticks=bounds[::every],
-        fraction=0.06,
-        pad=0.03 if not wide else 0.06,
-        aspect=30 if wide else 26,
-        shrink=0.9,
-    )
+        ScalarMappable(levels.norm, levels.colours), ax=axes,
+        orientation="horizontal" if wide else "vertical", ticks=bounds[::every], fraction=0.06,
+        pad=0.03 if not wide else 0.06, aspect=30 if wide else 26, shrink=0.9,
+    )  # fmt: skip
     bar.outline.set_linewidth(0.5)
     bar.ax.tick_params(labelsize=8, length=2.5)
     # each mark says its whole value: a common power of ten would stand inside the label below

@@ -164,10 +164,7 @@ def spline(
     if len(x) != len(y):
         raise FieldError("kernel.curves.spline-many-abscissas-values", n_x=len(x), n_y=len(y))
     order = slice(None, None, -1) if x[0] > x[-1] else slice(None)
-    ends: Any = (
-        (2, 0.0) if left is None else (1, left),
-        (2, 0.0) if right is None else (1, right),
-    )
+    ends: Any = ((2, 0.0) if left is None else (1, left), (2, 0.0) if right is None else (1, right))
     if np.any(np.diff(x[order]) <= 0):
         raise FieldError("kernel.curves.abscissas-spline-must-increase")
     found: FloatArray = CubicSpline(x[order], y[order], bc_type=ends)(at)

@@ -95,13 +95,9 @@ def repeated_matrix(
         m = len(names)
         if matrix.shape != (m, m) or len(forces) != m:
             raise FieldError(
-                "kernel.matrices.cell-names-rows-matrix",
-                cell_type=block.cell_type,
-                m=m,
-                n_matrix=matrix.shape[0],
-                n_matrix_2=matrix.shape[1],
-                n_forces=len(forces),
-            )
+                "kernel.matrices.cell-names-rows-matrix", cell_type=block.cell_type, m=m,
+                n_matrix=matrix.shape[0], n_matrix_2=matrix.shape[1], n_forces=len(forces),
+            )  # fmt: skip
         local = np.repeat(np.arange(k), [len(node) for node in at_nodes])
         values = np.broadcast_to(matrix, (len(block), m, m)).copy()
         blocks.append(
@@ -305,13 +301,6 @@ def _block(
         if symmetric:
             matrices[:, 1, 0] = values
     return ElementMatrices(
-        numbering.table,
-        nodes,
-        np.arange(len(codes)),
-        tuple(numbering.unknowns[c] for c in codes),
-        tuple(numbering.duals[c] for c in codes),
-        matrices,
-        kind,
-        None,
-        symmetric,
-    )
+        numbering.table, nodes, np.arange(len(codes)), tuple(numbering.unknowns[c] for c in codes),
+        tuple(numbering.duals[c] for c in codes), matrices, kind, None, symmetric,
+    )  # fmt: skip

@@ -107,14 +107,10 @@ def rows_from_table(
     names = np.array(unknowns, dtype=object)
     where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
     return Relations(
-        table,
-        np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
-        nodes[kept],
-        tuple(names[where]),
-        np.asarray(coefficients[kept], dtype=float),
-        _multiplier_nodes(table, nodes[:, 0]),
-        np.full(len(nodes), sense, dtype=np.int8),
-    )
+        table, np.concatenate([[0], np.cumsum(counts)]).astype(np.int64), nodes[kept],
+        tuple(names[where]), np.asarray(coefficients[kept], dtype=float),
+        _multiplier_nodes(table, nodes[:, 0]), np.full(len(nodes), sense, dtype=np.int8),
+    )  # fmt: skip
 
 
 def saying_nothing(relations: Relations) -> IntArray:
@@ -232,14 +228,10 @@ def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = N
         raise FieldError("kernel.matrices.field-relation-no-coefficient")
     own = _multiplier_nodes(field.table, nodes[:1]) if multiplier is None else multiplier
     return Relations(
-        field.table,
-        np.array([0, len(nodes)]),
-        nodes,
-        tuple(name for name, n, _ in parts for _ in n),
-        np.concatenate([v for _, _, v in parts]),
-        own,
-        np.array([sense], dtype=np.int8),
-    )
+        field.table, np.array([0, len(nodes)]), nodes,
+        tuple(name for name, n, _ in parts for _ in n), np.concatenate([v for _, _, v in parts]),
+        own, np.array([sense], dtype=np.int8),
+    )  # fmt: skip
 
 
 def primal_names(field: NodeField) -> NodeField:
@@ -340,11 +332,7 @@ def springs(
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
         values = d[:, :, None] * d[:, None, :]
     block = ElementMatrices(
-        table,
-        np.asarray(nodes)[:, None],
-        np.zeros(m, dtype=np.int64),
-        tuple(unknowns),
-        tuple(dual_of(u) for u in unknowns),
-        stiffness * values,
-    )
+        table, np.asarray(nodes)[:, None], np.zeros(m, dtype=np.int64), tuple(unknowns),
+        tuple(dual_of(u) for u in unknowns), stiffness * values,
+    )  # fmt: skip
     return Matrix(table, (block,))

@@ -64,6 +64,18 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
     return DoubledSupports(above, below) if len(above) else None
 
 
+def held_nowhere(matrix: Matrix) -> set[str]:
+    """Unknowns that conditions of one term hold, and no element, of a model, nor other one has."""
+    known = {u for b in matrix.blocks for u in b.unknowns}
+    alone: set[str] = set()
+    for r in matrix.relations:
+        several = np.repeat(np.diff(r.row_start) > 1, np.diff(r.row_start))
+        known |= set(np.array(r.unknowns)[several])
+        alone |= set(np.array(r.unknowns)[~several])
+    made = matrix.blocks and all(b.zone for b in matrix.blocks)
+    return alone - known if made else set()
+
+
 def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
     """The `nodes` at the place of one of `others`, and these (n,), pairwise."""
     if not len(nodes) or not len(others):

@@ -203,10 +203,7 @@ def split(field: NodeField, numbering: Numbering) -> tuple[NodeField, NodeField]
     names = {imaginary(d): d for d in (*numbering.duals, "FLX")}
     other = {names[n]: p for n, p in field.components.items() if n in names}
     real = {n: p for n, p in field.components.items() if n not in names}
-    return (
-        NodeField(field.table, real, field.nature),
-        NodeField(field.table, other, field.nature),
-    )
+    return (NodeField(field.table, real, field.nature), NodeField(field.table, other, field.nature))
 
 
 def default_frequencies(inputs: HarmonicInputs) -> FloatArray:

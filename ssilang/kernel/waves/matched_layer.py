@@ -153,8 +153,8 @@ def matched_layer(
     Raises
     ------
     MeshError, MaterialError
-        If a cell of the layer lies in the box, if nothing lies beyond it, for other elements,
-        other hypotheses and laws that are not linear and isotropic.
+        If a cell of the layer lies in the box, if nothing lies beyond it, if it does not touch the
+        box, for other elements, other hypotheses and laws that are not linear and isotropic.
     """
     for zone in model.zones:
         _refuse_others(zone)
@@ -169,6 +169,9 @@ def matched_layer(
     thick = np.concatenate([below, above])
     if not (thick > 0).any():
         raise MeshError("kernel.waves.nothing-beyond-box")
+    apart = float(np.linalg.norm(np.maximum(np.maximum(low - own, own - high), 0), axis=1).min())
+    if apart > size:
+        raise MeshError("kernel.waves.layer-apart", distance=apart)
     for zone in model.zones:
         _refuse_inside(zone, low, high, size)
     longest = max(float(longest_sides(z).max()) for z in model.zones)

@@ -217,7 +217,7 @@ class Binder:
         raise self._lacking(a)
 
     def _given(self, a: Argument, operand: Operand) -> Any:
-        if a.distinct or a.over or a.range.bounded or a.usual.bounded:
+        if a.distinct or a.over or a.unit or a.range.bounded or a.usual.bounded:
             self._given_ones.append((a, operand))
         return operand if a.whole else operand.value
 

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language.registry import ANY, Argument, When
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import Mot, Procedure, Texte, type_of
+from ssilang.language.values import Mot, Procedure, Texte, is_of_noughts, type_of
+from ssilang.language.vocabulary.unit_systems import usual_of
 
 if TYPE_CHECKING:
     from ssilang.language.run.session import Session
@@ -212,10 +213,14 @@ class Call:
             raise self.flaw(wrong[0], a, operand, wrong[1])
 
     def tell_odd(self, a: Argument, operand: Operand) -> None:
-        """Tell of a number outside of what is usual, of a curve over something else."""
-        if odd := a.usual.flaw(operand.value, a.name):
-            self.session.report(self.flaw("unusual", a, operand, odd[1]))
+        """Tell of a number that is unusual, of a curve over something else or of noughts."""
+        usual = usual_of(a.usual, "", a.unit, self.session.units())
+        if odd := usual.flaw(operand.value, a.name):
+            code = "out-of-order" if odd[0] == "not-increasing" else "unusual"
+            self.session.report(self.flaw(code, a, operand, odd[1]))
         over = getattr(operand.value, "over", "") if a.over else ""
+        if a.over and is_of_noughts(operand.value):
+            self.session.report(self.flaw("of-noughts", a, operand, {}))
         if over and over != a.over:
             self.session.report(self.flaw("over-other", a, operand, {"axis": over, "over": a.over}))
 
@@ -421,13 +426,14 @@ class Call:
 
     def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""
-        return SsiError(code, self._place(value), **{"operator": self.name, **data})
+        return SsiError(code, self.place_of(value), **{"operator": self.name, **data})
 
     def warn(self, code: str, value: object = None, /, **data: object) -> None:
         """A warning placed as an error is."""
-        self.session.warn(code, self._place(value), **{"operator": self.name, **data})
+        self.session.warn(code, self.place_of(value), **{"operator": self.name, **data})
 
-    def _place(self, value: object) -> Span:
+    def place_of(self, value: object) -> Span:
+        """Where the operand that holds `value` stands, else the operator."""
         return next((o.span for o in self.used if _is_operand(o.value, value)), self.span)
 
 

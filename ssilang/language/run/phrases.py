@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ssilang.language.registry import Operator, find_operator, keywords_of
+from ssilang.language.registry import OF_MODELS, Operator, find_operator, keywords_of
 from ssilang.language.run.binding import run_operator
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
@@ -223,6 +223,9 @@ class PhraseRunner(OperandReader):
             raise
         if not found.empties:
             self._tell_empty(call.used, found.full_name)
+        if found.family in OF_MODELS:
+            for value in self.session.apart([o.value for o in call.used]):
+                call.warn("operand-apart", value, operand=call.place_of(value).text[:40])
         span = operand.span
         if self._overflowed:
             self._overflowed = False

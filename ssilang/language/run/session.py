@@ -115,6 +115,8 @@ class Session:
     flaw_of : function
         Code of the refusal of a value that no calculation can use, '' if there is none; set by
         the operators' package.
+    apart : function
+        The fields among operands that have no node of the model beside them; set likewise.
     """
 
     script_directory: Path = field(default_factory=Path.cwd)
@@ -130,6 +132,7 @@ class Session:
     dimension: Callable[[], int] = lambda: 0
     units: Callable[[], UnitSystem | None] = lambda: None
     flaw_of: Callable[[Any], str] = lambda value: ""
+    apart: Callable[[Sequence[Any]], list[Any]] = lambda values: []
     warnings: list[Any] = field(default_factory=list)
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)
@@ -168,7 +171,12 @@ class Session:
         self.report(warning)
 
     def report(self, warning: Any) -> None:
-        """Keep a warning, or an error that does not stop the run, and show it."""
+        """Keep a warning, or an error that does not stop the run, and show it.
+
+        One of inside a procedure of the library stands where the script calls it.
+        """
+        if warning.span is not None:
+            warning.span = self.own_place(warning.span)
         self.warnings.append(warning)
         if self.on_warning is None:
             return
@@ -178,6 +186,15 @@ class Session:
             raise ReaderLeft from closed
         except OSError:  # nobody can be told; it is in the summary
             self.on_warning = None
+
+    def own_place(self, place: Span) -> Span:
+        """A place in what runs, as the script's own line: not one of the library."""
+        frame = self.frame
+        while frame.pending is not None and frame.procedure in self.library.standard_names:
+            place = frame.pending.span
+            assert frame.caller is not None
+            frame = frame.caller
+        return place
 
     def doubt(self, level: int = 1) -> None:
         """Raise the flag that SOUC reads: it only grows."""

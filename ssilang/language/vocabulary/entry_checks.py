@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import meant as near_word
-from ssilang.language.values import Annule, Mot, Procedure, Table, type_of
+from ssilang.language.values import Annule, Mot, Procedure, Table, is_of_noughts, type_of
 from ssilang.language.vocabulary.entries import (
     NUMBER,
     REFUSED,
@@ -19,8 +19,7 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.language.vocabulary.terms import UNSAID
-from ssilang.language.vocabulary.unit_systems import SOIL, usual_of_entry, wave_flaw
+from ssilang.language.vocabulary.unit_systems import SOIL, usual_of, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
@@ -37,6 +36,10 @@ _TRUTH_WORDS = {"VRAI": True, "FAUX": False}
 _OF_ENTRIES = {
     "out-of-range": "entry-out-of-range", "not-increasing": "entry-not-increasing",
     "not-finite": "entry-not-finite",
+}  # fmt: skip
+_ODD = {
+    "out-of-range": "entry-unusual", "not-increasing": "entry-out-of-order",
+    "of-noughts": "entry-of-noughts",
 }  # fmt: skip
 
 MADE_BY = {
@@ -243,14 +246,11 @@ class TableCheck:
         except SsiError as error:
             error.span = self.place
             raise
-        usual = entry.usual
-        if usual is UNSAID:
-            usual = usual_of_entry(entry.index, entry.unit, self.session.units())
+        usual = usual_of(entry.usual, entry.index, entry.unit, self.session.units())
         said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
-            self._warn("entry-unusual", **told, fr=entry.fr, **said[1])
-        curves = value.parts if self.aloud and type_of(value) == "EVOLUTIO" else ()
-        if curves and not any(p.words or p.ordinates.any() for p in curves):
+            self._warn(_ODD[said[0]], **told, fr=entry.fr, **said[1])
+        if self.aloud and is_of_noughts(value):
             self._warn("entry-of-noughts", **told, fr=entry.fr)
         if isinstance(value, Table) and self.declared.inside(entry.path):
             self.run(value, entry.path, where)

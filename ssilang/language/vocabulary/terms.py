@@ -17,7 +17,7 @@ class Unit:
     """A unit of the SI with the powers of mass, length, time and temperature in it.
 
     A quantity in a system of other base units has the same powers. Entries of tables are usually
-    within `usual`, in SI.
+    within `usual`, in SI, or nought.
     """
 
     symbol: str
@@ -43,7 +43,7 @@ UNITS: dict[str, Unit] = {
         Unit("m/s", length=1, time=-1, usual=(-1e4, 1e4)),
         Unit("m/s2", length=1, time=-2, usual=(-100.0, 100.0)),
         Unit("s", time=1, usual=(-1e5, 1e5)),
-        Unit("Hz", time=-1, usual=(0.0, 1e4)),
+        Unit("Hz", time=-1, usual=(1e-4, 1e4)),
         Unit("rad/s", time=-1),
         Unit("kg", mass=1),
         Unit("kg/m2", mass=1, length=-2),
@@ -71,7 +71,8 @@ class Range:
     """Finite numbers from `low` to `high`; an open end does not belong to it.
 
     Lists of `increasing` ones have at least one number, and each is above the one before. Of one
-    without `zero` that number makes no sense. What is `carried` may be infinite or no number.
+    without `zero` that number makes no sense. What is `carried` may be infinite or no number. With
+    `nought` zero belongs wherever the ends are; lists of `some` have a number that is not zero.
     """
 
     low: float = -math.inf
@@ -81,6 +82,8 @@ class Range:
     increasing: bool = False
     zero: bool = True
     carried: bool = False
+    nought: bool = False
+    some: bool = False
 
     @property
     def bounded(self) -> bool:
@@ -105,8 +108,11 @@ class Range:
             above = numbers > self.low if self.open_low else numbers >= self.low
             below = numbers < self.high if self.open_high else numbers <= self.high
         belong = np.isfinite(numbers) & above & below & (self.zero | (numbers != 0.0))
+        belong |= self.nought & (numbers == 0.0)
         if not belong.all():
             return self._outside(float(numbers[~belong][0]), name)
+        if self.some and numbers.size and not numbers.any():
+            return "of-noughts", {}
         if not self.increasing:
             return None
         falls = np.flatnonzero(np.diff(numbers) <= 0.0)
@@ -125,7 +131,9 @@ class Range:
         above = value > self.low if self.open_low else value >= self.low
         below = value < self.high if self.open_high else value <= self.high
         finite = isinstance(value, int) or math.isfinite(value)  # integers may be past all reals
-        return finite and above and below and (self.zero or value != 0)
+        return (finite and above and below and (self.zero or value != 0)) or (
+            self.nought and value == 0
+        )
 
     def text(self, name: str) -> str:
         """As an inequality: 'NU > -1', '-1 < NU <= 0.5', 'N != 0', '0 < |N| <= 10'."""
@@ -141,7 +149,7 @@ class Range:
 
 
 def read_range(text: str) -> Range:
-    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing', 'increasing >= 0', 'any'."""
+    """A range as files write it: '> 0', '0 <= x < 0.5', 'increasing >= 0', 'any', 'some'."""
     if text in _NAMED:
         return _NAMED[text]
     increasing = text.startswith("increasing")
@@ -169,8 +177,9 @@ CELLS_ALONG = Range(-1e7, 1e7, zero=False)
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
 RISING = Range(0.0, increasing=True)
+IN_ORDER = Range(increasing=True)
 BELOW_CRITICAL = Range(0.0, 1.0, open_high=True)
-_NAMED = {"": UNSAID, "any": ANY_NUMBER, "!= 0": NOT_ZERO}
+_NAMED = {"": UNSAID, "any": ANY_NUMBER, "!= 0": NOT_ZERO, "some": Range(some=True)}
 
 
 def between(low: float, high: float) -> Range:

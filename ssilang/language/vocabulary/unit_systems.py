@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ssilang.language import vocabulary
@@ -102,16 +102,26 @@ def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> d
     return {name: value * size / here for name, size in known.items() if value * size in usual}
 
 
-def usual_of_entry(index: str, unit: str, system: UnitSystem | None) -> Range:
-    """What an entry of a unit of the SI usually is in a system; of None, where that has no part."""
+def usual_of(said: Range, index: str, unit: str, system: UnitSystem | None) -> Range:
+    """What a number usually is: as it is declared, else by its unit of the SI in a system."""
+    if said is not UNSAID and not said.increasing:
+        return said
+    by_unit = _by_unit(index, unit, system)
+    return replace(by_unit, increasing=True) if said.increasing else by_unit
+
+
+def _by_unit(index: str, unit: str, system: UnitSystem | None) -> Range:
+    """Of a parameter or of any number of the unit; without a system where that has no part."""
     powers = UNITS.get(unit)
     if not unit or powers is None or (system is None and (powers.mass or powers.length)):
         return UNSAID
-    usual, size = Range(*powers.usual), 1.0 if system is None else system.factor(unit)
+    usual, size = Range(*powers.usual, nought=True), 1.0 if system is None else system.factor(unit)
     if not math.isfinite(usual.high):
         meant = [w for w in vocabulary.meanings("parameter", index) if isinstance(w, Quantity)]
         usual = next((w.usual for w in meant if w.unit == unit), UNSAID)
-    return Range(usual.low / size, usual.high / size)
+    if usual is UNSAID:
+        return UNSAID
+    return replace(usual, low=usual.low / size, high=usual.high / size)
 
 
 WAVES = Range(20.0, 4000.0)

@@ -38,8 +38,10 @@ _PARTS = (
     arg("first", "LISTREEL", en="first parts", range=CARRIED),
     arg("second", "LISTREEL", en="second parts", range=CARRIED),
 )
-TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER)
-_ITS_TIMES = arg("times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER)
+TIMES = opt("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER, usual=IN_ORDER)
+_ITS_TIMES = arg(
+    "times", "LISTREEL", en="times of the fields", unit="s", range=ANY_NUMBER, usual=IN_ORDER
+)
 STEPS = opt("steps", "LISTENTI", en="steps, all without it", range=NOT_NEGATIVE)
 COUNT = opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it")
 SHAPES = opt("shapes", "ENTIER", "LISTENTI", en="shapes, all without it", range=POSITIVE)
@@ -193,12 +195,9 @@ def _complex(call: Call, colours: list[int]) -> Curve:
         values.append(call.given(part).values)
     if len({len(x), len(values[0]), len(values[1])}) > 1:
         raise call.error(
-            "operators.curves.lists-differ",
-            x,
-            n_x=len(x),
-            n_values=len(values[0]),
+            "operators.curves.lists-differ", x, n_x=len(x), n_values=len(values[0]),
             n_values_2=len(values[1]),
-        )
+        )  # fmt: skip
     kinds = ("PREE", "PIMA") if form == "REIM" else ("MODU", "PHAS")
     default = ("Re", "Im") if form == "REIM" else ("Amp", "Phi")
     parts = tuple(
@@ -243,13 +242,9 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
         raise refused_place(call, [field], name, int(nodes[0]))
     if np.any(missing):
         call.session.warn(
-            "operators.curves.no-value-on-line",
-            call.span,
-            operator="EVOL",
-            name=name,
-            n_missing=missing.sum(),
-            n_nodes=len(nodes),
-        )
+            "operators.curves.no-value-on-line", call.span, operator="EVOL", name=name,
+            n_missing=missing.sum(), n_nodes=len(nodes),
+        )  # fmt: skip
     made = CurvePart(s, part.at(nodes), "ABS", name, "", colours[0])
     return Curve((made.measured("m"),), workspace(call.session).title)
 
@@ -387,7 +382,9 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
     said = call.peek_word()
     if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()
-    return (*results_in_time(table, index, unmade), index)
+    found, times = results_in_time(table, index, unmade)
+    call.tell_odd(_ITS_TIMES, Operand(ListReel.of(times), operand.span))
+    return found, times, index
 
 
 def _holds(table: Table, index: str) -> bool:

@@ -158,12 +158,9 @@ def refused_place(call: Call, fields: Sequence[AnyField], name: str, node: int) 
     distance = np.linalg.norm(table.coordinates[nodes] - table.coordinates[node], axis=1)
     i = int(np.argmin(distance))
     return call.error(
-        "operators.curves.no-value-at-node",
-        name=name,
-        node=table.told(node),
-        nearest=table.told(int(nodes[i])),
-        distance=float(distance[i]),
-    )
+        "operators.curves.no-value-at-node", name=name, node=table.told(node),
+        nearest=table.told(int(nodes[i])), distance=float(distance[i]),
+    )  # fmt: skip
 
 
 def tell_zero(call: Call, refused: SsiError, value: object = None) -> None:

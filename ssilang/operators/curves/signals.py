@@ -94,7 +94,7 @@ def _check_power(call: Call, power: int) -> None:
 @tfr.form(
     _POWER,
     arg("fields", "LISTCHPO", en="fields at constant step"),
-    arg("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER),
+    arg("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER, usual=IN_ORDER),
     _FORM,
     *LIMITS,
 )

@@ -65,7 +65,7 @@ def spo(
     ),
     frequencies: ListReel | None = Key(
         "FREQ",
-        arg("f", "LISTREEL", range=POSITIVE, unit="Hz"),
+        arg("f", "LISTREEL", range=POSITIVE, usual=IN_ORDER, unit="Hz"),
         en="frequencies; usual ones without it",
     ),
     times: ListReel | None = _TIMES,

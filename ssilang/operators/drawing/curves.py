@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
 from ssilang.language.registry import Select, words_in
@@ -118,9 +120,14 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     curve = Curve(tuple(parts), first.title, first.kind)
     refuse_rest(call, words_in(_OPTIONS))
     found = _settings(**said)
-    for name in ("x_limits", "y_limits"):
-        if name in found and found[name][0] == found[name][1]:
-            raise call.error("operators.drawing.equal-bounds", low=found[name][0])
+    for name, word, along in (("x_limits", "XBOR", "abscissas"), ("y_limits", "YBOR", "ordinates")):
+        low, high = sorted(found.get(name, (-np.inf, np.inf)))
+        if low == high:
+            raise call.error("operators.drawing.equal-bounds", low=low)
+        drawn = np.concatenate([getattr(p, along) for p in parts])
+        if drawn.size and (drawn.max() < low or drawn.min() > high):
+            told = {"low": float(drawn.min()), "high": float(drawn.max())}
+            call.warn("operators.drawing.nothing-within", word=word, **told)
     for axis in "XY":
         if {f"log_{axis.lower()}", f"{axis.lower()}_format"} <= {*found}:
             raise call.error(

@@ -24,7 +24,7 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
-from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
+from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_motion, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
@@ -74,10 +74,10 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
-    asked = nodes_asked(entries.get("MAILLAGE_SAUVE"))
+    asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
-    vtk, csv = vtk_observer(entries, times), csv_observer(entries, problem)
+    vtk, csv = vtk_observer(entries, problem), csv_observer(entries, problem)
     forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)
     record = calculation_record(entries, problem, inputs)
@@ -109,6 +109,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
+    warn_of_motion(entries, problem, results.track)
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,26 +29,36 @@ MANY_INSTANTS = 50
 """From more of them on, a series is one file if nothing else is said."""
 
 
-def nodes_asked(mesh: Any) -> IntArray | None:
+def nodes_asked(entries: Entries, index: str, problem: Problem) -> IntArray | None:
+    """Nodes of the mesh or point of an entry; told where none of them moves."""
+    mesh = entries.get(index)
     if mesh is None:
         return None
-    if isinstance(mesh, Mesh):
-        return mesh.sorted_node_ids
-    return np.array([mesh.node])
+    nodes = mesh.sorted_node_ids if isinstance(mesh, Mesh) else np.array([mesh.node])
+    tell_still(entries, index, nodes, problem)
+    return nodes
+
+
+def tell_still(entries: Entries, index: str, nodes: IntArray, problem: Problem) -> None:
+    """Warn of nodes (n,) of an entry none of which the matrices have."""
+    if not np.isin(nodes, problem.numbering.nodes).any():
+        entries.warn("operators.dynamics.asked-elsewhere", index=index)
 
 
 # ---- outputs ---------------------------------------------------------------------------------
 
 
-def vtk_observer(entries: Entries, times: FloatArray) -> VtkObserver | None:
+def vtk_observer(entries: Entries, problem: Problem) -> VtkObserver | None:
     if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
         return None
-    wanted = entries.saved_steps("_VTK", times)
+    wanted = entries.saved_steps("_VTK", problem.times)
     given = entries.get("MAILLAGE_VTK")
     if given is None:
         model: Model | None = entries.get("MODELE")
         given = entries.needed("MAILLAGE_VTK") if model is None else model.mesh
     meshes = {"": given} if isinstance(given, Mesh) else _parts(entries, given)
+    for mesh in meshes.values():
+        tell_still(entries, "MAILLAGE_VTK", mesh.sorted_node_ids, problem)
     name = entries.get("FICHIER_VTK") or entries.default("FICHIER_VTK")
     path = output_path(entries.call, str(name).rstrip())
     session = entries.call.session
@@ -112,8 +122,8 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
             entries.warn("operators.dynamics.csv-without-steps", names=idle)
         return None
     wanted = entries.saved_steps("_CSV", problem.times)
-    nodes = nodes_asked(entries.needed("MAILLAGE_CSV"))
-    assert nodes is not None
+    entries.needed("MAILLAGE_CSV")
+    nodes = nodes_asked(entries, "MAILLAGE_CSV", problem)
     components: ListMots | None = entries.get("COMPOSANTES_CSV")
     text = str(entries.get("FICHIER_CSV")).rstrip()
     named = text.lower().endswith((".csv", PARQUET))

@@ -16,6 +16,8 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.interface.interface import Interface
+    from ssilang.kernel.stepping.node_track import NodeTrack
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
@@ -26,6 +28,7 @@ MISSED = 0.2  # part of a curve's largest value by which steps may pass over its
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
+FAR = 100.0  # sizes of the model; what slides may go far
 
 
 def warn_of_start(
@@ -72,13 +75,17 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
 
 
+def conserved(joints: Interface) -> bool:
+    """Whether 'CONSERVATIF' keeps the energy of joints."""
+    return bool((joints.codes == LawCode.SDM).all())
+
+
 def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
     joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
-    if joints is not None and problem.scheme.conserving:
+    if joints is not None and problem.scheme.conserving and not conserved(joints):
         laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
         names = [n for n, law in LAWS.items() if law in laws and law.code is not LawCode.SDM]
-        if names:
-            yield "operators.dynamics.conserving-other-laws", {"laws": names}
+        yield "operators.dynamics.conserving-other-laws", {"laws": names}
 
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
@@ -132,6 +139,22 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
+
+
+def warn_of_motion(entries: Entries, problem: Problem, track: NodeTrack) -> None:
+    """Warn where the last instant kept has displacements of many times the model's size."""
+    from ssilang.kernel.stepping.problem.plausibility import AXES
+
+    numbering = problem.numbering
+    codes = [numbering.code(a) for a in AXES if a in numbering.unknowns]
+    along = np.isin(numbering.codes, codes)
+    if not len(track) or not along[track.unknowns].any():
+        return
+    u = track.instant(len(track) - 1).values("u")[0]
+    way = float(np.abs(u[along[track.unknowns]]).max())
+    size = float(np.ptp(numbering.table.coordinates[numbering.nodes[along]], axis=0).max())
+    if way > FAR * size > 0.0:
+        entries.warn("operators.dynamics.moves-far", way=way, size=size, times=way / size)
 
 
 def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:

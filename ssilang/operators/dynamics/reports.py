@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
+from ssilang.operators.dynamics.plausibility import conserved
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
@@ -123,14 +124,14 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float:
 def _causes(problem: Problem, added: bool) -> list[str]:
     """What may put the energies of a motion out of balance, by what it has; likeliest first."""
     contact, options = problem.contact is not None, problem.contact_options
+    joints, kept = problem.interface, problem.scheme.conserving
     found = {
-        "operators.dynamics.imbalance-joint": problem.interface is not None
-        and not problem.scheme.conserving,
-        "operators.dynamics.imbalance-stops": contact and not problem.scheme.conserving,
+        "operators.dynamics.imbalance-joint": joints is not None and conserved(joints) and not kept,
+        "operators.dynamics.imbalance-law": joints is not None and not conserved(joints),
+        "operators.dynamics.imbalance-stops": contact and not kept,
         "operators.dynamics.imbalance-velocities": contact
         and (options.correction != "FAUX" or options.persistent),
-        "operators.dynamics.imbalance-scheme": not problem.scheme.conserving
-        and not problem.scheme.average_acceleration,
+        "operators.dynamics.imbalance-scheme": not (kept or problem.scheme.average_acceleration),
         "operators.dynamics.imbalance-added": added,
     }
     return [cause for cause, holds in found.items() if holds] or [
@@ -165,8 +166,10 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     if found is None or found.resolved:
         return
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
-    code, conserving = "operators.dynamics.contact-not-resolved", problem.scheme.conserving
-    entries.warn(code, **told, conserving=conserving)
+    joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
+    keeps = joints is not None and conserved(joints)
+    kept = keeps and problem.scheme.conserving
+    entries.warn(code, **told, kept=kept, conserved=keeps)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:

@@ -126,7 +126,7 @@ def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
             i += 1
             continue
         behind: Any = operands[i + 2].value if i + 2 < len(operands) else None
-        if type(value) is not int or value < 0 or type(behind) not in plain:
+        if type(value) is not int or value <= 0 or type(behind) not in plain:
             break  # what is wrong is told where each is read by itself
         check_length(len(items) + value)
         items.extend([behind] * value)
@@ -138,7 +138,14 @@ def _repeated(call: Call, count: Any, kinds: tuple[str, ...]) -> list[Any]:
     if not 0 <= count < math.inf or count != int(count):
         raise call.error("operators.lists.repetition-count", count, count=count)
     check_length(count)
+    _tell_no_time(call, count)
     return [call.given(_ITEM[kinds[-1]])] * int(count)
+
+
+def _tell_no_time(call: Call, count: float) -> None:
+    """Warn of an item that is written no time; a count that was computed may be nought."""
+    if not count and call.used[-2].span.text.isdigit():
+        call.warn("operators.lists.repeated-no-time", count)
 
 
 def _steps(call: Call, start: Any, kinds: tuple[str, ...]) -> list[Any] | FloatArray:
@@ -346,6 +353,7 @@ def mots(call: Call) -> ListMots:
             if not _star(call):
                 raise call.error("operators.lists.number-among-words", count)
             check_length(len(words) + count)
+            _tell_no_time(call, count)
             words += [str(call.required("MOT"))] * count
             continue
         found = call.read("MOT")

@@ -37,7 +37,11 @@ def warn_connections(
     def tell(code: str, **data: object) -> None:
         session.warn(code, span, operator=operator, **data)
 
-    _warn_doubled_supports(tell, matrix, model)
+    if matrix.blocks and all(b.kind == "MASSE" for b in matrix.blocks):
+        tell("operators.matrices.mass-for-stiffness")
+
+    foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
+    _warn_doubled_supports(tell, matrix, model, {n for w in foreign for n in w.data["names"]})
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
@@ -57,9 +61,13 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
     return tuple(found.values())
 
 
-def _warn_doubled_supports(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.doubled import doubled_supports
+def _warn_doubled_supports(
+    tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
+) -> None:
+    from ssilang.kernel.statics.doubled import doubled_supports, held_nowhere
 
+    if model is None and (names := sorted(held_nowhere(matrix) - known)):
+        tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
     found = doubled_supports(matrix, used)
     if found is None:

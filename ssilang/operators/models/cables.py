@@ -8,6 +8,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
+from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -19,6 +20,9 @@ _ENTRIES = {
     "FPRG": "strength",
     "RH10": "relaxation",
 }
+
+PULLED = between(0.02, 1.0)
+"""Of its strength: what cables are pulled to."""
 
 
 @operator("PREC", family="model", full_name="PRECONTRAINTE")
@@ -70,6 +74,9 @@ def _zone(
     seen = zone_field(zone, material)
     section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
     stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
+    share = force / float(section.min()) / losses.strength
+    if losses.relaxation and force > 0.0 and share not in PULLED:
+        call.warn("operators.models.cable-strength", force, share=share, strength=losses.strength)
     found = np.zeros(len(cells))
     for cable in cables_of(zone.cells.nodes, cells):
         b = cable.bars

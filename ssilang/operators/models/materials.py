@@ -152,13 +152,10 @@ def refuse_outside(call: Call, zone: Zone, values: Values, said: dict[str, Any])
         wrong = [v for v in (float(array.min()), float(array.max())) if v not in found.range]
         if wrong:
             raise call.error(
-                "operators.models.parameter-range",
-                said[name],
-                name=name,
-                wrong=wrong[0],
+                "operators.models.parameter-range", said[name], name=name, wrong=wrong[0],
                 text=found.range.text(name),
                 described=words.described(found, call.session.language),
-            )
+            )  # fmt: skip
 
 
 def check_plastic(call: Call, zone: Zone, values: Values, said: dict[str, Any]) -> None:
@@ -219,13 +216,9 @@ def unknown_parameter(call: Call, written: str, model: Model, known: Known) -> E
     zone = next(z for z in model.zones if not near or near[0] in known(z))
     told = words.told_parameters(zone, near or known(zone), call.session.language)
     return call.error(
-        "operators.models.parameter-unknown",
-        written,
-        name=name,
-        near=near[0] if near else "",
-        names=names,
-        told="\n".join(told),
-    )
+        "operators.models.parameter-unknown", written, name=name, near=near[0] if near else "",
+        names=names, told="\n".join(told),
+    )  # fmt: skip
 
 
 def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:

@@ -21,6 +21,7 @@ _CODE = "operators.models.unusual-value"
 COMPRESSIBLE = 0.49
 """Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by
 27 % at 0.499; on CUB8 by 43 % and three times."""
+_PURE = ("", "deg", "rad")  # the same in any system
 _SIZES = Range(high=5000.0)  # m; what soil and structures measure across at most
 
 
@@ -54,12 +55,17 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
 def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:
     """Warn, once, of a body of some kilometres: millimetres of a drawing, most often."""
     here, code = system.factor("m"), "operators.models.unusual-size"
-    corners = zone.cells.coordinates
-    size = float(np.ptp(corners.reshape(-1, corners.shape[2]), axis=0).max())
+    size = _size(zone)
     if size * here in _SIZES or any(w.code == code for w in call.session.warnings):
         return
     told = {"size": size, "unit": system.written("m"), "system": system.name}
     call.warn(code, likely=list(likely_units(size, "m", _SIZES, system)), **told)
+
+
+def _size(zone: Zone) -> float:
+    """What a zone measures across, along an axis."""
+    corners = zone.cells.coordinates
+    return float(np.ptp(corners.reshape(-1, corners.shape[2]), axis=0).max())
 
 
 def _odd(
@@ -70,7 +76,7 @@ def _odd(
     name, (low, high) = meant.name, ends
     if name == "FROT" and low < 0.0 and low != -1.0:  # which says that nothing slides
         yield "operators.models.friction-negative", {"value": low}
-    elif meant.unit == "" and (low not in meant.usual or high not in meant.usual):
+    elif meant.unit in _PURE and (low not in meant.usual or high not in meant.usual):
         if name in ("FROT", "MU"):
             tangent = float(np.tan(np.radians(min(high, 89.0))))
             yield (
@@ -84,12 +90,14 @@ def _odd(
                 {"value": value, "range": meant.usual.text(name)},
             )
     for other, usual in meant.beside.items():
-        base = given.get(other, np.empty(0))
+        base = given.get(other.removesuffix("**2"), np.empty(0))
         if base.dtype == float and base.size and base.all():
-            ratio = float((given[name] / base.mean(axis=1, keepdims=True)).max())
-            if ratio not in usual:
+            base = base.mean(axis=1, keepdims=True) ** (1 + other.endswith("**2"))
+            if (ratio := float((given[name] / base).max())) not in usual:
                 told = {"other": other, "range": usual.text(f"{name}/{other}")}
                 yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
+    if name == "EPAI" and low > (size := _size(zone)) > 0.0:
+        yield "operators.models.thicker-than-large", {"value": low, "size": size}
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
     if name == "NU" and high > COMPRESSIBLE and mean is not None:
         yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}
@@ -106,19 +114,11 @@ def _warn(call: Call, meant: Quantity, value: float, said: Any, system: UnitSyst
     unit, low, high = meant.unit or "", meant.usual.low, meant.usual.high
     here, likely = system.factor(unit), likely_units(value, unit, meant.usual, system)
     warning = call.error(
-        _CODE,
-        said,
-        name=meant.name,
-        value=value,
-        unit=system.written(unit),
-        small=abs(value) * here < min(abs(low), abs(high)),
-        system=system.name,
-        low=low / here,
-        high=high / here,
-        meaning=meant.meaning(call.session.language),
-        likely=list(likely),
+        _CODE, said, name=meant.name, value=value, unit=system.written(unit),
+        small=abs(value) * here < min(abs(low), abs(high)), system=system.name, low=low / here,
+        high=high / here, meaning=meant.meaning(call.session.language), likely=list(likely),
         written=[f"{v:g}" for v in likely.values()],
-    )
+    )  # fmt: skip
     warning.warns = True
     before = [w for w in call.session.warnings if w.code == _CODE and w.span == warning.span]
     if not any(w.data["name"] == meant.name for w in before):

@@ -9,7 +9,6 @@ import numpy as np
 from ssilang.kernel.curves.algebra import check_increasing
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 from ssilang.operators.prelude import *
 
@@ -119,7 +118,7 @@ def char_in_steps(
 
 @char.form(
     _NAME,
-    arg("times", "LISTREEL", en="times", unit="s", range=Range(increasing=True)),
+    arg("times", "LISTREEL", en="times", unit="s", range=IN_ORDER),
     arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each"),
     _LINK,
     _MOVES,

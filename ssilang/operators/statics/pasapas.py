@@ -22,7 +22,6 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
-from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
@@ -243,7 +242,7 @@ def _other_times(
     saved = np.ones(len(times), bool)
     if chosen is not None and len(times) > 1:
         later = (chosen.values > times[0]) & (chosen.values <= times[-1])
-        saved = nearest(times, chosen.values[later])
+        saved = entries.nearest("TEMPS_SAUVES", times, chosen.values[later])
     saved[0] = False
     return times, saved
 
@@ -345,7 +344,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
     if chosen is None:
         return times, np.ones(len(times), bool)
     later = chosen.values[(chosen.values > first) & (chosen.values <= times[-1])]
-    saved = nearest(times, later)
+    saved = entries.nearest("TEMPS_SAUVES", times, later)
     saved[0] = True
     return times, saved
 

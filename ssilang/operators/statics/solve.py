@@ -103,16 +103,9 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     (stiff, most), (soft, least) = found.stiffest, found.softest
     digits = max(0, round(16 - math.log10(found.number)))
     call.session.warn(
-        "operators.statics.badly-conditioned",
-        call.span,
-        operator="RESO",
-        number=found.number,
-        digits=digits,
-        most=most,
-        stiff=stiff,
-        least=least,
-        soft=soft,
-    )
+        "operators.statics.badly-conditioned", call.span, operator="RESO", number=found.number,
+        digits=digits, most=most, stiff=stiff, least=least, soft=soft,
+    )  # fmt: skip
 
 
 def _or_warning(

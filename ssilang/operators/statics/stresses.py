@@ -11,6 +11,7 @@ from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.elements.solids.gradients import gradient_names, logarithmic_strain
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.language.vocabulary import meanings
 from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
 from ssilang.operators.prelude import *
 
@@ -40,7 +41,16 @@ def displacement_of(call: Call, fields: Fields) -> NodeField:
     nodal = nodal_of(fields)
     if not nodal:
         raise call.missing(("CHPOINT",))
+    tell_no_unknown(call, nodal[0])
     return nodal[0]
+
+
+def tell_no_unknown(call: Call, field: NodeField) -> None:
+    """Warn of a field for displacements that has other components alone."""
+    names = [n for n in field.components if n != "LX"]
+    meant = (w for n in names for w in meanings("component", n))
+    if names and not any(w.kind == "unknown" for w in meant):
+        call.warn("operators.statics.no-displacements", field, names=names)
 
 
 def joined_cells(call: Call, fields: Fields) -> CellField:
@@ -126,6 +136,7 @@ def epsi(
     if not nodal:
         grad, by_displacement = joined(cells), gradient == "DEPL"
         return on_zones(zones, "DEFORMATIONS", lambda z: _logarithmic(z, grad, by_displacement))
+    tell_no_unknown(call, nodal[0])
     material = joined(cells) if cells else None
     compute = green_strain if measure == "QUAD" else families.strain
     return on_zones(zones, "DEFORMATIONS", lambda z: compute(z, nodal[0], material))

@@ -106,13 +106,9 @@ class Entries:
         if len(wrong):
             i = int(wrong[0])
             raise self.error(
-                "operators.tables.instants-not-increasing",
-                index=index,
-                value=values[i + 1],
-                before=values[i],
-                place=i + 1,
-                next_place=i + 2,
-            )
+                "operators.tables.instants-not-increasing", index=index, value=values[i + 1],
+                before=values[i], place=i + 1, next_place=i + 2,
+            )  # fmt: skip
 
     @contextmanager
     def about(self, index: str) -> Iterator[None]:
@@ -172,7 +168,7 @@ class Entries:
         wanted = self.get("TEMPS_SAUVES" + suffix)
         if wanted is not None:
             with self.about("TEMPS_SAUVES" + suffix):
-                return nearest(times, wanted.values)
+                return self.nearest("TEMPS_SAUVES" + suffix, times, wanted.values)
         cadence = self.get("PAS_SAUVES" + suffix)
         if isinstance(cadence, int):
             with self.about("PAS_SAUVES" + suffix):
@@ -181,6 +177,15 @@ class Entries:
         saved[-1] = cadence is not None
         return saved
 
+    def nearest(self, index: str, times: FloatArray, wanted: FloatArray) -> NDArray[np.bool_]:
+        """Steps nearest to the instants of an entry; told where several have the same one."""
+        chosen = nearest(times, wanted)
+        count = int(chosen.sum())
+        if count < len(wanted):
+            told = {"index": index, "count": count, "wanted": len(wanted)}
+            self.warn("operators.tables.instants-of-one-step", **told)
+        return chosen
+
     def error(self, code: str, /, **data: object) -> SsiError:
         """An error of the procedure."""
         return self.call.error(code, None, **{"speaker": self.procedure, **data})
@@ -188,13 +193,7 @@ class Entries:
     @property
     def place(self) -> Span:
         """Where the script calls the procedure: its own line, not one of the library."""
-        session, place = self.call.session, self.call.span
-        frame = session.frame
-        while frame.pending is not None and frame.procedure in session.library.standard_names:
-            place = frame.pending.span
-            assert frame.caller is not None
-            frame = frame.caller
-        return place
+        return self.call.session.own_place(self.call.span)
 
     def warn(self, code: str, /, **data: object) -> None:
         """A warning of the procedure."""

@@ -1,7 +1,9 @@
-"""Values that no calculation can use: numbers that are not finite, curves without content."""
+"""Values that no calculation can use: numbers that are not finite, curves without content, fields
+that lie elsewhere than the model they are given with."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,6 +11,7 @@ import numpy as np
 from ssilang.kernel.curves.curve import Curve, Load
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.values import ListReel
 
@@ -20,6 +23,34 @@ def flaw_of(value: object) -> str:
     if not all(np.isfinite(v).all() for v in _numbers_in(value)):
         return "entry-not-finite"
     return ""
+
+
+def apart(values: Sequence[object]) -> list[Any]:
+    """The fields that have no node of the model beside them."""
+    model = next((v for v in values if isinstance(v, Model) and v.zones), None)
+    if model is None:
+        return []
+    nodes = model.mesh.sorted_node_ids
+    fields = [v for v in values if isinstance(v, NodeField | CellField) and _nodes_of(v)]
+    return [f for f in fields if not any(np.isin(n, nodes).any() for n in _nodes_of(f))]
+
+
+def other_values(first: CellField, second: CellField) -> list[str]:
+    """Components of which two fields have other values in the same cells."""
+    pairs = ((a, b) for a in first.blocks for b in second.blocks if a.cells is b.cells)
+    return [
+        name
+        for a, b in pairs
+        for name in a.components.keys() & b.components.keys()
+        if (a.element, a.constituent) == (b.element, b.constituent)
+        and not np.array_equal(a.components[name], b.components[name])
+    ]
+
+
+def _nodes_of(field: NodeField | CellField) -> list[Any]:
+    if isinstance(field, CellField):
+        return [b.cells.connectivity for b in field.blocks]
+    return [part.nodes for part in field.after_merges().components.values()]
 
 
 def _numbers_in(value: object) -> list[Any]:

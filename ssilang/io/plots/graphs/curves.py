@@ -176,16 +176,11 @@ def _line(part: CurvePart, number: int, colour: str, width: float, options: Curv
     cut = slice(None if first is None else first - 1, last)
     codes = options.dash_codes.get(number)
     return Line(
-        number,
-        np.asarray(part.abscissas, dtype=float)[cut],
-        np.asarray(part.ordinates, dtype=float)[cut],
-        colour,
-        options.names.get(number, part.legend).strip(),
-        options.styles.get(number, LineStyle()),
-        width,
-        None if codes is None else codes[cut.start :],
-        part.kind,
-    )
+        number, np.asarray(part.abscissas, dtype=float)[cut],
+        np.asarray(part.ordinates, dtype=float)[cut], colour,
+        options.names.get(number, part.legend).strip(), options.styles.get(number, LineStyle()),
+        width, None if codes is None else codes[cut.start :], part.kind,
+    )  # fmt: skip
 
 
 def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOptions) -> None:
@@ -274,13 +269,9 @@ def _label_points(panel: Axes, line: Line) -> None:
     rows = np.linspace(0, len(line.x) - 1, 6).astype(int) if few else range(len(line.x))
     for i in rows:
         panel.annotate(
-            to_mathtext(line.style.label),
-            (line.x[i], line.y[i]),
-            textcoords="offset points",
-            xytext=(3, 3),
-            fontsize=8,
-            color=line.colour,
-        )
+            to_mathtext(line.style.label), (line.x[i], line.y[i]), textcoords="offset points",
+            xytext=(3, 3), fontsize=8, color=line.colour,
+        )  # fmt: skip
 
 
 def _frame(panel: Axes, options: CurveOptions) -> None:
@@ -399,13 +390,8 @@ def _handle(line: Line) -> Any:
 
     style: Any = line.style
     return Line2D(
-        [],
-        [],
-        color=line.colour,
-        linewidth=line.width,
-        linestyle=style.dash if style.line else "none",
-        marker=style.marker,
-        markersize=style.marker_size,
-        markerfacecolor=line.colour if style.solid else "white",
+        [], [], color=line.colour, linewidth=line.width,
+        linestyle=style.dash if style.line else "none", marker=style.marker,
+        markersize=style.marker_size, markerfacecolor=line.colour if style.solid else "white",
         markeredgewidth=1.2,
-    )
+    )  # fmt: skip

@@ -83,13 +83,7 @@ def cone_rows(law: PlasticLaw, parameters: PointParameters) -> ConeRows | None:
     y = [np.asarray(c.parts[0].ordinates, float) for c in curves]
     start = np.concatenate([[0], np.cumsum([len(v) for v in x])]).astype(np.int64)
     none = [np.zeros(0)]
-    return ConeRows(
-        rows,
-        of,
-        start,
-        np.concatenate(x or none),
-        np.concatenate(y or none),
-    )
+    return ConeRows(rows, of, start, np.concatenate(x or none), np.concatenate(y or none))
 
 
 def _different(table: FloatArray) -> tuple[FloatArray, IntArray]:

@@ -29,9 +29,7 @@ def facets(mesh: Mesh, dimension: int) -> IntArray:
             parts.append(np.concatenate([c[:, [0, 1, 2]], c[:, [0, 2, 3]]]))
         else:
             raise MeshError(
-                "kernel.mesh.distances-taken-not",
-                plane=dimension == 2,
-                cell_type=block.cell_type,
+                "kernel.mesh.distances-taken-not", plane=dimension == 2, cell_type=block.cell_type
             )
     if not parts:
         raise MeshError("kernel.mesh.mesh-distances-taken-empty")

@@ -22,6 +22,7 @@ from ssilang.kernel.stepping.problem.problem import Problem
 AXES = ("UX", "UY", "UZ")
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS = 400  # free motions up to which a dense solve costs nothing beside the steps
+SUNK = 0.1  # of a body's size, that its joints give way
 PRESSED = 0.02  # mean force of a weight beside the largest one
 FREE = 1e-13  # stiffness beside the largest one that holds nothing
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
@@ -106,7 +107,7 @@ class Bodies:
                 if held > 0.0 and size > 0.0 and not self._holds(motion):
                     push = self.factors @ (problem.loading.forces.T @ motion)
                     way = float(np.abs(push).max(initial=0.0)) / held
-                    if way > size:
+                    if way > SUNK * size:
                         yield Sunk(int(nodes[0]), axis, way, size)
 
     def _along(self, body: int, axis: str) -> FloatArray:
@@ -248,9 +249,9 @@ def against_supports(problem: Problem) -> dict[str, IntArray]:
 
 
 def masses_alone(problem: Problem) -> IntArray:
-    """Nodes (n,) with mass that nothing else holds, joins, pushes or sets in motion."""
+    """Nodes (n,) with mass or dashpots, not both, that nothing holds, joins, pushes or moves."""
     joints, contact, loading = problem.interface, problem.contact, problem.loading
-    others = [problem.K, problem.C, problem.constraints.C]
+    others = [problem.K, problem.constraints.C]
     others += [] if joints is None else [joints.J]
     others += [] if contact is None else [contact.G]
     used = np.zeros(problem.numbering.size, bool)
@@ -258,8 +259,8 @@ def masses_alone(problem: Problem) -> IntArray:
         used[matrix.indices[matrix.data != 0.0]] = True
     used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     nodes = problem.numbering.nodes
-    heavy = np.unique(nodes[problem.M.diagonal() != 0.0])
-    return np.setdiff1d(heavy, nodes[used])
+    heavy, damped = (nodes[matrix.diagonal() != 0.0] for matrix in (problem.M, problem.C))
+    return np.setdiff1d(np.setxor1d(heavy, damped), nodes[used])
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.
