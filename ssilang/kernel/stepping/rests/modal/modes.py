@@ -140,7 +140,9 @@ class SmallLoop:
         joints = self._joints if self.normal is None else self.normal
         self._stepped = joints
         rows = np.ascontiguousarray(np.vstack([J, modes.B]).T)
-        self._model = Reduced(modes.m, modes.c, modes.k, rows, modes.sense, modes.forces)
+        self._model = Reduced(
+            modes.m, modes.c, modes.k, rows, modes.sense, modes.forces, np.zeros((len(J), 0))
+        )
         self._step = reduced_step(self._model, self._newmark, len(J))
         self.springs: ActiveSet | None = None
         if plain and self.normal is not None and only_pushes(joints, motion.state):

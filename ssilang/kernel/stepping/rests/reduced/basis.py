@@ -2,9 +2,9 @@
 
 The vectors are those of a block rational Krylov space: initial displacement, velocity and
 acceleration; static answers to the loads and to the interface's forces; answers of the step's own
-matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces. In the space, M, K
-and a Rayleigh damping become diagonal together (Galerkin), so a step costs a few products with the
-interface's rows, and with those of dashpots.
+matrix; then powers of `(K + sigma M)^-1 M` applied to the same loads and forces, or of the damped
+operator (see `reduced_damping`). In the space, M, K and a Rayleigh damping become diagonal together
+(Galerkin), so a step costs a few products with the interface's rows, and with those of dashpots.
 
 References: A. Ruhe (1984), rational Krylov; R. W. Freund (2004), structure-preserving projection;
 block orthogonalisation by two passes of Gram-Schmidt.
@@ -13,6 +13,7 @@ block orthogonalisation by two passes of Gram-Schmidt.
 from __future__ import annotations
 
 import math
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,13 +27,63 @@ from ssilang.kernel.stepping.problem.initial import (
     initial_acceleration,
     joint_state,
 )
+from ssilang.kernel.stepping.problem.moving_supports import MOST, Columns, MovingSupports
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.reduced.damping import split
-from ssilang.messages.message import Refusal
+from ssilang.kernel.stepping.rests.reduced.damping import States, split
+from ssilang.kernel.stepping.state import Motion
+from ssilang.messages.message import Refusal, Sentence
+
+# Moving supports of a reduced problem: their loads, and the motion that they add.
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedSupports:
+    """Supports whose motions `X c(t)` come on top of what the vectors describe.
+
+    Attributes
+    ----------
+    columns : Columns
+        On the motions y that the supports leave.
+    start : array (3, m)
+        c, c', c'' at the start.
+    """
+
+    moving: MovingSupports
+    columns: Columns
+    start: FloatArray
+
+    @property
+    def count(self) -> int:
+        """Number m of motions."""
+        return int(self.columns.X.shape[1])
+
+    def during(self, problem: Problem, dt: float) -> MovingSupports:
+        """The same supports in another motion (its scheme, its loads), for steps dt."""
+        moving = copy(self.moving)
+        moving.problem, moving.dt = problem, dt
+        return moving
+
+
+def reduced_supports(
+    problem: Problem, T: sp.csr_array, u: FloatArray, v: FloatArray, a: FloatArray
+) -> ReducedSupports | Sentence:
+    """The supports of a problem whose motion starts with u, v, a (n,); or why they are too much."""
+    dt = float(problem.times[1] - problem.times[0])
+    moving = MovingSupports(problem, dt, T)
+    if len(moving.chosen) > MOST:
+        return Sentence("kernel.stepping.supports-move-by-too-many", most=MOST)
+    none, table = np.zeros(0), np.zeros((0, 1))
+    motion = Motion(u, v, a, none, none, table, table, table, none, none, none)
+    columns, course = moving.begin(motion, problem.loading.at(problem.times[:2]))
+    if columns.X.shape[1] > len(moving.chosen):
+        return Sentence("kernel.stepping.initial-motion-of-supports")
+    start = np.array([course.c[0], course.v[0], course.a[0]])
+    return ReducedSupports(moving, columns, start)
+
 
 DEPENDENT = 1e-12
 """Squared length, of one, below which what is left of a vector is rounding: it is dropped."""
-SHIFT = 4.0  # times about the lowest frequency: the shift sqrt(sigma) of the Krylov space, 1/s
+SHIFT = 4.0  # times the lowest frequency: the shift sqrt(sigma) of the Krylov space, 1/s
 HIGHEST_SHIFT = 0.25  # of 2/dt
 
 
@@ -52,11 +103,15 @@ class ReducedModel:
         Diagonals of mass, damping and stiffness.
     J : array (n_interface, r)
         Jumps of the interface.
-    forces : array (r, n_loads)
+    forces : array (r, n_loads + 3 m)
+        Last, those of m moving supports.
     start : array (r, 3)
         Displacement, velocity and acceleration at the start.
     B, sense : arrays (d, r), (d,)
         Dashpots: what of the damping is not in c is `B^T sense B`.
+    supports : ReducedSupports
+    trained : bool
+        Whether whole runs gave the basis: the interface may have more unknowns than it has vectors.
     """
 
     T: sp.csr_array
@@ -70,6 +125,8 @@ class ReducedModel:
     start: FloatArray
     B: FloatArray
     sense: FloatArray
+    supports: ReducedSupports
+    trained: bool
 
     @property
     def size(self) -> int:
@@ -145,10 +202,12 @@ def on_motions(T: sp.csr_array, fields: FloatArray) -> FloatArray:
 
 def closed_stiffness(problem: Problem) -> sp.csr_array:
     """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
-    T, joints, K = problem.constraints.T, problem.interface, problem.K
-    if joints is not None:
-        K = K + joints.J.T @ sp.csr_array(joints.closed_stiffness()) @ joints.J
-    return sp.csr_array(T.T @ K @ T)
+    T, joints = problem.constraints.T, problem.interface
+    K = sp.csr_array(T.T @ problem.K @ T)
+    if joints is None:
+        return K
+    J, R = sp.csr_array(joints.J @ T), sp.csr_array(joints.closed_stiffness())
+    return sp.csr_array(K + J.T @ R @ J)
 
 
 class Basis:
@@ -156,6 +215,9 @@ class Basis:
 
     Vectors are orthonormal in `N = M + K / s**2`, which is regular also where M alone is not.
     """
+
+    trained = False
+    _states: States | None = None
 
     def __init__(self, problem: Problem, dt: float, largest: int) -> None:
         self._project(problem, largest)
@@ -165,16 +227,13 @@ class Basis:
         self.meet(problem)
         self.inputs = np.column_stack([self.J.T.toarray(), self.F])
         static = invert(closed_stiffness(problem), True, problem.solver)
-        answers = self.inputs[:, :0] if static.singular else static.solve(self.inputs)
-        work = np.maximum(np.sum(answers * self.inputs, 0), 1e-300)
-        soft = np.sum(answers * (self.M @ answers), 0) / work
-        lowest = 1.0 / math.sqrt(soft.max(initial=0.0) or 1e-300)  # Rayleigh's quotient
-        self._shift(min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * lowest))
+        self._make_room(largest, min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static)))
         self._inverse = self._inverted(self.shift**2)
-        self._first_vectors(answers, 2.0 / dt)
+        self._last = np.zeros((self.T.shape[1], 0))
+        self._first_vectors(static, 2.0 / dt)
 
     def _project(self, problem: Problem, largest: int) -> None:
-        """Matrices on the motions, and room for vectors."""
+        """Matrices on the motions."""
         T, joints = problem.constraints.T, problem.interface
         self.problem, self.T = problem, T
         self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
@@ -183,20 +242,27 @@ class Basis:
             raise NoReduction("kernel.stepping.damping-not-symmetric")
         self.damping = damping
         self.J = sp.csr_array((0, T.shape[1]) if joints is None else joints.J @ T)
-        self._store = np.zeros((largest, T.shape[1]))  # one vector a row
-        self._KV, self._CV = np.zeros((2, largest, largest))
-        self.size = self._fixed = 0
-
-    def _shift(self, s: float) -> None:
-        """Measure vectors by the shift s, 1/s."""
-        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
 
     def meet(self, problem: Problem) -> None:
         """Take the loads and the start of a motion."""
+        T = self.T
         v = admissible_velocity(problem)
         a = initial_acceleration(problem, v, joint_state(problem))
-        self.F = self.T.T @ problem.loading.forces
-        self._start = on_motions(self.T, np.column_stack([problem.u, v, a]))
+        supports = reduced_supports(problem, T, problem.u, v, a)
+        if isinstance(supports, Sentence):
+            raise NoReduction(supports.code, **supports.data)
+        self.supports = supports
+        forces = T.T @ problem.loading.forces
+        self.F = np.hstack([forces, supports.columns.forces.T])
+        start = np.column_stack([problem.u, v, a]) - supports.columns.X @ supports.start.T
+        self._start = on_motions(T, start)
+
+    def _make_room(self, largest: int, s: float) -> None:
+        """Room for vectors that the shift s (1/s) measures."""
+        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
+        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
+        self._KV = np.zeros((largest, largest))
+        self.size = self._fixed = 0
 
     @property
     def vectors(self) -> FloatArray:
@@ -213,16 +279,52 @@ class Basis:
             raise NoReduction("kernel.stepping.massless-body-on-joints")
         return inverse
 
-    def _first_vectors(self, answers: FloatArray, rate: float) -> None:
+    def _lowest(self, static: Inverse) -> float:
+        """About the lowest frequency with closed joints, rad/s; infinite if a body is free."""
+        if static.singular or self.inputs.shape[1] == 0:
+            return math.inf
+        x = self.inputs @ np.random.default_rng(0).standard_normal(self.inputs.shape[1])
+        size = 0.0
+        for _ in range(6):
+            x = static.solve(self.M @ x if size else x)
+            size = float(np.sqrt(x @ (self.M @ x)))
+            if not size > 0.0:
+                return math.inf
+            x = x / size
+        return 1.0 / math.sqrt(size)
+
+    def _first_vectors(self, static: Inverse, rate: float) -> None:
         """Initial fields; static answers (joints closed), answers of the step's matrix."""
         self._add(self._start[:, self._start.any(axis=0)])
-        self._add(answers)
+        if not static.singular:
+            self._add(static.solve(self.inputs))
         self._add(self._inverted(rate**2, rate).solve(self.inputs))
         self._fixed = self.size
+        if self.damping.rest.nnz:
+            self._states = States(self.shift)
+            self._inverse = self._inverted(self.shift**2, self.shift)
+            self._enter(self._states, self._inverse.solve(self.inputs), None)
+            return
         self._last = self._add(self._inverse.solve(self.inputs))
+
+    def _enter(self, states: States, u: FloatArray, old: FloatArray | None) -> None:
+        """States with displacements u (n_y, b) made from those of coefficients `old`."""
+        self._add(u)
+        states.add(self.vectors @ (self.N @ u), old)
+
+    def _grow_damped(self, states: States) -> None:
+        s, V, (u, w) = self.shift, self.vectors, states.last
+        if u.shape[1] == 0:
+            return
+        U, W = (V[: len(u)].T @ x for x in (u, w))
+        r = self.damping.C @ U + s * (self.M @ (U + W))
+        self._enter(states, self._inverse.solve(r), u)
 
     def grow(self) -> None:
         """One more power of the Krylov space."""
+        if self._states is not None:
+            self._grow_damped(self._states)
+            return
         if self._last.shape[1] == 0:
             return
         self._last = self._add(self._inverse.solve(self.M @ self._last))
@@ -231,11 +333,12 @@ class Basis:
         """Orthonormalise W (n_y, b) against the basis and itself, append; the new vectors.
 
         A first pass takes off what exact arithmetic leaves: the parts along the first vectors and
-        the last two blocks (the Krylov operator is symmetric in N); a
+        the last two blocks (the Krylov operator is symmetric in N, but for the damped one); a
         second one takes off the rounding along all.
         """
         W = W / np.sqrt(np.maximum(np.einsum("ij,ij->j", W, self.N @ W), 1e-300))
         V, late = self.vectors, max(self.size - 2 * W.shape[1], self._fixed)
+        late = self._fixed if self._states is not None else late
         NW = self.N @ W
         for part in (V[: self._fixed], V[late:]):
             W = W - part.T @ (part @ NW)
@@ -246,9 +349,9 @@ class Basis:
         if r + b > len(self._store):
             raise NoReduction("kernel.stepping.vectors-not-enough", n_vectors=len(self._store))
         self._store[r : r + b] = W.T
-        for A, kept in ((self.K, self._KV), (self.damping.rest, self._CV)):
-            part = self._store[: r + b] @ (A @ W)
-            kept[: r + b, r : r + b], kept[r : r + b, : r + b] = part, part.T
+        part = self._store[: r + b] @ (self.K @ W)
+        self._KV[: r + b, r : r + b] = part
+        self._KV[r : r + b, : r + b] = part.T
         self.size = r + b
         return W
 
@@ -263,10 +366,10 @@ class Basis:
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
         J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
         d = self.damping
-        B, sense = d.on(V, self._CV[:r, :r])
+        B, sense = d.on(V)
         return ReducedModel(
             self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
-            X.T @ F, X.T @ start, B @ X, sense,
+            X.T @ F, X.T @ start, B @ X, sense, self.supports, self.trained,
         )  # fmt: skip
 
 

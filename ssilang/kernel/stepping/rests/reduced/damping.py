@@ -1,12 +1,22 @@
 """A damping matrix on reduced vectors: a diagonal, and rows of what is left of it.
 
 Where `C = alpha M + beta K + C'`, C' are dashpots, or bodies whose damping differs from that of
-most.
+most. C' is no small perturbation (the edge of a soil absorbs waves by it): the Krylov space that
+goes with it is that of the damped operator. With states of displacement u and w = u', powers of
+
+    u+ = (K + s C + s^2 M)^-1 ((s M + C) u + M w) ,   w+ = s u+ - u
+
+match the response and its derivatives at the shift s. Both halves of all states lie in the space
+of the displacements alone, so states are kept as coefficients on its vectors, where
+orthonormalising them costs little.
+
+References: Z. Bai, Y. Su (2005), SOAR, second-order Krylov spaces; D. Lu, Y. Su, Z. Bai (2016),
+stability of the two-level orthogonal Arnoldi process.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +25,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.constraints import split_damping
 
 ROUNDING = 1e-15  # of the largest eigenvalue of C': a direction without dashpot
+DEPENDENT = 1e-20  # squared length, of one, below which what is left of a state is rounding
 ASYMMETRIC = 1e-10  # of the largest term
 
 
@@ -38,15 +49,12 @@ class SplitDamping:
     touched: IntArray
     few: tuple[FloatArray, FloatArray] | None
 
-    def on(self, V: FloatArray, known: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
-        """Rows B (d, r) and senses (d,) of the rest on the vectors V (r, n_y), one a row.
-
-        `known` (r, r) is the rest on them, where it has been made.
-        """
+    def on(self, V: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Rows B (d, r) and senses (d,) of the rest on the vectors V (r, n_y), one a row."""
         if self.few is not None:
             rows, sense = self.few
             return rows @ V[:, self.touched].T, sense
-        return square_roots(V @ (self.rest @ V.T) if known is None else known)
+        return square_roots(V @ (self.rest @ V.T))
 
 
 def split(C: sp.csr_array, M: sp.csr_array, K: sp.csr_array, most: int) -> SplitDamping | None:
@@ -71,3 +79,50 @@ def square_roots(A: FloatArray) -> tuple[FloatArray, FloatArray]:
     kept = np.abs(values) > ROUNDING * np.abs(values).max(initial=0.0)
     found: FloatArray = np.sqrt(np.abs(values[kept]))[:, None] * vectors[:, kept].T
     return np.ascontiguousarray(found), np.sign(values[kept])
+
+
+@dataclass(eq=False)
+class States:
+    """Orthonormal states of the damped Krylov space, as coefficients on the basis.
+
+    Attributes
+    ----------
+    s : float
+        The shift; the second half holds `w / s`.
+    blocks : list of arrays (2, r, b)
+        r vectors were there when a block was made.
+    """
+
+    s: float
+    blocks: list[FloatArray] = field(default_factory=list)
+
+    @property
+    def last(self) -> FloatArray:
+        """The newest block."""
+        return self.blocks[-1]
+
+    def add(self, u: FloatArray, old: FloatArray | None) -> None:
+        """Append states with displacements u (r, b), made from displacements `old` (r', b).
+
+        None: the first states, whose displacements are `s` times nothing before them.
+        """
+        w = u.copy()
+        if old is not None:
+            w[: len(old)] -= old / self.s
+        x = np.stack([u, w])
+        x /= np.sqrt(np.maximum(np.einsum("hrb,hrb->b", x, x), 1e-300))
+        for _ in range(2):
+            for block in self.blocks:
+                r = block.shape[1]
+                part = np.einsum("hrb,hrc->bc", block, x[:, :r])
+                x[:, :r] -= block @ part
+            x = _whitened(x)
+        self.blocks.append(x)
+
+
+def _whitened(x: FloatArray) -> FloatArray:
+    gram = np.einsum("hrb,hrc->bc", x, x)
+    values, vectors = np.linalg.eigh(0.5 * (gram + gram.T))
+    kept = values > DEPENDENT
+    found: FloatArray = (x @ vectors[:, kept]) / np.sqrt(values[kept])
+    return found

@@ -7,7 +7,8 @@ w the dashpots' velocities that the state of before brings and g = (1 - alpha_f)
 
     phi = E (w + g (y_B - S_BJ h)) ,   E = sense (1 + g S_BB sense)^-1
 
-they are eliminated from the interface's compliance once for a step length.
+they are eliminated from the interface's compliance once for a step length. Supports may move: their
+loads stand among the others, `lift` holds the jumps that they make.
 """
 
 from __future__ import annotations
@@ -56,6 +57,7 @@ class Reduced(NamedTuple):
     Rt: FloatArray  # (r, q + d), columns of J and of B
     sense: FloatArray  # (d,)
     forces: FloatArray  # (n_loads, r)
+    lift: FloatArray  # (q, n_loads), or no columns
 
 
 class ReducedStep(NamedTuple):
@@ -198,13 +200,13 @@ def _begin(
 @apart
 @compiled_fast
 def _end_and_begin(
-    model: Reduced, step: ReducedStep, x: Motion, dashpots: Dashpots, factors: FloatArray,
-    ends: bool,
+    model: Reduced, step: ReducedStep, x: Motion, dashpots: Dashpots, work: FloatArray,
+    factors: FloatArray, ends: bool,
 ) -> float:  # fmt: skip
     """End of a step under the joints' forces and prediction of the next, in one pass over Rt.
 
     `factors` are those of the loads at the end of the next step; none: there is none. Nothing
-    `ends` before the first.
+    `ends` before the first. `work` gathers that of each load on the increment.
     """
     n, size, coming, y, sweep = len(x.u), 0.0, len(factors) > 0, dashpots.y, dashpots.sweep
     for j in range(len(y)):
@@ -214,6 +216,9 @@ def _end_and_begin(
         _correct(model, step, x.f, dashpots.phi, sweep, first, last)
         if ends:
             size += advance_range(step.newmark, step.diagonal, x, sweep, first, last)
+            for c in range(len(work)):
+                for i in range(first, last):
+                    work[c] += model.forces[c, i] * sweep.du[i]
         if coming:
             _begin(model, step, x, sweep, y, factors[0], first, last)
     if ends:
@@ -226,15 +231,18 @@ def run_reduced(
     model: Reduced, step: ReducedStep, joints: Joints, x: Motion, dashpots: Dashpots,
     room: Workspace, factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
-    """As `run_dense`; `x` and the rows hold coordinates."""
+    """As `run_dense`, `x` and the rows hold coordinates; work of loads as in `run_interleaved`."""
     q, steps, worst = len(x.delta), len(to.row), 0
     d, trial, end, condensed = len(model.sense), room.trial, step.newmark.end, step.condensed
     sweep, h = dashpots.sweep, dashpots.h
     now = InterfaceState(x.delta, x.f, x.w, x.t, x.state)
     next_load(model.forces, factors[0], sweep.load0, sweep.load1)
-    _end_and_begin(model, step, x, dashpots, factors[1:2], False)
+    _end_and_begin(model, step, x, dashpots, h[:0], factors[1:2], False)
     for k in range(steps):
-        # predict: forces of the dashpots
+        # predict: jumps that supports make, forces of the dashpots
+        for c in range(model.lift.shape[1]):
+            for i in range(q):
+                dashpots.y[i] += model.lift[i, c] * (factors[k + 1, c] - factors[k, c])
         if d:
             _hold_back(step, dashpots, q)
         if q:  # solve: Newton's method on the interface
@@ -254,7 +262,10 @@ def run_reduced(
         # advance and account: dashpots, then all coordinates, the next step's prediction with them
         if d:
             x.energies[DAMPED] += 0.5 * _advance_dashpots(model, step, dashpots, h)
-        size = _end_and_begin(model, step, x, dashpots, factors[k + 2 : k + 3], True)
+        size = _end_and_begin(model, step, x, dashpots, to.work[0, k], factors[k + 2 : k + 3], True)
+        for c in range(min(model.lift.shape[1], to.work.shape[2])):
+            for i in range(q):
+                to.work[1, k, c] += model.lift[i, c] * x.f[i]
         if not np.isfinite(size):
             return k, -1, np.inf
         if q:

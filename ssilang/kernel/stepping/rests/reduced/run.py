@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -41,6 +42,7 @@ INSTANTS = 64  # at which whole fields are compared
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
 MOST_VECTORS = 0.5  # of the unknowns: more do not pay
 MOST = 4000  # vectors, for memory
+MOST_VALUES = 30_000_000  # reduced states kept until the estimate is known
 LIFTED = 0.5  # share of the joints' points that opens at once: from there on motions may amplify
 BATCH = 64  # instants expanded together
 PAIRS_KEPT = 2  # models whose bases stay in memory
@@ -59,12 +61,20 @@ class Pair:
     def grow(self) -> None:
         """The richer model becomes the poorer of the next pair.
 
+        The last pair is what room is left for, and the first vectors of it.
+
         Raises
         ------
         NoReduction
             If there is none; nothing changes.
         """
-        self.poor, self.rich = self.rich, _grown(self.basis, GROWTH * self.rich.size)
+        basis = self.basis
+        try:
+            self.poor, self.rich = self.rich, _grown(basis, GROWTH * self.rich.size)
+        except NoReduction:
+            if basis.size == self.rich.size:
+                raise
+            self.poor, self.rich = basis.model(int(basis.size / GROWTH)), basis.model()
 
 
 def _grown(basis: Basis, wanted: float) -> ReducedModel:
@@ -76,26 +86,23 @@ def _grown(basis: Basis, wanted: float) -> ReducedModel:
     return basis.model()
 
 
-_PAIRS: dict[str, Pair] = {}
+_PAIRS: OrderedDict[str, Pair] = OrderedDict()
 
 
 def _pair_of(problem: Problem, tolerance: float) -> Pair:
     """The pair of a problem, kept for the next motion on the same model."""
     key = f"{_name_of(problem)} {tolerance:g}"
-    if key not in _PAIRS:
-        largest = min(int(MOST_VECTORS * problem.constraints.T.shape[1]), MOST)
-        basis = Basis(problem, _step_of(problem), largest)
-        poor = _grown(basis, basis.size)
-        while len(_PAIRS) >= PAIRS_KEPT:
-            _PAIRS.pop(next(iter(_PAIRS)))
-        _PAIRS[key] = Pair(basis, poor, _grown(basis, GROWTH * poor.size))
-    return _PAIRS[key]
-
-
-def _imposed(problem: Problem) -> bool:
-    """Whether conditions hold the motion elsewhere than at zero."""
-    away = np.abs(problem.constraints.C @ problem.u).max(initial=0.0)
-    return bool(problem.loading.imposed.any() or away > 1e-9 * np.abs(problem.u).max(initial=0.0))
+    if key in _PAIRS:
+        _PAIRS.move_to_end(key)
+        return _PAIRS[key]
+    largest = min(int(MOST_VECTORS * problem.constraints.T.shape[1]), MOST)
+    basis = Basis(problem, _step_of(problem), largest)
+    poor = _grown(basis, basis.size)
+    pair = Pair(basis, poor, _grown(basis, GROWTH * poor.size))
+    _PAIRS[key] = pair
+    while len(_PAIRS) > PAIRS_KEPT:
+        _PAIRS.popitem(last=False)
+    return pair
 
 
 def _step_of(problem: Problem) -> float:
@@ -104,9 +111,12 @@ def _step_of(problem: Problem) -> float:
 
 def _name_of(problem: Problem) -> str:
     """A digest of all that the basis is made of."""
-    p = problem
+    p, sparse = problem, list[sp.csr_array]()
     dense = [p.loading.forces, p.u, p.v, p.state, p.loading.at(p.times[:1]), p.times[:1]]
-    return f"{_model_of(p)} {digest([], dense)} {_step_of(p):.9g}"
+    if p.loading.imposed.any():
+        sparse.append(p.constraints.C)
+        dense += [p.loading.imposed, p.loading.at(p.times[:2])]
+    return f"{_model_of(p)} {digest(sparse, dense)} {_step_of(p):.9g}"
 
 
 def _model_of(problem: Problem) -> str:
@@ -117,6 +127,12 @@ def _model_of(problem: Problem) -> str:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
     return digest(sparse, dense)
+
+
+def _imposed(problem: Problem) -> bool:
+    """Whether conditions hold the motion elsewhere than at zero."""
+    away = np.abs(problem.constraints.C @ problem.u).max(initial=0.0)
+    return bool(problem.loading.imposed.any() or away > 1e-9 * np.abs(problem.u).max(initial=0.0))
 
 
 @dataclass(eq=False)
@@ -140,8 +156,6 @@ class ReducedIntegration:
         """
         started = time.perf_counter()
         p = self.problem
-        if _imposed(p):
-            raise NoReduction("kernel.stepping.reduced-supports-move")
         given = Integration(p, self.observers)
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
@@ -161,7 +175,7 @@ class ReducedIntegration:
         given.begin()
         nested = self.shelf is None and self.lifted > LIFTED
         swing = self._swing(pair.poor) if nested else 0.0
-        self._hand_over(pair.rich, given, chunks)
+        self._hand_over(pair.rich, given, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
             time.perf_counter() - built,
@@ -177,9 +191,11 @@ class ReducedIntegration:
         Raises
         ------
         NoReduction
-            If it is not trained enough, or steps on it do not converge.
+            If it is not trained enough, supports move, or steps on it do not converge.
         """
         p, ahead = self.problem, list[Chunk]()
+        if _imposed(p):
+            raise NoReduction("kernel.stepping.trained-supports-move")
         basis = trained_basis(p, _model_of(p), shelf)
         poor, left = basis.model(), list[FloatArray]()
         trace = Trace(p, poor, self._sampled)
@@ -201,29 +217,32 @@ class ReducedIntegration:
         sampled[np.unique(np.linspace(1, n - 1, INSTANTS).round().astype(int))] = True
         return sampled
 
-    def _both(self, pair: Pair, wanted: np.ndarray) -> tuple[Trace, Difference | None, list[Chunk]]:
+    def _both(
+        self, pair: Pair, wanted: np.ndarray
+    ) -> tuple[Trace, Difference | None, list[Chunk] | None]:
         """Both models over the motion, as long as they agree: the rich one, difference, chunks.
 
-        The difference is None if one of them did not converge.
+        The difference is None if one of them did not converge, the chunks if they do not fit.
         """
         p, n, sampled = self.problem, len(self.problem.times), self._sampled
+        fits = 3 * pair.rich.size * int(wanted.sum()) <= MOST_VALUES
         poor = Trace(p, pair.poor, sampled)
-        rich = Trace(p, pair.rich, sampled | wanted)
-        difference, chunks = Difference(p), list[Chunk]()
+        rich = Trace(p, pair.rich, sampled | wanted if fits else sampled)
+        difference, chunks = Difference(p), []
         for run in comparing(p.times):
             a = pair.ahead.pop(0) if pair.ahead else poor.advance(run)
             b = rich.advance(run) if a is not None else None
             if a is None or b is None:
-                return rich, None, chunks
+                return rich, None, None
             difference.take(poor, rich, a, b)
             opened = np.mean(b.rows.jumps[:, :, -1] > 0.0, axis=1) if p.interface else np.zeros(1)
             self.lifted = max(self.lifted, float(opened.max()))
             if not difference.estimate <= self.tolerance:
-                return rich, difference, chunks
+                return rich, difference, None
             chunks.append(replace(b, rows=b.rows._replace(jumps=b.rows.jumps[:0])))
             if self.progress is not None:
                 self.progress(run.last, n - 1)
-        return rich, difference, chunks
+        return rich, difference, chunks if fits else None
 
     def _swing(self, model: ReducedModel) -> float:
         """How far loads that are stronger by the tolerance move the motion, as `Difference`."""
@@ -237,11 +256,15 @@ class ReducedIntegration:
             difference.take(stronger, plain, a, b)
         return difference.estimate
 
-    def _hand_over(self, model: ReducedModel, given: Integration, chunks: list[Chunk]) -> None:
-        """Saved instants, as whole fields or rows."""
+    def _hand_over(
+        self, model: ReducedModel, given: Integration, wanted: np.ndarray,
+        chunks: list[Chunk] | None,
+    ) -> None:  # fmt: skip
+        """Saved instants, as whole fields or rows; steps run again if their states did not fit."""
         p, unknowns = self.problem, given.taps.unknowns
-        expansion = Expansion(model.T, model.basis, model.X)[unknowns]
-        for chunk in chunks:
+        expansion = expansion_of(model, unknowns)
+        source: Iterable[Chunk] = chunks if chunks is not None else self._again(model, wanted)
+        for chunk in source:
             taken = np.flatnonzero(given.taps.wanted[chunk.steps])
             if len(taken):
                 given.taps.give(rows_of_chunk(p, expansion, unknowns, chunk, taken))
@@ -250,10 +273,17 @@ class ReducedIntegration:
                 for snapshot in expanded(p, model, chunk, rows[start : start + BATCH]):
                     given.hand_over(snapshot)
 
+    def _again(self, model: ReducedModel, wanted: np.ndarray) -> Iterator[Chunk]:
+        trace = Trace(self.problem, model, wanted)
+        for run in comparing(self.problem.times):
+            chunk = trace.advance(run)
+            assert chunk is not None
+            yield chunk
+
 
 @dataclass(frozen=True, eq=False)
 class Expansion:
-    """Unknowns from coordinates of a model.
+    """Unknowns from coordinates of a model, and the motions of its supports.
 
     Attributes
     ----------
@@ -261,34 +291,50 @@ class Expansion:
         Of the motions y that these unknowns need.
     basis : array (r, c)
     X : array (r, r)
+    moved : csr array (p, m)
+        Motions of the supports.
     """
 
     T: sp.csr_array
     basis: FloatArray
     X: FloatArray
+    moved: sp.csr_array
 
     @property
     def shape(self) -> tuple[int, int]:
-        """p and r."""
-        return self.T.shape[0], len(self.X)
+        """p, and coordinates and supports together."""
+        return self.T.shape[0], len(self.X) + self.moved.shape[1]
 
     def __getitem__(self, places: IntArray | slice) -> Expansion:
         T = self.T[places]
         at = np.unique(T.indices)
-        return Expansion(sp.csr_array(T[:, at]), self.basis[:, at], self.X)
+        return Expansion(sp.csr_array(T[:, at]), self.basis[:, at], self.X, self.moved[places])
 
     def __call__(self, z: FloatArray) -> FloatArray:
-        """Rows (k, p) of rows (k, r)."""
-        found: FloatArray = (self.T @ (self.basis.T @ (self.X @ z.T))).T
+        """Rows (k, p) of rows (k, r + m)."""
+        r = len(self.X)
+        found: FloatArray = (self.T @ (self.basis.T @ (self.X @ z[:, :r].T))).T
+        if self.moved.shape[1]:
+            found = found + (self.moved @ z[:, r:].T).T
         return found
+
+
+def expansion_of(model: ReducedModel, unknowns: IntArray) -> Expansion:
+    """That of some unknowns of a problem."""
+    moved = sp.csr_array(model.supports.columns.X)
+    return Expansion(model.T, model.basis, model.X, moved)[unknowns]
 
 
 def rows_of_chunk(
     problem: Problem, expansion: Expansion, unknowns: IntArray, chunk: Chunk, rows: IntArray
 ) -> Rows:
     """Some rows of a chunk at some unknowns, that are made when someone asks."""
-    x, steps = chunk.rows, chunk.steps[rows]
+    x, c, steps = chunk.rows, chunk.course, chunk.steps[rows]
+    now = steps - chunk.run.first
     parts = {name: getattr(x, name)[rows] for name in ("u", "v", "a", "w", "t", "state")}
+    if c is not None:
+        for name, moved in (("u", c.c), ("v", c.v), ("a", c.a)):
+            parts[name] = np.hstack([parts[name], moved[now]])
     at = np.arange(expansion.shape[1])
     view = View(at, {name: part.shape[1:] for name, part in parts.items()}, expansion)
     tap = closed_tap(0)._replace(at=at, **parts)
@@ -303,6 +349,9 @@ def expanded(
     p, x = problem, chunk.rows
     u, v, a = (model.expand(part[rows].T) for part in (x.u, x.v, x.a))
     steps = chunk.steps[rows]
+    if chunk.course is not None:
+        X, c, now = model.supports.columns.X, chunk.course, steps - chunk.run.first
+        u, v, a = u + X @ c.c[now].T, v + X @ c.v[now].T, a + X @ c.a[now].T
     rest = p.M @ a + p.C @ v + p.K @ u - p.loading.forces @ p.loading.at(p.times[steps]).T
     joints = p.interface
     if joints is not None:

@@ -15,6 +15,7 @@ from ssilang.kernel.stepping.problem.initial import (
     initial_energies,
     joint_state,
 )
+from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
@@ -51,6 +52,8 @@ class Chunk:
     rows: Recorder
     steps: IntArray
     """Steps of the rows."""
+    course: Course | None = None
+    """Of the supports, at all times of the run."""
 
 
 @dataclass(eq=False)
@@ -79,10 +82,15 @@ class Trace:
         m = self.model
         self._joints = joints_of(p)
         self._steps: dict[float, ReducedStep | Coordinates] = {}
+        q, own = len(m.J), p.loading.forces.shape[1]
+        lift = np.zeros((q, m.forces.shape[1]))
+        lift[:, lift.shape[1] - m.supports.count :] = m.supports.columns.lift
+        self._own = np.ascontiguousarray(m.forces[:, own:].T)
         self._reduced = Reduced(
             m.m, m.c, m.k, np.ascontiguousarray(np.vstack([m.J, m.B]).T), m.sense,
-            np.ascontiguousarray(m.forces.T),
+            np.ascontiguousarray(m.forces.T), lift if lift.any() else lift[:, :0].copy(),
         )  # fmt: skip
+        self._rates = m.supports.start[1:]
 
     def advance(self, run: Run) -> Chunk | None:
         """The steps of a run; None if one of them did not converge."""
@@ -94,26 +102,47 @@ class Trace:
             self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
             jumps=np.zeros((len(row), *self.motion.w.shape)),
         )  # fmt: skip
-        x, step = self.motion, self._step(run.dt)
-        if isinstance(step, Coordinates):
-            done, turns, _ = step.run(x, factors, to)
-        else:
-            B, room = self.model.B, workspace(x.w.shape, len(x.f))
-            dashpots = dashpots_of(B @ x.v, B @ x.a, len(x.delta), len(x.u))
-            done, turns, _ = run_reduced(
-                self._reduced, step, self._joints, x, dashpots, room, factors, to
-            )
+        done, turns, course = self._advance(self._step(run.dt), factors, to)
         if done < len(row):
             return None
         self.iterations = max(self.iterations, turns)
-        return Chunk(run, to, steps)
+        return Chunk(run, to, steps, course)
+
+    def _advance(
+        self, step: ReducedStep | Coordinates, factors: FloatArray, to: Recorder
+    ) -> tuple[int, int, Course | None]:
+        """Steps of a motion: number done, most iterations of one, the course of the supports."""
+        if isinstance(step, Coordinates):
+            done, turns, _ = step.run(self.motion, factors, to)
+            return done, turns, None
+        n, x, model, supports = step.newmark, self.motion, self.model, self.model.supports
+        moving, whole = supports.during(self.problem, n.dt), factors
+        course = moving.course(factors[:, moving.chosen], *self._rates)
+        if supports.count:
+            whole = np.hstack([factors, course.factors(n)])
+        to = to._replace(work=np.zeros((2, len(to.row), whole.shape[1] if supports.count else 0)))
+        start = Start(np.array([self._own @ z for z in (x.u, x.v, x.a)]), x.f.copy())
+        dashpots = dashpots_of(model.B @ x.v, model.B @ x.a, len(x.delta), len(x.u))
+        room = workspace(x.w.shape, len(x.f))
+        done, turns, _ = run_reduced(
+            self._reduced, step, self._joints, x, dashpots, room, whole, to
+        )
+        if not supports.count:
+            return done, turns, None
+        own = np.ascontiguousarray(to.work[:, :done, factors.shape[1] :])
+        history = to.energies[:done]
+        moving.complete(supports.columns, course, start, own, factors, history)
+        if done:
+            x.energies[:] = history[-1]
+        self._rates = np.array([course.v[-1], course.a[-1]])
+        return done, turns, course
 
     def _step(self, dt: float) -> ReducedStep | Coordinates:
         """What steps dt need, or known ones that are as long but for rounding."""
         dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
         if dt not in self._steps:
             n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
-            many, m = q > self.model.size, self._reduced
+            many, m = self.model.trained and q > self.model.size, self._reduced
             self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
         return self._steps[dt]
 

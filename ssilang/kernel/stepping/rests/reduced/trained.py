@@ -9,6 +9,7 @@ decomposition with their weights, so that a basis learns from every record that 
 from __future__ import annotations
 
 import math
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -73,6 +74,10 @@ class Shelf(Protocol):
         """What stands there, None for nothing."""
         ...
 
+    def held(self) -> AbstractContextManager[None]:
+        """Nobody else writes meanwhile."""
+        ...
+
     def write(self, training: Training) -> None:
         """Put it in the place of what stands there."""
         ...
@@ -81,9 +86,12 @@ class Shelf(Protocol):
 class TrainedBasis(Basis):
     """The vectors of a training, and what a motion needs beside them."""
 
+    trained = True
+
     def __init__(self, problem: Problem, training: Training) -> None:
-        self._project(problem, len(training.vectors) + ROOM)
-        self._shift(HIGHEST_SHIFT * 2.0 / training.dt)
+        largest = len(training.vectors) + ROOM
+        self._project(problem, largest)
+        self._make_room(largest, HIGHEST_SHIFT * 2.0 / training.dt)
         self._add(training.vectors.T)
         self._fixed, self.records = self.size, len(training.taught)
         A, end = effective_matrix(problem, training.dt), 1 - problem.scheme.alpha_f
@@ -138,6 +146,8 @@ def read_for(problem: Problem, model: str, shelf: Shelf) -> Training | None:
     if np.abs(steps - dt).max() > SAME * dt * len(steps):
         code = "kernel.stepping.trained-on-another-step"
         raise KernelError(code, name=shelf.name, dt=dt, step=float(steps[-1]))
+    if found is not None and found.vectors.shape[1] != problem.constraints.T.shape[1]:
+        raise KernelError("io.damaged", name=shelf.name, error=f"vectors {found.vectors.shape}")
     return found
 
 
@@ -159,6 +169,10 @@ class Learner:
 
     def teach(self, model: str, shelf: Shelf) -> None:
         """Train what stands on the shelf by the run."""
+        with shelf.held():
+            self._teach(model, shelf)
+
+    def _teach(self, model: str, shelf: Shelf) -> None:
         p, old = self.problem, read_for(self.problem, model, shelf)
         record = digest([], [p.loading.forces, p.loading.at(p.times), p.u, p.v])
         Y = on_motions(p.constraints.T, np.array(self.columns).T).T

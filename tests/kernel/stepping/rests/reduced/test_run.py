@@ -131,6 +131,15 @@ def test_saved_steps_and_reactions():
         np.testing.assert_allclose(a.state, b.state, atol=1e-6 * np.abs(b.state).max())
 
 
+def test_states_that_do_not_fit_memory_run_again(monkeypatch):
+    problem = soil_block(steps=100)
+    one, two = Recorder(101), Recorder(101)
+    integrate_reduced(problem, 1e-3, [one])
+    monkeypatch.setattr("ssilang.kernel.stepping.rests.reduced.run.MOST_VALUES", 0)
+    integrate_reduced(problem, 1e-3, [two])
+    np.testing.assert_array_equal(one.of("u"), two.of("u"))
+
+
 def test_the_next_motion_finds_the_basis(monkeypatch):
     problem = soil_block()
     first = integrate_reduced(problem, 1e-4)

@@ -1,5 +1,6 @@
 """Bases trained by whole runs, on records that trained nothing, against the whole model."""
 
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
 
 import numpy as np
@@ -144,3 +145,35 @@ def test_a_file_that_is_no_basis_is_told(tmp_path):
     file.path.write_bytes(b"PK\x03\x04 no arrays")
     with pytest.raises(InputError, match=r"other\.npz is damaged"):
         integrate_reduced(record(4), 5e-2, shelf=file)
+
+
+@pytest.mark.parametrize("cut", [np.s_[0], np.s_[:, 1:], np.s_[:, :, None]])
+def test_a_file_of_other_shapes_is_told(suite, cut, tmp_path):
+    file, sound = TrainingFile(tmp_path / "other.npz"), suite.read()
+    file.write(replace(sound, vectors=sound.vectors[cut]))
+    with pytest.raises((InputError, KernelError), match=r"other\.npz is damaged: .*vectors \("):
+        integrate_reduced(record(4), 5e-2, shelf=file)
+
+
+def test_runs_that_end_together_lose_no_training(suite, tmp_path):
+    """One waits for the other, and reads what that has written."""
+    file, problem, sound = copy_of(suite, tmp_path), record(7), suite.read()
+    learner = trained.Learner(problem)
+    integrate(problem, [learner])
+    with ThreadPoolExecutor(1) as pool:
+        with file.held():
+            other = pool.submit(learner.teach, sound.model, file)
+            assert wait([other], 1.0).not_done
+            file.write(replace(sound, taught=(*sound.taught, "another")))
+        other.result()
+    assert file.read().taught[3] == "another"
+    assert len(file.read().taught) == 5
+    assert [path.name for path in tmp_path.iterdir()] == ["basis.npz"]
+
+
+def test_supports_that_move_run_whole_and_train_nothing(suite):
+    problem, stamp = soil_block(steps=STEPS, size=SIZE), suite.stamp()
+    problem.u[:] = problem.constraints.particular(np.full(problem.constraints.C.shape[0], 1e-3))
+    history = integrate_reduced(problem, 5e-2, shelf=suite)
+    assert "a trained basis does not describe" in str(history.reduction.refused)
+    assert (history.loop, suite.stamp()) == ("condensed", stamp)
