@@ -10,8 +10,11 @@ from pathlib import Path
 import pytest
 
 import ssilang
+from ssilang.cli import main as main_module
 from ssilang.cli.main import main
 from ssilang.cli.usage import COMMANDS, parser
+from ssilang.language.say.diagnostics import render
+from ssilang.language.say.errors import SsiError, unprinted
 from ssilang.messages.message import find
 
 
@@ -101,3 +104,17 @@ def test_a_run_loads_no_words_of_usage(tmp_path):
     environment = {**os.environ, "PYTHONPATH": root}
     done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, env=environment)
     assert done.returncode == 0
+
+
+@pytest.mark.parametrize(("language", "word"), [("en", "error"), ("fr", "erreur")])
+@pytest.mark.parametrize("problem", [OSError(28, "No space left"), SsiError("cli.lsp-extra", None)])
+def test_what_ends_the_program_is_told_once(capsys, monkeypatch, language, word, problem):
+    silenced = []
+    monkeypatch.setattr(main_module, "_silence", lambda: silenced.append(True))
+    main_module._told(problem, language)
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert word in told.err.lower()
+    said = problem if isinstance(problem, SsiError) else unprinted(problem)
+    assert told.err == render(said, language) + "\n"
+    assert silenced == [True]

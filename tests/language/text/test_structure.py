@@ -4,9 +4,10 @@ import pytest
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import end_of_run
+from ssilang.language.text.printer import heading, print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import first_assignments
+from ssilang.language.text.tree import Definition, If, Loop, Statement, first_assignments
 
 
 @pytest.mark.parametrize(
@@ -55,3 +56,41 @@ def test_names_are_assigned_where_they_first_get_a_value():
     assert [found[n].start for n in "ABCDFG"] == [
         text.index(s) for s in ("A =", "B =", "C =", "D =", "F G", "G =")
     ]
+
+
+def _shape(nodes):
+    """Blocks as nested lists of their words, names and bodies."""
+    made = []
+    for node in nodes:
+        match node:
+            case If():
+                condition = print_items(node.condition.items)
+                made.append(["SI", condition, _shape(node.then), _shape(node.otherwise)])
+            case Loop():
+                made.append(["REPE", node.name, print_items(node.count), _shape(node.body)])
+            case Definition():
+                results = print_items(node.results)
+                made.append([heading(node), node.method, results, _shape(node.body)])
+            case Statement():
+                made.append(print_items(node.items))
+    return made
+
+
+@pytest.mark.parametrize(
+    ("text", "shape"),
+    [
+        ("SI (A > 1) ; B ; SINON ; C ; D ; FINSI ; E ;",
+         [["SI", "(A > 1)", ["B"], ["C", "D"]], "E"]),
+        ("SI A ; SI B ; C ; FINSI ; 3 SINON ; D ; FINSI ;",
+         [["SI", "A", [["SI", "B", ["C"], []]], ["D"]]]),
+        ("REPE ZB 3 ; A ; REPE 2 AB ; B ; FIN AB ; C ; FIN ZB ; D ;",
+         [["REPE", "ZB", "3", ["A", ["REPE", "AB", "2", ["B"]], "C"]], "D"]),
+        ("DEBP ZP X*ENTIER Y/'MOT     ' T*TABLE*MODES Q ; A ; FINP Y X ; B ;",
+         [["ZP X*ENTIER Y/MOT T*TABLE*MODES Q", False, "Y X", ["A"]], "B"]),
+        ("DEBM MET 'x y'*ENTIER ; FINM ;", [["MET 'X Y'*ENTIER", True, "", []]]),
+        ("REPE B1 2 ; SI A ; C ; FIN ;", [["REPE", "B1", "2", [["SI", "A", ["C", "FIN"], []]]]]),
+        ("T . 'it''s' . 2 = -1.5 + %k ;", ["-1.5 + %K"]),
+    ],
+)  # fmt: skip
+def test_what_stands_in_which_block(text, shape):
+    assert _shape(parse(Source("x", text)).body) == shape

@@ -1,0 +1,62 @@
+"""The outline, what folds, and colours of a script whose names and blocks are out of order."""
+
+from ssilang.cli.editor.document import Document
+from ssilang.cli.editor.outline import colours, folds, outline
+from ssilang.operators.loader import load_operators
+
+TEXT = """* first
+* second
+Z1 = 1 ;
+DEBP ZP X*ENTIER Y/MOT ;
+  ZI = X ;
+  REPE BX 2 ;
+    AI = ZI ;
+    ZI = 2 ;
+  FIN BX ;
+FINP ZI ;
+SI VRAI ;
+  A1 = 'it' ;
+FINSI ;
+* alone
+A1 = ZP 3
+  'W'
+  + 4 ;
+T1 = TABL ; T1 . 'K' = 2.5 ; REPE ONE 1 ; Q1 = 1 ; FIN ONE ;
+* third
+* fourth
+"""
+
+
+def test_names_stand_in_the_procedure_or_loop_that_makes_them():
+    document = Document.of(TEXT)
+    found = outline(document)
+    names = [p.name for p in found]
+    assert names == ["Z1", "ZP", "A1", "T1", "ONE"]
+    inner = {p.name: [q.name for q in p.inner] for p in found}
+    assert inner["ZP"] == ["X", "Y", "ZI", "BX"]
+    assert inner["ONE"] == ["Q1"]
+    loop = next(q for q in found[1].inner if q.name == "BX")
+    assert [q.name for q in loop.inner] == ["AI"]
+    assert TEXT[found[1].start : found[1].end].startswith("DEBP ZP")
+    assert TEXT[found[1].start : found[1].end].rstrip(" ;").endswith("FINP ZI")
+    assert [TEXT[p.name_start : p.name_end] for p in found] == names
+
+
+def test_what_folds():
+    assert sorted(folds(Document.of(TEXT))) == [
+        (0, 1, "comment"), (3, 9, "region"), (5, 8, "region"), (10, 12, "region"),
+        (14, 16, "region"), (18, 19, "comment"),
+    ]  # fmt: skip
+
+
+def test_the_colour_of_each_word():
+    load_operators()
+    told = [(TEXT[a:b], c) for a, b, c in colours(Document.of(TEXT))]
+    assert told[:5] == [
+        ("* first", "comment"), ("* second", "comment"), ("Z1", "variable"), ("1", "number"),
+        ("DEBP", "keyword"),
+    ]  # fmt: skip
+    for one in (("DEBP", "keyword"), ("X", "parameter"), ("'it'", "string"), ("'K'", "property"),
+                ("TABL", "function"), ("ZP", "function"), ("FINSI", "keyword"),
+                ("2.5", "number"), ("* alone", "comment"), ("A1", "variable")):  # fmt: skip
+        assert one in told
