@@ -16,7 +16,6 @@ from ssilang.language.vocabulary.entries import (
     ANYTHING,
     NUMBER,
     REFUSED,
-    ROLES,
     THEMES,
     UNUSED,
     WRITTEN,
@@ -95,7 +94,7 @@ def is_whole(entry: TableEntry) -> None:
     """Both languages, known types, a default and words that fit them."""
     assert entry.en.strip()
     assert entry.fr.strip()
-    assert entry.role in ROLES
+    assert entry.role in {"written", "read", "both", "unused", "refused"}
     assert entry.theme in THEMES
     assert set(entry.types) <= known_types()
     if entry.fallback is not None:
