@@ -18,13 +18,19 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.cast3m import IN_SCOPE, Cast3mWord, cast3m_words
-from ssilang.language.registry import OPERATORS, Argument, arguments_in, operators_by_family
+from ssilang.language.registry import (
+    OPERATORS,
+    Argument,
+    HelpTable,
+    arguments_in,
+    operators_by_family,
+)
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.reference import (
     Page,
@@ -34,11 +40,17 @@ from ssilang.language.say.reference import (
     operator_page,
     procedure_page,
 )
-from ssilang.language.vocabulary.entries import TableEntry, declared_names, read_declaration
+from ssilang.language.vocabulary.entries import (
+    Declaration,
+    TableEntry,
+    declared_names,
+    read_declaration,
+)
 from ssilang.language.vocabulary.entries_table import (
+    blocks_of,
     bounds_told,
-    entries_markdown,
-    tables_markdown,
+    heads_of,
+    title_of,
 )
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
@@ -102,6 +114,38 @@ def page_markdown(page: Page, examples: Iterable[Ran]) -> str:
     lines += [] if declared is None else entries_markdown(declared, "fr")
     lines += _tables(page, "fr")
     return "\n".join(lines)
+
+
+def entries_markdown(declared: Declaration, language: str) -> list[str]:
+    """The entries of all tables of a procedure as tables of Markdown."""
+    lines: list[str] = []
+    for argument in declared.arguments:
+        blocks = list(blocks_of(declared, argument.name, language))
+        if not blocks:
+            continue
+        lines += [f"## {title_of(declared, argument.name, language)}", ""]
+        for theme, rows in blocks:
+            lines += [f"### {teller(language)(f'help.theme-{theme}')}", ""]
+            lines += _markdown(heads_of(language), rows)
+    return lines
+
+
+def tables_markdown(tables: Sequence[HelpTable]) -> list[str]:
+    """Tables of the same columns as Markdown."""
+    lines: list[str] = []
+    for table in tables:
+        lines += [f"### {table.title}", "", *([f"{table.note}.", ""] if table.note else [])]
+        lines += _markdown(table.heads, table.rows) if table.rows else []
+    return lines
+
+
+def _markdown(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """A table whose first column names."""
+    lines = ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
+    for row in rows:
+        cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
+        lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
+    return [*lines, ""]
 
 
 def _tables(page: Page, language: str) -> list[str]:

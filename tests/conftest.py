@@ -2,6 +2,7 @@
 
 import ctypes
 import gc
+import importlib.util
 import os
 import sys
 from collections.abc import Iterator
@@ -116,3 +117,14 @@ def pytest_sessionfinish() -> None:
     """Search for garbage here: pytest does so behind, when xdist interrupts after 5 s."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(scope="session")
+def build():
+    """The module `docs/build.py`, which stands in no package."""
+    path = Path(__file__).resolve().parents[1] / "docs" / "build.py"
+    spec = importlib.util.spec_from_file_location("build_manual", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["build_manual"] = module
+    spec.loader.exec_module(module)
+    return module

@@ -87,6 +87,7 @@ class RunOptions:
     on_form: FormsRan | None = None  # collects the forms of operators that run
     petsc: str = field(default_factory=lambda: os.environ.get("SSILANG_PETSC", ""))
     """What starts PETSc, '' if there is none."""
+    shared: Path | None = None  # what all runs of a sweep share
 
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
@@ -100,6 +101,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
         Session(
             script_directory=folder,
             output_directory=target,
+            shared=options.shared,
             allowed=options.allowed,
             out=out,
             language=options.language,

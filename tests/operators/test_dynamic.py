@@ -5,6 +5,7 @@ import pytest
 from references.small_motions import HOPPER, OSCILLATOR
 from script_runs import failed, ran
 
+from ssilang.cli.run import RunOptions
 from ssilang.language.say.diagnostics import sentence
 
 
@@ -253,6 +254,23 @@ def test_reduction_agrees_with_the_whole_model(tmp_path):
     assert reduced["estimated_error"] <= 1e-5
     last = [table(result, n).get(26).get("DEPL").components["UY"].values for n in ("T2", "T3")]
     assert np.abs(last[0] - last[1]).max() <= 1e-5 * np.abs(last[0]).max()
+
+
+def test_three_records_train_a_basis_that_runs_of_a_sweep_share(tmp_path):
+    """The first two run whole, and train; the same one again teaches nothing."""
+    asked = "T1 . 'REDUCTION' = 1.E-2 ; T1 . 'APPRENTISSAGE' = 'basis' ; T1 . 'CHAR' = {} ;"
+    loads = [f"CHAR 'MECA' ({1 + i / 10} * F)" for i in (0, 0, 1, 2)]
+    text = SHAKEN + "".join((asked + "T2 = DYNAMIC T1 ;").format(load) for load in loads)
+    options = RunOptions(output_directory=tmp_path / "runs" / "a", shared=tmp_path)
+    result = ran(text, options=options)
+    lines = result.session.statistics["calculations"]
+    assert [line["reduced"] for line in lines] == [False, False, False, True]
+    assert [line["not_reduced_because"][30:39] for line in lines] == [
+        "0 records",
+        *2 * ["1 record,"],
+        "",
+    ]
+    assert (tmp_path / "basis.npz").is_file()
 
 
 def test_reduction_of_a_small_problem_runs_it_whole(tmp_path):

@@ -62,6 +62,7 @@ def run_task(task: Task) -> Row:
         allowed.append(Path(str(task.values[MOTION])).parent)
     options = RunOptions(
         output_directory=task.folder,
+        shared=task.folder.parents[1],
         allowed=allowed,
         language=task.language,
         summary=True,

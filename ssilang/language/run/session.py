@@ -98,6 +98,8 @@ class Session:
         Folder of the script: files are read below it.
     output_directory : Path
         Files are written below it.
+    shared : Path, optional
+        Folder of what runs of a sweep leave for each other.
     allowed : list of Path
         Further folders that may be read and written (`--allow`).
     out : text stream
@@ -119,6 +121,7 @@ class Session:
 
     script_directory: Path = field(default_factory=Path.cwd)
     output_directory: Path = field(default_factory=lambda: Path("results"))
+    shared: Path | None = None
     allowed: list[Path] = field(default_factory=list)
     out: TextIO = field(default_factory=lambda: sys.stdout)
     language: str = "en"

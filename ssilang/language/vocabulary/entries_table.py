@@ -1,9 +1,9 @@
-"""The entries of a procedure's tables by theme, and other tables of help: text, and Markdown."""
+"""The entries of a procedure's tables by theme, and other tables of help, as text."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from ssilang.language.registry import HelpTable
@@ -37,30 +37,16 @@ def entries_text(declared: Declaration, language: str, width: int) -> list[str]:
     """Lines of all tables, a column each for index, types, unit, default and meaning."""
     lines: list[str] = []
     for argument in declared.arguments:
-        blocks = list(_blocks(declared, argument.name, language))
+        blocks = list(blocks_of(declared, argument.name, language))
         if not blocks:
             continue
-        lines += ["", _title(declared, argument.name, language)]
+        lines += ["", title_of(declared, argument.name, language)]
         rows = [row for _, rows in blocks for row in rows]
-        widths = _widths([_heads(language), *rows], width)
-        lines += _laid_out(_heads(language), widths)
+        widths = _widths([heads_of(language), *rows], width)
+        lines += _laid_out(heads_of(language), widths)
         for theme, rows in blocks:
             lines += ["", f"  {teller(language)(f'help.theme-{theme}')}"]
             lines += [line for row in rows for line in _laid_out(row, widths)]
-    return lines
-
-
-def entries_markdown(declared: Declaration, language: str) -> list[str]:
-    """The same as tables of Markdown."""
-    lines: list[str] = []
-    for argument in declared.arguments:
-        blocks = list(_blocks(declared, argument.name, language))
-        if not blocks:
-            continue
-        lines += [f"## {_title(declared, argument.name, language)}", ""]
-        for theme, rows in blocks:
-            lines += [f"### {teller(language)(f'help.theme-{theme}')}", ""]
-            lines += _markdown(_heads(language), rows)
     return lines
 
 
@@ -77,35 +63,21 @@ def tables_text(tables: Sequence[HelpTable], width: int) -> list[str]:
     return lines
 
 
-def tables_markdown(tables: Sequence[HelpTable]) -> list[str]:
-    """The same as Markdown."""
-    lines: list[str] = []
-    for table in tables:
-        lines += [f"### {table.title}", "", *([f"{table.note}.", ""] if table.note else [])]
-        lines += _markdown(table.heads, table.rows) if table.rows else []
-    return lines
-
-
-def _markdown(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    """A table whose first column names."""
-    lines = ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
-    for row in rows:
-        cells = [" ".join(cell.split()).replace("|", "\\|") for cell in row]
-        lines.append("| " + " | ".join([f"`{cells[0]}`", *cells[1:]]) + " |")
-    return [*lines, ""]
-
-
-def _heads(language: str) -> Row:
+def heads_of(language: str) -> Row:
+    """Heads of the columns."""
     index, types, unit, default, meaning = map(teller(language), _COLUMNS)
     return index, types, unit, default, meaning
 
 
-def _title(declared: Declaration, name: str, language: str) -> str:
+def title_of(declared: Declaration, name: str, language: str) -> str:
+    """Title of the entries of an argument."""
     subtype = next(a.subtype for a in declared.arguments if a.name == name)
     return teller(language)("help.entries", name=name, subtype=subtype)
 
 
-def _blocks(declared: Declaration, argument: str, language: str) -> Iterator[tuple[str, list[Row]]]:
+def blocks_of(
+    declared: Declaration, argument: str, language: str
+) -> Iterator[tuple[str, list[Row]]]:
     """Rows of an argument by theme."""
     for theme, members in groupby(declared.of(argument), key=lambda e: e.theme):
         alike = groupby(members, key=_sameness)

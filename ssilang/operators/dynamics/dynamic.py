@@ -34,6 +34,7 @@ from ssilang.operators.dynamics.reports import (
 )
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
+from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
@@ -41,6 +42,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
+    from ssilang.io.training import TrainingFile
     from ssilang.kernel.plasticity.bulk import Bulk, State
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
@@ -103,7 +105,9 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     if extremes.known:
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
-        again = partial(_step_again, entries.get("REDUCTION"), problem, steps_of_reprise(entries))
+        reduced = history.reduction is not None and history.reduction.vectors
+        tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
+        again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     warn_of_motion(entries, problem, results.track)
     if uplift is not None and uplift.left:
@@ -120,7 +124,7 @@ def _integrated(
     bodies: tuple[Bulk, State] | None = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
-    tolerance = entries.get("REDUCTION")
+    tolerance, shelf = entries.get("REDUCTION"), training_file(entries)
     full = entries.flag("NEWTON_COMPLET")
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     in_force = {"REDUCTION": tolerance is not None, "CHARMECA": driver is not None}
@@ -146,12 +150,28 @@ def _integrated(
         raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
-    return integrate_reduced(problem, float(tolerance), observers, line)
+    return integrate_reduced(problem, float(tolerance), observers, line, shelf)
+
+
+def training_file(entries: Entries) -> TrainingFile | None:
+    """The basis that APPRENTISSAGE names: all runs of a sweep share it."""
+    name, session = entries.get("APPRENTISSAGE"), entries.call.session
+    if name is None:
+        return None
+    if entries.get("REDUCTION") is None:
+        raise entries.error("operators.dynamics.training-without-reduction")
+    path, own = output_path(entries.call, f"{name}.npz"), run_output(session).directory
+    if session.shared is not None and path.is_relative_to(own):
+        path = session.shared / path.relative_to(own)
+    from ssilang.io.training import TrainingFile
+
+    return TrainingFile(path)
 
 
 def _step_again(
-    tolerance: float | None, problem: Problem, every: int | None, extremes: Extremes
-) -> None:
+    tolerance: float | None, shelf: TrainingFile | None, problem: Problem, every: int | None,
+    extremes: Extremes,
+) -> None:  # fmt: skip
     """The same motion for its largest values, which its loop does not give without cost.
 
     `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
@@ -163,7 +183,7 @@ def _step_again(
     if tolerance is None:
         integrate(problem, [extremes], keeper=None if every is None else Cut(every))
     else:
-        integrate_reduced(problem, float(tolerance), [extremes])
+        integrate_reduced(problem, float(tolerance), [extremes], None, shelf)
 
 
 AMPLIFIED = 10.0

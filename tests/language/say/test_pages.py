@@ -18,7 +18,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.say.reference import Page, page_text, procedure_page
 from ssilang.language.vocabulary.entries import Argument, Declaration, TableEntry
-from ssilang.language.vocabulary.entries_table import entries_markdown, entries_text
+from ssilang.language.vocabulary.entries_table import entries_text
 from ssilang.language.vocabulary.terms import Range
 
 OPERATOR = """\
@@ -163,9 +163,9 @@ ROWS = [
 ]  # fmt: skip
 
 
-def test_the_tables_of_a_page_say_what_every_entry_declares():
+def test_the_tables_of_a_page_say_what_every_entry_declares(build):
     assert "\n".join(["", *entries_text(ENTRIES, "en", 80)]) == TEXT
-    lines = entries_markdown(ENTRIES, "en")
+    lines = build.entries_markdown(ENTRIES, "en")
     cells = [line.strip("| ").replace("` | ", "|").replace(" | ", "|") for line in lines]
     assert [c[1:] for c in cells if c.startswith("`")] == ROWS
     heads = [line for line in lines if line.startswith("#")]

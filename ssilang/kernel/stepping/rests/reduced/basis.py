@@ -110,6 +110,8 @@ class ReducedModel:
     B, sense : arrays (d, r), (d,)
         Dashpots: what of the damping is not in c is `B^T sense B`.
     supports : ReducedSupports
+    trained : bool
+        Whether whole runs gave the basis: the interface may have more unknowns than it has vectors.
     """
 
     T: sp.csr_array
@@ -124,6 +126,7 @@ class ReducedModel:
     B: FloatArray
     sense: FloatArray
     supports: ReducedSupports
+    trained: bool
 
     @property
     def size(self) -> int:
@@ -191,28 +194,58 @@ def refuse_reduction(problem: Problem) -> None:
         raise KernelError("kernel.stepping.reduction-steps")
 
 
+def on_motions(T: sp.csr_array, fields: FloatArray) -> FloatArray:
+    """Fields (n, k) that the supports allow on the motions y that they leave, (n_y, k)."""
+    found: FloatArray = invert(sp.csr_array(T.T @ T), True).solve(T.T @ fields)
+    return found
+
+
+def closed_stiffness(problem: Problem) -> sp.csr_array:
+    """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
+    T, joints = problem.constraints.T, problem.interface
+    K = sp.csr_array(T.T @ problem.K @ T)
+    if joints is None:
+        return K
+    J, R = sp.csr_array(joints.J @ T), sp.csr_array(joints.closed_stiffness())
+    return sp.csr_array(K + J.T @ R @ J)
+
+
 class Basis:
     """A growing basis, on the motions y that the supports leave (`u = T y`).
 
     Vectors are orthonormal in `N = M + K / s**2`, which is regular also where M alone is not.
     """
 
+    trained = False
+    _states: States | None = None
+
     def __init__(self, problem: Problem, dt: float, largest: int) -> None:
-        T = problem.constraints.T
+        self._project(problem, largest)
+        q = self.J.shape[0]
+        if min(2 * q, self.T.shape[1]) > largest:  # static answers and the step's own
+            raise NoReduction("kernel.stepping.interface-of-too-many", q=q, n_vectors=largest)
+        self.meet(problem)
+        self.inputs = np.column_stack([self.J.T.toarray(), self.F])
+        static = invert(closed_stiffness(problem), True, problem.solver)
+        self._make_room(largest, min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static)))
+        self._inverse = self._inverted(self.shift**2)
+        self._last = np.zeros((self.T.shape[1], 0))
+        self._first_vectors(static, 2.0 / dt)
+
+    def _project(self, problem: Problem, largest: int) -> None:
+        """Matrices on the motions."""
+        T, joints = problem.constraints.T, problem.interface
         self.problem, self.T = problem, T
         self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
         damping = split(C, self.M, self.K, largest)
         if damping is None:
             raise NoReduction("kernel.stepping.damping-not-symmetric")
         self.damping = damping
-        joints = problem.interface
-        ports = sp.csr_array((0, T.shape[1])) if joints is None else sp.csr_array(joints.J @ T)
-        if (
-            min(2 * ports.shape[0], T.shape[1]) > largest
-        ):  # static answers and the step's own, before any is made
-            raise NoReduction(
-                "kernel.stepping.interface-of-too-many", q=ports.shape[0], n_vectors=largest
-            )
+        self.J = sp.csr_array((0, T.shape[1]) if joints is None else joints.J @ T)
+
+    def meet(self, problem: Problem) -> None:
+        """Take the loads and the start of a motion."""
+        T = self.T
         v = admissible_velocity(problem)
         a = initial_acceleration(problem, v, joint_state(problem))
         supports = reduced_supports(problem, T, problem.u, v, a)
@@ -220,19 +253,16 @@ class Basis:
             raise NoReduction(supports.code, **supports.data)
         self.supports = supports
         forces = T.T @ problem.loading.forces
-        self.J, self.F = ports, np.hstack([forces, supports.columns.forces.T])
-        self.inputs = np.column_stack([ports.T.toarray(), self.F])
-        self._store = np.zeros((largest, T.shape[1]))  # one vector a row
+        self.F = np.hstack([forces, supports.columns.forces.T])
+        start = np.column_stack([problem.u, v, a]) - supports.columns.X @ supports.start.T
+        self._start = on_motions(T, start)
+
+    def _make_room(self, largest: int, s: float) -> None:
+        """Room for vectors that the shift s (1/s) measures."""
+        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
+        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
         self._KV = np.zeros((largest, largest))
         self.size = self._fixed = 0
-        static = self._static()
-        s = self.shift = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
-        self.N = sp.csr_array(self.M + self.K / s**2)
-        self._inverse = self._inverted(s**2)
-        self._last = np.zeros((T.shape[1], 0))
-        self._start = self._initial(np.column_stack([problem.u, v, a]))
-        self._states: States | None = None
-        self._first_vectors(static, 2.0 / dt)
 
     @property
     def vectors(self) -> FloatArray:
@@ -248,21 +278,6 @@ class Basis:
         if inverse.singular:
             raise NoReduction("kernel.stepping.massless-body-on-joints")
         return inverse
-
-    def _initial(self, fields: FloatArray) -> FloatArray:
-        """Displacement, velocity, acceleration at the start (n, 3) on the motions y, (n_y, 3)."""
-        fields = fields - self.supports.columns.X @ self.supports.start.T
-        gram = invert(sp.csr_array(self.T.T @ self.T), True)
-        found: FloatArray = gram.solve(self.T.T @ fields)
-        return found
-
-    def _static(self) -> Inverse:
-        """Inverse of the stiffness with closed joints."""
-        joints, closed = self.problem.interface, self.K
-        if joints is not None:
-            R = sp.csr_array(joints.closed_stiffness())
-            closed = sp.csr_array(closed + self.J.T @ R @ self.J)
-        return invert(closed, True, self.problem.solver)
 
     def _lowest(self, static: Inverse) -> float:
         """About the lowest frequency with closed joints, rad/s; infinite if a body is free."""
@@ -354,7 +369,7 @@ class Basis:
         B, sense = d.on(V)
         return ReducedModel(
             self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
-            X.T @ F, X.T @ start, B @ X, sense, self.supports,
+            X.T @ F, X.T @ start, B @ X, sense, self.supports, self.trained,
         )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ import math
 import time
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -32,6 +32,7 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
     refuse_reduction,
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
+from ssilang.kernel.stepping.rests.reduced.trained import Learner, Shelf, trained_basis
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.kernel.stepping.state import closed_tap
@@ -54,6 +55,8 @@ class Pair:
     basis: Basis
     poor: ReducedModel
     rich: ReducedModel
+    ahead: list[Chunk] = field(default_factory=list)
+    """Steps of the poorer one that are done."""
 
     def grow(self) -> None:
         """The richer model becomes the poorer of the next pair.
@@ -108,16 +111,28 @@ def _step_of(problem: Problem) -> float:
 
 def _name_of(problem: Problem) -> str:
     """A digest of all that the basis is made of."""
-    p = problem
-    sparse = [p.K, p.M, p.C, p.constraints.T]
+    p, sparse = problem, list[sp.csr_array]()
     dense = [p.loading.forces, p.u, p.v, p.state, p.loading.at(p.times[:1]), p.times[:1]]
     if p.loading.imposed.any():
         sparse.append(p.constraints.C)
         dense += [p.loading.imposed, p.loading.at(p.times[:2])]
+    return f"{_model_of(p)} {digest(sparse, dense)} {_step_of(p):.9g}"
+
+
+def _model_of(problem: Problem) -> str:
+    """A digest of matrices and joints."""
+    p = problem
+    sparse, dense = [p.K, p.M, p.C, p.constraints.T], list[FloatArray]()
     if p.interface is not None:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
-    return f"{digest(sparse, dense)} {_step_of(p):.9g}"
+    return digest(sparse, dense)
+
+
+def _imposed(problem: Problem) -> bool:
+    """Whether conditions hold the motion elsewhere than at zero."""
+    away = np.abs(problem.constraints.C @ problem.u).max(initial=0.0)
+    return bool(problem.loading.imposed.any() or away > 1e-9 * np.abs(problem.u).max(initial=0.0))
 
 
 @dataclass(eq=False)
@@ -128,6 +143,7 @@ class ReducedIntegration:
     observers: Sequence[Observer]
     progress: Progress | None
     tolerance: float
+    shelf: Shelf | None = None
     lifted: float = 0.0
 
     def run(self) -> History:
@@ -143,7 +159,7 @@ class ReducedIntegration:
         given = Integration(p, self.observers)
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
-        pair = _pair_of(p, self.tolerance)
+        pair = _pair_of(p, self.tolerance) if self.shelf is None else self._trained(self.shelf)
         while True:
             built = time.perf_counter()
             rich, difference, chunks = self._both(pair, wanted)
@@ -157,7 +173,8 @@ class ReducedIntegration:
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
         given.begin()
-        swing = self._swing(pair.poor) if self.lifted > LIFTED else 0.0
+        nested = self.shelf is None and self.lifted > LIFTED
+        swing = self._swing(pair.poor) if nested else 0.0
         self._hand_over(pair.rich, given, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
@@ -168,6 +185,38 @@ class ReducedIntegration:
             ),
         )  # fmt: skip
 
+    def _trained(self, shelf: Shelf) -> Pair:
+        """A trained basis, and the same with the step's answers to what it leaves out of balance.
+
+        Raises
+        ------
+        NoReduction
+            If it is not trained enough, supports move, or steps on it do not converge.
+        """
+        p, ahead = self.problem, list[Chunk]()
+        if _imposed(p):
+            raise NoReduction("kernel.stepping.trained-supports-move")
+        basis = trained_basis(p, _model_of(p), shelf)
+        poor, left = basis.model(), list[FloatArray]()
+        trace = Trace(p, poor, self._sampled)
+        for run in comparing(p.times):
+            chunk = trace.advance(run)
+            if chunk is None:
+                basis.grow()
+            assert chunk is not None
+            left += [-s.reaction for s in expanded(p, poor, chunk, np.arange(len(chunk.steps)))]
+            ahead.append(chunk)
+        basis.answer(np.array(left).T)
+        return Pair(basis, poor, basis.model(), ahead)
+
+    @property
+    def _sampled(self) -> np.ndarray:
+        """Instants (n_times,) at which whole fields are compared."""
+        n = len(self.problem.times)
+        sampled = np.zeros(n, bool)
+        sampled[np.unique(np.linspace(1, n - 1, INSTANTS).round().astype(int))] = True
+        return sampled
+
     def _both(
         self, pair: Pair, wanted: np.ndarray
     ) -> tuple[Trace, Difference | None, list[Chunk] | None]:
@@ -175,15 +224,13 @@ class ReducedIntegration:
 
         The difference is None if one of them did not converge, the chunks if they do not fit.
         """
-        p, n = self.problem, len(self.problem.times)
-        sampled = np.zeros(n, bool)
-        sampled[np.unique(np.linspace(1, n - 1, INSTANTS).round().astype(int))] = True
+        p, n, sampled = self.problem, len(self.problem.times), self._sampled
         fits = 3 * pair.rich.size * int(wanted.sum()) <= MOST_VALUES
         poor = Trace(p, pair.poor, sampled)
         rich = Trace(p, pair.rich, sampled | wanted if fits else sampled)
         difference, chunks = Difference(p), []
         for run in comparing(p.times):
-            a = poor.advance(run)
+            a = pair.ahead.pop(0) if pair.ahead else poor.advance(run)
             b = rich.advance(run) if a is not None else None
             if a is None or b is None:
                 return rich, None, None
@@ -324,6 +371,7 @@ def integrate_reduced(
     tolerance: float,
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
+    shelf: Shelf | None = None,
 ) -> History:
     """Integrate a problem on a reduced basis, or as it is where that does not serve.
 
@@ -332,6 +380,8 @@ def integrate_reduced(
     tolerance : float
         Largest estimated error of displacements and jumps, relative to the largest of the
         motion, between 0 and 1.
+    shelf : Shelf, optional
+        Where a basis stands that whole runs train: this one too, if it is run whole.
 
     Returns
     -------
@@ -352,10 +402,13 @@ def integrate_reduced(
     refuse_reduction(problem)
     started = time.perf_counter()
     try:
-        history = ReducedIntegration(problem, observers, progress, tolerance).run()
+        history = ReducedIntegration(problem, observers, progress, tolerance, shelf).run()
     except NoReduction as reason:
-        spent = time.perf_counter() - started
-        history = integrate(problem, observers, progress)
+        spent, learner = time.perf_counter() - started, Learner(problem)
+        taught = [] if shelf is None else [learner]
+        history = integrate(problem, [*observers, *taught], progress)
+        if shelf is not None and not _imposed(problem):
+            learner.teach(_model_of(problem), shelf)
         history.reduction = Reduction(refused=reason, prepared=spent)
         return history
     except BaseException:

@@ -19,6 +19,7 @@ from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
+from ssilang.kernel.stepping.rests.reduced.coordinates import Coordinates
 from ssilang.kernel.stepping.rests.reduced.loop import (
     Reduced,
     ReducedStep,
@@ -80,7 +81,7 @@ class Trace:
         self.energies[0] = energies
         m = self.model
         self._joints = joints_of(p)
-        self._steps: dict[float, ReducedStep] = {}
+        self._steps: dict[float, ReducedStep | Coordinates] = {}
         q, own = len(m.J), p.loading.forces.shape[1]
         lift = np.zeros((q, m.forces.shape[1]))
         lift[:, lift.shape[1] - m.supports.count :] = m.supports.columns.lift
@@ -108,9 +109,12 @@ class Trace:
         return Chunk(run, to, steps, course)
 
     def _advance(
-        self, step: ReducedStep, factors: FloatArray, to: Recorder
+        self, step: ReducedStep | Coordinates, factors: FloatArray, to: Recorder
     ) -> tuple[int, int, Course | None]:
         """Steps of a motion: number done, most iterations of one, the course of the supports."""
+        if isinstance(step, Coordinates):
+            done, turns, _ = step.run(self.motion, factors, to)
+            return done, turns, None
         n, x, model, supports = step.newmark, self.motion, self.model, self.model.supports
         moving, whole = supports.during(self.problem, n.dt), factors
         course = moving.course(factors[:, moving.chosen], *self._rates)
@@ -133,12 +137,13 @@ class Trace:
         self._rates = np.array([course.v[-1], course.a[-1]])
         return done, turns, course
 
-    def _step(self, dt: float) -> ReducedStep:
+    def _step(self, dt: float) -> ReducedStep | Coordinates:
         """What steps dt need, or known ones that are as long but for rounding."""
         dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
         if dt not in self._steps:
-            n = newmark_of(self.problem.scheme, dt)
-            self._steps[dt] = reduced_step(self._reduced, n, len(self.motion.delta))
+            n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
+            many, m = self.model.trained and q > self.model.size, self._reduced
+            self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
         return self._steps[dt]
 
 

@@ -1,0 +1,179 @@
+"""Bases trained by whole runs, on records that trained nothing, against the whole model."""
+
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.recorder import Recorder
+from references.soil_block import soil_block
+
+from ssilang.io.errors import InputError
+from ssilang.io.training import TrainingFile
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.rests.reduced import trained
+from ssilang.kernel.stepping.rests.reduced.coordinates import Coordinates
+from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+from ssilang.kernel.stepping.rests.reduced.trace import Trace, comparing
+from ssilang.kernel.stepping.run import integrate
+
+STEPS, SIZE = 150, (16, 6, 8)
+
+
+def relative(found, exact):
+    return float(np.abs(found - exact).max() / np.abs(exact).max())
+
+
+def record(seed, **given):
+    """The block on its soil between absorbing edges, under six sines of a seed."""
+    problem = soil_block(**{"steps": STEPS, "size": SIZE, **given})
+    numbering = problem.numbering
+    x = numbering.table.coordinates[numbering.nodes, 0]
+    edge = np.where(np.abs(np.abs(x) - SIZE[0] / 2) < 1e-9, 5e5, 0.0)
+    random, (t, _) = np.random.default_rng(seed), problem.loading.curves[1]
+    waves = [
+        random.uniform(1, 3) * np.sin(2 * np.pi * f * t + random.uniform(0, 6))
+        for f in random.uniform(0.8, 4, 6)
+    ]
+    curve = (t, sum(waves) * np.minimum(1.0, t / 0.2))
+    loading = replace(problem.loading, curves=(problem.loading.curves[0], curve))
+    return replace(problem, loading=loading, C=sp.csr_array(problem.C + sp.diags_array(edge)))
+
+
+@pytest.fixture(scope="module")
+def suite(tmp_path_factory):
+    """A basis of 60 vectors that three records have trained."""
+    file = TrainingFile(tmp_path_factory.mktemp("suite") / "basis.npz")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(trained, "VECTORS", 60)
+        patch.setattr(trained, "FEWEST", 4)
+        for seed in (1, 2, 3):
+            history = integrate_reduced(record(seed), 5e-2, shelf=file)
+            assert history.loop == "condensed"
+    assert len(file.read().taught) == 3
+    return file
+
+
+def copy_of(file, folder):
+    path = folder / "basis.npz"
+    path.write_bytes(file.path.read_bytes())
+    return TrainingFile(path)
+
+
+def test_a_record_that_trained_nothing_is_within_its_estimate(suite):
+    problem, stamp = record(4), suite.stamp()
+    whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
+    exact = integrate(problem, [whole])
+    history = integrate_reduced(problem, 5e-2, [found], shelf=suite)
+    assert (history.loop, suite.stamp()) == ("reduced", stamp)
+    assert found.closed
+    assert whole.of("w")[..., 1].max() > 1e-3  # it lifts off
+    errors = [relative(found.of(x), whole.of(x)) for x in ("u", "w")]
+    assert 1e-6 < max(errors) <= 1.2 * history.reduction.estimate <= 6e-2
+    scale = np.abs(exact.energies).max()
+    assert np.abs(history.energies - exact.energies).max() <= 5e-2 * scale
+    assert np.abs(history.imbalance - exact.imbalance).max() <= 1e-2 * scale
+
+
+def test_newton_on_the_coordinates_steps_as_the_condensed_interface(suite):
+    problem = record(5)
+    basis = trained.TrainedBasis(problem, suite.read())
+    basis.meet(problem)
+    model, joints = basis.model(), problem.interface.points
+    one, two = (Trace(problem, model, np.ones(STEPS + 1, bool)) for _ in range(2))
+    for run in comparing(problem.times):
+        step = Coordinates(two._reduced, newmark_of(problem.scheme, run.dt), joints)
+        two._steps[run.dt] = step
+        a, b = one.advance(run), two.advance(run)
+        for name in ("u", "w", "t", "state", "jumps"):
+            assert relative(getattr(b.rows, name), getattr(a.rows, name)) < 1e-7
+    assert relative(two.energies, one.energies) < 1e-8
+
+
+def test_more_joints_than_vectors(suite, monkeypatch, tmp_path):
+    """Vectors cut to fewer than the unknowns of the joints: both ways of stepping meet."""
+    few = replace(suite.read(), vectors=suite.read().vectors[-12:])
+    file = TrainingFile(tmp_path / "few.npz")
+    file.write(few)
+    problem = record(4)
+    whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
+    integrate(problem, [whole])
+    history = integrate_reduced(problem, 0.9, [found], shelf=file)
+    assert history.loop == "reduced"
+    assert relative(found.of("w"), whole.of("w")) <= 1.2 * history.reduction.estimate
+
+
+def test_beyond_the_tolerance_a_record_runs_whole_and_trains(suite, tmp_path):
+    file, problem = copy_of(suite, tmp_path), record(6)
+    whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
+    integrate(problem, [whole])
+    history = integrate_reduced(problem, 1e-9, [found], shelf=file)
+    said = str(history.reduction.refused)
+    assert "trained by 3 records does not reach the tolerance (estimated error" in said
+    np.testing.assert_array_equal(found.of("u"), whole.of("u"))
+    assert len(file.read().taught) == 4
+    assert integrate_reduced(problem, 5e-2, shelf=file).loop == "reduced"
+
+
+def test_one_record_does_not_train(tmp_path):
+    file = TrainingFile(tmp_path / "one.npz")
+    for count in ("0 records", "1 record,", "1 record,"):
+        history = integrate_reduced(record(1), 0.5, shelf=file)
+        assert count in str(history.reduction.refused)
+    assert len(file.read().taught) == 1
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"size": (18, 6, 8)}, "another mesh"),
+        ({"joint": {"KN": 1e8, "KS": 1e8, "FROT": 0.6}}, "other joints"),
+        ({"dt": 4e-3}, "with the step 0.005, not 0.004"),
+    ],
+)
+def test_a_basis_of_another_model_or_step_is_refused(suite, given, told):
+    before = suite.path.read_bytes()
+    with pytest.raises(KernelError, match=f"basis.npz was trained .*{told}"):
+        integrate_reduced(record(4, **given), 5e-2, shelf=suite)
+    assert suite.path.read_bytes() == before
+
+
+def test_a_file_that_is_no_basis_is_told(tmp_path):
+    file = TrainingFile(tmp_path / "other.npz")
+    file.path.write_bytes(b"PK\x03\x04 no arrays")
+    with pytest.raises(InputError, match=r"other\.npz is damaged"):
+        integrate_reduced(record(4), 5e-2, shelf=file)
+
+
+@pytest.mark.parametrize("cut", [np.s_[0], np.s_[:, 1:], np.s_[:, :, None]])
+def test_a_file_of_other_shapes_is_told(suite, cut, tmp_path):
+    file, sound = TrainingFile(tmp_path / "other.npz"), suite.read()
+    file.write(replace(sound, vectors=sound.vectors[cut]))
+    with pytest.raises((InputError, KernelError), match=r"other\.npz is damaged: .*vectors \("):
+        integrate_reduced(record(4), 5e-2, shelf=file)
+
+
+def test_runs_that_end_together_lose_no_training(suite, tmp_path):
+    """One waits for the other, and reads what that has written."""
+    file, problem, sound = copy_of(suite, tmp_path), record(7), suite.read()
+    learner = trained.Learner(problem)
+    integrate(problem, [learner])
+    with ThreadPoolExecutor(1) as pool:
+        with file.held():
+            other = pool.submit(learner.teach, sound.model, file)
+            assert wait([other], 1.0).not_done
+            file.write(replace(sound, taught=(*sound.taught, "another")))
+        other.result()
+    assert file.read().taught[3] == "another"
+    assert len(file.read().taught) == 5
+    assert [path.name for path in tmp_path.iterdir()] == ["basis.npz"]
+
+
+def test_supports_that_move_run_whole_and_train_nothing(suite):
+    problem, stamp = soil_block(steps=STEPS, size=SIZE), suite.stamp()
+    problem.u[:] = problem.constraints.particular(np.full(problem.constraints.C.shape[0], 1e-3))
+    history = integrate_reduced(problem, 5e-2, shelf=suite)
+    assert "a trained basis does not describe" in str(history.reduction.refused)
+    assert (history.loop, suite.stamp()) == ("condensed", stamp)
