@@ -106,6 +106,12 @@ def test_warns(text, code):
     assert problems[0].severity == "warning"
 
 
+@pytest.mark.parametrize("given", ["SI (Y > 0.) ; {} FINSI ;", "SI (X > 0.) ; FINSI ; {}", "{}"])
+def test_values_known_where_no_condition_asks_for_them_are_checked(given):
+    entry = given.format("T . 'REDUCTION' = X ;")
+    assert "entry-out-of-range" in codes(f"X = 0. ; Y = 1. ; T = TABL ; {entry} DYNAMIC T ;")
+
+
 def test_several_errors_in_one_pass():
     found = codes("X = PORG 1. ;\nY = 1 + VRAI ;\nSI 3 ; MESS X Y ; FINSI ;\nZ = -Y ; MESS Z ;\n")
     assert found == ["unknown-operator", "no-rule", "condition", "two-operands"]
@@ -145,6 +151,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
         f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
+        "X = 0. ; T = TABL ; SI (X > 0.) ; T . 'REDUCTION' = X ; FINSI ; DYNAMIC T ;",
     ],
 )
 def test_raises_no_false_alarm(text):

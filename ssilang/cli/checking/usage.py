@@ -59,7 +59,7 @@ def misspelt_names(
     found: dict[str, SsiError] = {}
     long_names = [n for n in names if len(n) >= _SHORTEST and n[0] != "&"]
     for statement in statements_of(script.body):
-        for item in _bare_names(statement.items[1:] if not statement.assigns else statement.items):
+        for item in bare_names(statement.items[1:] if not statement.assigns else statement.items):
             if len(item.text) < _SHORTEST or item.text in names or item.text[:4] in words:
                 continue
             near = nearest(item.text, long_names, VERY_LIKE)
@@ -72,7 +72,7 @@ def misspelt_names(
     return list(found.values())
 
 
-def _bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:
+def bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:
     """Names that stand as operands, not as indices of tables, nor before the lists of `EVOL`."""
     said = [i.text.upper()[:4] for i in items if isinstance(i, tree.Quoted | tree.Name)]
     free = "EVOL" in said and bool({"MANU", "COMP"} & {*said})
@@ -81,9 +81,9 @@ def _bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:
             if not free or item is items[-1] or isinstance(items[place + 1], tree.Symbol):
                 yield item
         elif isinstance(item, tree.Paren):
-            yield from _bare_names(item.items)
+            yield from bare_names(item.items)
         elif isinstance(item, tree.Path):
-            yield from _bare_names([item.base, *(i for i in item.indices if _is_paren(i))])
+            yield from bare_names([item.base, *(i for i in item.indices if _is_paren(i))])
 
 
 def _is_paren(item: tree.Item) -> bool:

@@ -11,7 +11,7 @@ from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
-from ssilang.cli.checking.usage import misspelt_names, unused_names
+from ssilang.cli.checking.usage import bare_names, misspelt_names, unused_names
 from ssilang.cli.checking.words import misspelt_words
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language import vocabulary
@@ -106,10 +106,15 @@ class Checker:
             self._condition(node, scope)
         except SsiError as error:
             self._report(error)
+        # a branch is taken where what it asks holds: there, numbers from before may be others
+        names = [n.text for n in bare_names(node.condition.items)]
+        asked = {n: v for n in names if isinstance(v := scope.values.get(n), int | float)}
+        scope.values.update({n: typed(kind_word(v)) for n, v in asked.items()})
         other = scope.copy()
         self._walk(node.then, scope)
         self._walk(node.otherwise, other)
         scope.join(other)
+        scope.values.update({n: asked[n] for n in asked.keys() - assigned_names([node])})
 
     def _condition(self, node: tree.If, scope: Scope) -> None:
         left = self.phrases.read(node.condition.items, scope, node.condition.span)
