@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -75,7 +75,7 @@ class TrainingFile:
 
 def _hold(path: Path) -> RunLock | None:
     """Wait for a lock; None where there are none."""
-    try:
+    with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         while True:
             found = RunLock(path, os.open(path, os.O_RDWR | os.O_CREAT | GUARDED, 0o666))
@@ -89,5 +89,4 @@ def _hold(path: Path) -> RunLock | None:
                 os.close(found.handle)
                 return None
             os.close(found.handle)
-    except OSError:
-        return None
+    return None

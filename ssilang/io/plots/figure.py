@@ -186,10 +186,9 @@ def _number_plainly(figure: Figure) -> None:
         def __call__(self, x: float, pos: int | None = None) -> str:
             return super().__call__(x, pos).removeprefix(r"$\mathdefault{").removesuffix("}$")
 
-    for axes in figure.axes:
-        for axis in (axes.xaxis, axes.yaxis):
-            if type(axis.get_major_formatter()) is ScalarFormatter:
-                axis.set_major_formatter(Plain())
+    for axis in (a for axes in figure.axes for a in (axes.xaxis, axes.yaxis)):
+        if type(axis.get_major_formatter()) is ScalarFormatter:
+            axis.set_major_formatter(Plain())
 
 
 def slug(title: str) -> str:

@@ -72,8 +72,7 @@ def held_nowhere(matrix: Matrix) -> set[str]:
         several = np.repeat(np.diff(r.row_start) > 1, np.diff(r.row_start))
         known |= set(np.array(r.unknowns)[several])
         alone |= set(np.array(r.unknowns)[~several])
-    made = matrix.blocks and all(b.zone for b in matrix.blocks)
-    return alone - known if made else set()
+    return alone - known if matrix.blocks and all(b.zone for b in matrix.blocks) else set()
 
 
 def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:

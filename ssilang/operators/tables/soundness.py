@@ -15,6 +15,8 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.values import ListReel
 
+Field = NodeField | CellField
+
 
 def flaw_of(value: object) -> str:
     """Code of the refusal of a value, '' if it is sound."""
@@ -30,9 +32,12 @@ def apart(values: Sequence[object]) -> list[Any]:
     model = next((v for v in values if isinstance(v, Model) and v.zones), None)
     if model is None:
         return []
-    nodes = model.mesh.sorted_node_ids
-    fields = [v for v in values if isinstance(v, NodeField | CellField) and _nodes_of(v)]
-    return [f for f in fields if not any(np.isin(n, nodes).any() for n in _nodes_of(f))]
+    own = {id(z.cells) for z in model.zones}
+    lying = [(f, n) for f in values if isinstance(f, Field) and (n := _nodes_of(f, own))]
+    reached = np.zeros(len(model.mesh.nodes), bool)
+    for block in model.mesh.blocks if lying else ():
+        reached[block.connectivity] = True
+    return [f for f, nodes in lying if not any(reached[n].any() for n in nodes)]
 
 
 def other_values(first: CellField, second: CellField) -> list[str]:
@@ -47,9 +52,11 @@ def other_values(first: CellField, second: CellField) -> list[str]:
     ]
 
 
-def _nodes_of(field: NodeField | CellField) -> list[Any]:
+def _nodes_of(field: Field, own: set[int]) -> list[Any]:
+    """Nodes of a field; none are looked for where it plainly stands in some cells of its model."""
     if isinstance(field, CellField):
-        return [b.cells.connectivity for b in field.blocks]
+        inside = any(id(b.cells) in own for b in field.blocks)
+        return [] if inside else [b.cells.connectivity for b in field.blocks]
     return [part.nodes for part in field.after_merges().components.values()]
 
 

@@ -200,10 +200,8 @@ class ReducedIntegration:
         poor, left = basis.model(), list[FloatArray]()
         trace = Trace(p, poor, self._sampled)
         for run in comparing(p.times):
-            chunk = trace.advance(run)
-            if chunk is None:
-                basis.grow()
-            assert chunk is not None
+            if (chunk := trace.advance(run)) is None:
+                raise NoReduction("kernel.stepping.training-inexact", records=basis.records)
             left += [-s.reaction for s in expanded(p, poor, chunk, np.arange(len(chunk.steps)))]
             ahead.append(chunk)
         basis.answer(np.array(left).T)
