@@ -35,7 +35,19 @@ def mapped(function: Function, value: Any) -> Any:
     if isinstance(value, NodeField):
         return node_algebra.applied(value, function)
     assert isinstance(value, CellField)
-    return cell_algebra.applied(value, function)
+    return cell_algebra.applied(value, lambda x: _of_cells(function, x), objects=True)
+
+
+def _of_cells(function: Function, values: Any) -> Any:
+    """The function of what cells hold: numbers, or curves and lists one by one."""
+    if values.dtype != object:
+        return function(values)
+    made = np.empty_like(values)
+    for place, held in np.ndenumerate(values):
+        if not isinstance(held, Curve | ListReel | ListEnti):
+            raise KernelError("operators.numbers.no-function-of", kind=type_of(held))
+        made[place] = mapped(function, held)
+    return made
 
 
 def _within(name: str, function: Function, low: float, high: float, strict: bool) -> Function:
