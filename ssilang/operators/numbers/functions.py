@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -79,26 +80,15 @@ def _degrees(function: Function) -> Function:
     return lambda x: np.degrees(function(x))
 
 
-def _of_degrees(function: Function) -> Function:
-    return lambda x: function(np.radians(x))
-
-
 def _exponential(x: Any) -> Any:
     if np.any(np.asarray(x) > 709.7):
         raise KernelError("operators.numbers.exp-too-large", x=np.max(x))
     return np.exp(x)
 
 
-def _erf(x: Any) -> Any:
-    from scipy.special import erf
-
-    return erf(x)
-
-
-def _erfc(x: Any) -> Any:
-    from scipy.special import erfc
-
-    return erfc(x)
+def _special(name: str) -> Function:
+    """A function of scipy, which is imported when it is first used."""
+    return lambda x: getattr(import_module("scipy.special"), name)(x)
 
 
 def _sign(x: Any) -> Any:
@@ -109,9 +99,9 @@ def _sign(x: Any) -> Any:
 _FUNCTIONS: dict[str, Function] = {
     "ABS": np.abs,
     "SIGN": _sign,
-    "SIN": _of_degrees(np.sin),
-    "COS": _of_degrees(np.cos),
-    "TAN": _of_degrees(np.tan),
+    "SIN": lambda x: np.sin(np.radians(x)),
+    "COS": lambda x: np.cos(np.radians(x)),
+    "TAN": lambda x: np.tan(np.radians(x)),
     "ASIN": _degrees(_within("ASIN", np.arcsin, -1, 1, False)),
     "ACOS": _degrees(_within("ACOS", np.arccos, -1, 1, False)),
     "SINH": np.sinh,
@@ -122,8 +112,8 @@ _FUNCTIONS: dict[str, Function] = {
     "ATAH": _within("ATAH", np.arctanh, -1, 1, False),
     "EXP": _exponential,
     "LOG": _within("LOG", np.log, 0, np.inf, True),
-    "ERF": _erf,
-    "ERFC": _erfc,
+    "ERF": _special("erf"),
+    "ERFC": _special("erfc"),
 }
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
@@ -171,9 +161,7 @@ def atg(
 ) -> Any:
     """Arc tangent of one or two objects."""
     if second is None:
-        value = float(first) if isinstance(first, int) else first
-        value = ListReel(value.values) if isinstance(value, ListEnti) else value
-        return mapped(_degrees(np.arctan), value)
+        return _run("ATG", _degrees(np.arctan), first)
     if isinstance(first, int | float) and isinstance(second, int | float):
         return float(np.degrees(np.arctan2(first, second)))
     if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):
