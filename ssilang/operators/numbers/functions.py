@@ -55,9 +55,8 @@ def _within(name: str, function: Function, low: float, high: float, strict: bool
     """A function that refuses arguments outside of an interval."""
 
     def run(x: Any) -> Any:
-        slack = 0.0 if strict else 1e-12
-        bad = (x <= low) if strict else (x < low - slack)
-        bad = bad | (x > high + slack) | np.isnan(x)
+        bad = (x <= low) if strict else (x < low - 1e-12)
+        bad = bad | (x > high + 1e-12) | np.isnan(x)
         if np.any(bad):
             worst = np.atleast_1d(x)[np.atleast_1d(bad)][0]
             raise _outside(name, worst, low, high, strict)
@@ -123,11 +122,8 @@ _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
 def _run(name: str, function: Function, value: Any) -> Any:
-    if name not in _INTEGERS_STAY:
-        if isinstance(value, int):
-            value = float(value)
-        elif isinstance(value, ListEnti):
-            value = ListReel(value.values)
+    if name not in _INTEGERS_STAY and isinstance(value, int | ListEnti):
+        value = float(value) if isinstance(value, int) else ListReel(value.values)
     return mapped(function, value)
 
 
@@ -203,5 +199,4 @@ def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellFiel
 
 def _part(block: CellFieldBlock, name: str) -> Any:
     """A component of a block, zero where it is absent."""
-    values = block.components.get(name)
-    return np.zeros((1, 1)) if values is None else cell_algebra.numeric(name, values)
+    return cell_algebra.numeric(name, block.components.get(name, np.zeros((1, 1))))
