@@ -16,9 +16,9 @@ from ssilang.io.plots.labels import Annotation, Category
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import visible_faces
-from ssilang.io.plots.scene import draw_scene
+from ssilang.io.plots.scene import draw_scene, sheet_bounds
 from ssilang.io.plots.values import VON_MISES, component_names, values_on
-from ssilang.io.plots.view import Plane, view_along
+from ssilang.io.plots.view import Plane, plane_view, view_along
 from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart
@@ -356,3 +356,15 @@ def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
     expected = choose_levels(np.array([-3.0]), None, np.array([-4.0, -2.0, 0.0]))
     shown = np.isclose(low, expected.rgba(np.array([-3.0]))).all(axis=1)
     assert max(w for w, s in zip(wide, shown, strict=True) if s) > 3
+
+
+@pytest.mark.parametrize("how", ["bounds", "frame", "own"])
+def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
+    """Bounds as they are; what is framed, or all that is drawn, with a twentieth around it."""
+    small, large = grid(2, 2.0), grid(3, 4.0)
+    given = np.array([[-1.0, 2.0], [7.0, 5.0]])
+    options = {"bounds": {"bounds": given, "frame": small}, "frame": {"frame": small}}.get(how, {})
+    found = sheet_bounds([Layer(small), Layer(large)], None, plane_view(), PictureOptions(**options))
+    size = {"frame": 2.0, "own": 4.0}.get(how, 0.0)
+    wanted = given if how == "bounds" else [[-0.05 * size] * 2, [1.05 * size] * 2]
+    np.testing.assert_allclose(found, wanted)
