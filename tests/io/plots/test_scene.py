@@ -364,7 +364,9 @@ def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
     small, large = grid(2, 2.0), grid(3, 4.0)
     given = np.array([[-1.0, 2.0], [7.0, 5.0]])
     options = {"bounds": {"bounds": given, "frame": small}, "frame": {"frame": small}}.get(how, {})
-    found = sheet_bounds([Layer(small), Layer(large)], None, plane_view(), PictureOptions(**options))
+    found = sheet_bounds(
+        [Layer(small), Layer(large)], None, plane_view(), PictureOptions(**options)
+    )
     size = {"frame": 2.0, "own": 4.0}.get(how, 0.0)
     wanted = given if how == "bounds" else [[-0.05 * size] * 2, [1.05 * size] * 2]
     np.testing.assert_allclose(found, wanted)
