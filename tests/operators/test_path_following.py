@@ -209,7 +209,8 @@ def test_every_zone_with_strains_is_looked_at_whatever_stands_before_it(tmp_path
     text = """OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ;
     S = L TRAN 2 (0. 1.) ; J = RACC 1.E-6 L (L PLUS (0. 0.)) ; B = DROI 1 P (0. 3.) ;
     M = (MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2') ET
-      (MODE (MANU 'POI1' P) 'MECANIQUE' 'ELASTIQUE' 'MODAL') ET (MODE S 'MECANIQUE' 'ELASTIQUE') ET (MODE B 'MECANIQUE' 'ELASTIQUE' 'BARR') ;"""
+      (MODE (MANU 'POI1' P) 'MECANIQUE' 'ELASTIQUE' 'MODAL') ET
+      (MODE S 'MECANIQUE' 'ELASTIQUE') ET (MODE B 'MECANIQUE' 'ELASTIQUE' 'BARR') ;"""
     find = ran(text, tmp_path).session.root.find
     for region, kept in (
         (None, [[True] * 4, [True]]),
