@@ -207,6 +207,20 @@ def test_tables_and_cards_hold_what_the_summary_holds(tmp_path: Path) -> None:
     assert "0.7 kB" in page
 
 
+def test_pictures_are_held_as_long_as_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ssilang.report.page.PICTURES", 10)
+    results = _results(tmp_path)
+    results.pictures[:] = [tmp_path / f"{n}.png" for n in ("b", "a", "gone", "e", "c")]
+    for name, size in (("b", 6), ("a", 5), ("e", 0), ("c", 4)):
+        (tmp_path / f"{name}.png").write_bytes(name.encode() * size)
+    page = page_of(results, "en", lambda text: [])
+    held = re.findall('<img alt="(.*?)" src="data:image/png;base64,(.*?)">', page)
+    assert [(n, base64.b64decode(d)) for n, d in held] == [("b.png", b"bbbbbb"), ("c.png", b"cccc")]
+    assert TOLD("report.pictures-left", count=3) in page
+
+
 def test_a_deck_is_shown_as_it_is_written() -> None:
     deck = "A = 1 ;\n* <b>\n\nTITR 'two\nlines' ;"
     at = deck.index("'two")
