@@ -1,6 +1,7 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
 import io
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from ssilang.io.errors import OutputError
+from ssilang.io.plots.annotations import Labels
 from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import behind, section_of
@@ -370,3 +372,19 @@ def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
     size = {"frame": 2.0, "own": 4.0}.get(how, 0.0)
     wanted = given if how == "bounds" else [[-0.05 * size] * 2, [1.05 * size] * 2]
     np.testing.assert_allclose(found, wanted)
+
+
+def test_labels_that_are_seen_are_written_where_they_stand_up_to_so_many(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ssilang.io.plots.annotations._MOST_LABELS", 2)
+    places, view = np.arange(15.0).reshape(5, 3), view_along(np.array([0.0, 0.0, 1.0]))
+    made, written = Labels(view), []
+    made.add(places, list("abcde"), "red", 5)
+    axes = SimpleNamespace(text=lambda x, y, t, **how: written.append((x, y, t, how["fontsize"])))
+    photograph = SimpleNamespace(shows=lambda flat, depth, bounds: np.array([0, 1, 0, 1, 1], bool))
+    flat = view.project(places)
+    for seen, rows in ((None, (0, 1)), (photograph, (1, 3))):
+        written.clear()
+        made.write(axes, seen, np.zeros((2, 2)))
+        assert written == [(*flat[i], "abcde"[i], 5) for i in rows]
