@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from hypothesis import Phase, given, settings
-from references.awkward import LINES, POINTS, PUSH, problems
+from references.awkward import LINES, POINTS, PUSH, Awkward, problems
 from references.recorder import Recorder
 
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
@@ -50,19 +51,31 @@ def forced(patch, rule):
     """A loop for all problems; those of large ones take them for large."""
     patch.setattr(choose, "RULES", choose.only(rule.partition(",")[0]))
     patch.setattr(hierarchy, "COARSEST", 6)  # several levels
-    if LARGE.items() <= LOOPS[rule].items():
+    if rule == "adaptive, large":
+        patch.setattr(choose.Case, "dense", property(lambda _: False))
+    if LARGE.items() <= LOOPS.get(rule, {}).items():
         patch.setattr(effective, "SMALL", 0)
         patch.setattr(problem_module, "SMALL", 0)
 
 
-def run(awkward, rule):
-    """A problem, its history and instants."""
+def run(awkward, rule, lost=None):
+    """A problem, its history and instants; from the step `lost` on its loads are no numbers."""
     with pytest.MonkeyPatch.context() as patch:
         forced(patch, rule)
         problem = awkward.problem()
         if rule == "multigrid":
             problem = replace(problem, solver=Solver(rule))
+        if rule.startswith("adaptive"):
+            problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
         recorder = Recorder(len(problem.times))
+        if lost:
+            late = np.arange(len(problem.times)) >= lost
+            curves = tuple((x, np.where(late, np.nan, y)) for x, y in problem.loading.curves)
+            problem = replace(problem, loading=replace(problem.loading, curves=curves))
+            with pytest.raises(ConvergenceError) as failed:
+                integrate(problem, [recorder], full_newton=rule == "full Newton")
+            assert recorder.closed
+            return failed.value.data, problem.times, len(recorder.snapshots)
         history = integrate(problem, [recorder], full_newton=rule == "full Newton")
     assert history.loop == choose.rule_named(rule.partition(",")[0]).loop
     return problem, problem.times, history.energies, recorder.snapshots
@@ -91,6 +104,23 @@ def joints_at(interface, u, state):
         )
     )
     return w, t, new, interface.J.T @ force.ravel(), energies
+
+
+def check_fields(problem, now):
+    """Reactions and LX go by the rows that scripts have; for schemes that balance instants."""
+    contact, push = problem.contact, np.abs(now.reaction).max()
+    fields = (now.displacement, now.velocity, now.acceleration, now.reactions)
+    vectors = (now.u, now.v, now.a, now.reaction)
+    for names in (("UX", "FX"), ("UY", "FY")):
+        at = problem.numbering.where(names[0])
+        for field, values in zip(fields, vectors, strict=True):
+            found = field.values_at(names[field is fields[3]], problem.numbering.nodes[at])
+            near(found, values[at], np.abs(values).max())
+    rows, nodes = problem.constraints.C.toarray(), problem.multipliers
+    if contact is not None:
+        rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
+        nodes = np.concatenate([nodes, contact.multipliers])
+    near(-now.displacement.values_at("LX", nodes) @ rows, now.reaction, push)
 
 
 def check_steps(problem, times, energies, instants, static=False):
@@ -162,9 +192,19 @@ def test_steps_are_those_of_the_equations(loop):
     @settings(BRIEF)
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
-        check_steps(*run(awkward, loop))
+        problem, *_, instants = made = run(awkward, loop)
+        check_steps(*made)
+        if not (problem.scheme.alpha_m or problem.scheme.alpha_f):
+            check_fields(problem, instants[-1])
 
     holds()
+
+
+@pytest.mark.parametrize("lost", [1, 21])
+@pytest.mark.parametrize("loop", [*[*LOOPS][:-1], "adaptive", "adaptive, large"])
+def test_a_step_without_an_answer_is_told_and_those_before_it_are_handed_over(loop, lost):
+    told, times, instants = run(Awkward(3, **LOOPS.get(loop, {})), loop, lost)
+    assert (told["step"], told["time"], instants) == (lost, times[lost], lost)
 
 
 @pytest.mark.parametrize(
