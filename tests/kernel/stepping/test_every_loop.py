@@ -12,12 +12,15 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from hypothesis import Phase, given, settings
-from references.awkward import LINES, POINTS, PUSH, Awkward, problems
+from references.awkward import LINES, POINTS, PUSH, UNITS, Awkward, problems
 from references.recorder import Recorder
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
+from ssilang.kernel.plasticity.bulk import Bulk
+from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy
 from ssilang.kernel.statics.stepping import step_statics
@@ -123,8 +126,11 @@ def check_fields(problem, now):
     near(-now.displacement.values_at("LX", nodes) @ rows, now.reaction, push)
 
 
-def check_steps(problem, times, energies, instants, static=False):
-    """All that a step is made of, at every step; `static` ones are in balance without inertia."""
+def check_steps(problem, times, energies, instants, static=False, follows=None):
+    """All that a step is made of, at every step; `static` ones are in balance without inertia.
+
+    `follows(t, u)` are loads (n,) beside those of the problem.
+    """
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
     G = np.zeros((0, len(K))) if p.contact is None else p.contact.G.toarray()
@@ -133,6 +139,8 @@ def check_steps(problem, times, energies, instants, static=False):
     free = la.null_space(rows)
     factors = np.stack([np.interp(times, x, y) for x, y in p.loading.curves], axis=1)
     F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
+    if follows:
+        F = F + np.array([follows(t, i.u) for t, i in zip(times, instants, strict=True)])
     state, before, was = p.state, None, None
     u, v, a = (np.array([getattr(i, n) for i in instants]) for n in "uva")
     sizes = [np.abs(x).max() for x in (u, v, a)]
@@ -223,6 +231,38 @@ def test_load_steps_are_equilibria(solver, unilateral):
             patch.setattr(hierarchy, "COARSEST", 6)
             history = step_statics(problem, [recorder])
         check_steps(problem, problem.times, history.energies, recorder.snapshots, static=True)
+
+    holds()
+
+
+@pytest.mark.parametrize("unilateral", [False, True])
+@pytest.mark.parametrize("static", [False, True])
+def test_steps_under_loads_that_follow_are_those_of_the_equations(static, unilateral):
+    """Loads that neighbours turn and that change with time, by Newton's method of bodies."""
+
+    @settings(BRIEF, max_examples=3)
+    @given(problems(steps=20, unilateral=unilateral))
+    def holds(awkward):
+        problem = awkward.problem()
+        force, length = UNITS[awkward.units]
+        n = problem.numbering.size
+        own = np.random.default_rng(1).uniform(1.0, 2.0, n) * force / length
+
+        hard = 2e2 if static and unilateral else 2e3
+
+        def follows(time, u):
+            x = u / (1e-3 * length)
+            return -hard * own * u * (x + 2.0 * np.roll(x, 1)) ** 2 * (1.0 + 5.0 * time)
+
+        bulk = loaded_bulk(
+            Bulk((), (), n), lambda t, u: Added(follows(t, u)), np.full(n, 1e-7 * length), 1e-7,
+            None, "",
+        )  # fmt: skip
+        recorder = Recorder(len(problem.times))
+        state = bulk.begin((), problem.u, 0.0)
+        history = run_bulk(problem, bulk, state, [recorder], dynamic=not static)
+        instants = recorder.snapshots
+        check_steps(problem, problem.times, history.energies, instants, static, follows)
 
     holds()
 
