@@ -7,6 +7,7 @@ step says that the step is right, whatever way led to it.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -16,11 +17,14 @@ from references.awkward import LINES, POINTS, PUSH, UNITS, Awkward, problems
 from references.recorder import Recorder
 
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
+from ssilang.kernel.plasticity.arc_length import follow_arc
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.run import run_bulk
+from ssilang.kernel.plasticity.driven_load import follow_directions, follow_time, history_of
+from ssilang.kernel.plasticity.run import BulkRun, run_bulk
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy
 from ssilang.kernel.statics.stepping import step_statics
@@ -235,29 +239,30 @@ def test_load_steps_are_equilibria(solver, unilateral):
     holds()
 
 
+def following_bulk(problem, force, length, hard=2e3, late=5.0):
+    """Bodies whose loads (n,) neighbours turn and time changes, and these loads."""
+    n = problem.numbering.size
+    own = np.random.default_rng(1).uniform(1.0, 2.0, n) * hard * force / length
+
+    def follows(time, u):
+        x = u / (1e-3 * length)
+        return -own * u * (x + 2.0 * np.roll(x, 1)) ** 2 * (1.0 + late * time)
+
+    law, shifts = (lambda t, u: Added(follows(t, u))), np.full(n, 1e-7 * length)
+    return loaded_bulk(Bulk((), (), n), law, shifts, 1e-7, None, ""), follows
+
+
 @pytest.mark.parametrize("unilateral", [False, True])
 @pytest.mark.parametrize("static", [False, True])
 def test_steps_under_loads_that_follow_are_those_of_the_equations(static, unilateral):
-    """Loads that neighbours turn and that change with time, by Newton's method of bodies."""
+    """By Newton's method of bodies."""
 
     @settings(BRIEF, max_examples=3)
     @given(problems(steps=20, unilateral=unilateral))
     def holds(awkward):
         problem = awkward.problem()
-        force, length = UNITS[awkward.units]
-        n = problem.numbering.size
-        own = np.random.default_rng(1).uniform(1.0, 2.0, n) * force / length
-
         hard = 2e2 if static and unilateral else 2e3
-
-        def follows(time, u):
-            x = u / (1e-3 * length)
-            return -hard * own * u * (x + 2.0 * np.roll(x, 1)) ** 2 * (1.0 + 5.0 * time)
-
-        bulk = loaded_bulk(
-            Bulk((), (), n), lambda t, u: Added(follows(t, u)), np.full(n, 1e-7 * length), 1e-7,
-            None, "",
-        )  # fmt: skip
+        bulk, follows = following_bulk(problem, *UNITS[awkward.units], hard)
         recorder = Recorder(len(problem.times))
         state = bulk.begin((), problem.u, 0.0)
         history = run_bulk(problem, bulk, state, [recorder], dynamic=not static)
@@ -265,6 +270,43 @@ def test_steps_under_loads_that_follow_are_those_of_the_equations(static, unilat
         check_steps(problem, problem.times, history.energies, instants, static, follows)
 
     holds()
+
+
+def a_share(split, share, by):
+    """The parameter for which the third unknown goes on by so much; < 0: the way of the load."""
+    by = by if by > 0.0 else -by * np.sign(split.unit[2])
+    return [(share * by - split.du[2] - split.rest[2]) / split.unit[2]]
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+@pytest.mark.parametrize("way", ["directions", "time", "arc"])
+def test_steps_along_a_path_are_equilibria_under_the_loads_found(way, seed):
+    """An unknown goes by what is asked, or steps have a length; neighbours turn the loads."""
+    awkward = Awkward(seed, moving=way != "directions", line_laws=LINES[:1], steps=12, units=seed)
+    problem, (force, length) = awkward.problem(), UNITS[awkward.units]
+    ends, loading = problem.times[[0, -1]], problem.loading
+    curves = tuple((ends, np.array([0.0, k + 1.0])) for k in range(len(loading.curves)))
+    problem = replace(problem, loading=replace(loading, curves=curves))
+    late = 0.0 if way == "arc" else 5.0  # arcs know of no load that time changes but its curves
+    bulk, follows = following_bulk(problem, force, length, late=late)
+    recorder, by = Recorder(40), 3e-4 * length
+    run = BulkRun(problem, bulk, bulk.begin((), problem.u, 0.0), (recorder,))
+    if way == "directions":
+        asked = by * np.linspace(0.5, 1.5, 12)
+        path, trace = follow_directions(run, 1, asked, lambda x: partial(a_share, by=x))
+        curves = (*curves[:-1], (problem.times, np.array(trace.parameters)))
+        near(np.diff(recorder.of("u")[:, 2]), asked, by)
+    elif way == "time":
+        run.problem = replace(problem, times=problem.times[::6])
+        path, trace = follow_time(run, lambda _: partial(a_share, by=-by), 6, 1)
+    else:
+        rate = (1.0 + np.arange(len(curves))) / ends[1]
+        lengths = Lengths(0.1, 1e-4, 0.5, u_ref=1e-3 * length, t_ref=float(ends[1]))
+        path, trace = follow_arc(run, rate, lengths, lambda t: t < 0.5 * ends[1], 40, 1)
+    found = replace(problem, loading=replace(loading, curves=curves))
+    history, times = history_of(path, trace, 0.0), np.array(trace.times)
+    near([i.time for i in recorder.snapshots], times, times[-1], 1e-14)
+    check_steps(found, times, history.energies, recorder.snapshots, True, follows)
 
 
 def parts_of(patch):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.solvers.active_set import coulomb
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
 
 
@@ -151,6 +152,10 @@ def test_body_held_by_friction_alone():
         found = solve_coulomb(in_units(problem, force, length))
         assert found.forces / force == pytest.approx([10.0, -2.0])
         assert found.sticking.all()
+    solver = coulomb._Solver(problem)
+    for forces, off in (([10.0, -2.0], 0), ([12.0, -2.0], 2), ([10.0, -1.0], 1)):
+        x = np.concatenate([forces, -problem.W[:2] @ forces])  # in place, whatever the balance
+        assert solver.violation(solver.trial(x)) == pytest.approx(off / (10.0 + forces[0]))
 
 
 def test_body_that_friction_cannot_hold_is_refused():
