@@ -218,32 +218,6 @@ def test_calculation_goes_on_from_its_own_results(tmp_path: Path) -> None:
     assert ends[0] == pytest.approx(ends[1], rel=1e-9)
 
 
-JOINTS = """
-OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
-A = DROI 4 (0 0) (2 0) ; S = A TRAN 3 (0 -1) ; C = DROI 4 (0 0) (2 0) ; B = C TRAN 2 (0 1) ;
-J = RACC 0.1 A C ;
-MS = MODE S MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PARFAIT ; MB = MODE B MECANIQUE ELASTIQUE ;
-MJ = MODE J MECANIQUE ELASTIQUE JOINT_SDM JOI2 ;
-GS = MATE MS YOUN 1.E7 NU .3 RHO 1800. LTR 1.E12 LCS 1.E13 ;
-GB = MATE MB YOUN 1.E9 NU .2 RHO 2500. ; GJ = MATE MJ KN 1.E8 KS 1.E8 ;
-T = TABLE ; T.MODELE = MS ET MJ ; T.CARACTERISTIQUES = GS ET GJ ;
-T.RIGI = (RIGI MB GB) ET (RIGI MS GS) ET (BLOQ UX UY (COTE 3 S)) ;
-T.MASS = (MASS MB GB) ET (MASS MS GS) ;
-F = (FORC FY -3.E5 (COTE 3 B)) ET (FORC FX 6.E4 (COTE 3 B)) ;
-T.CHAR = CHAR MECA F (EVOL MANU (PROG 0. .05 .1) (PROG 0. 1. .2)) ;
-T.TEMPS_CALCULES = PROG 0. PAS .002 .1 ;
-R = DYNAMIC T ; U1 = R . (DIME R) . DEPL ;
-T.MODELE = MJ ; T.CARACTERISTIQUES = GJ ; R = DYNAMIC T ; U2 = R . (DIME R) . DEPL ;
-E = (MAXI (U1 - U2) 'ABS' 'SANS' (MOTS LX)) / (MAXI U2 'ABS' 'SANS' (MOTS LX)) ;
-"""
-
-
-def test_full_newton_with_joints_agrees_with_the_condensed_interface() -> None:
-    """A soil that never yields moves as the condensation on the joints says."""
-    result = ran(JOINTS)
-    assert at(result, "E") < 1e-9
-
-
 def test_a_beam_pushed_at_one_node_reaches_its_plastic_moment_in_long_steps(tmp_path) -> None:
     script = """
     OPTI DIME 2 ELEM QUA8 MODE PLAN CONT ;
