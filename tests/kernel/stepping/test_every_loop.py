@@ -27,13 +27,14 @@ from ssilang.kernel.plasticity.driven_load import follow_directions, follow_time
 from ssilang.kernel.plasticity.run import BulkRun, run_bulk
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy
+from ssilang.kernel.statics import stepping
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose, effective
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
@@ -237,6 +238,26 @@ def test_load_steps_are_equilibria(solver, unilateral):
         check_steps(problem, problem.times, history.energies, recorder.snapshots, static=True)
 
     holds()
+
+
+def test_a_second_solution_that_fails_leaves_the_first(monkeypatch):
+    """What rounding left out of balance is solved for once more; here that leads nowhere."""
+
+    class Nowhere:
+        def solve(self, motion, *given):
+            for values in motion:
+                values += 1.0
+            return StepOutcome(motion.u.copy(), 0, np.inf)
+
+    problem, polish = Awkward(1).problem(), stepping._polish
+    plain, spoilt = Recorder(len(problem.times)), Recorder(len(problem.times))
+    monkeypatch.setattr(stepping, "_polish", lambda *given: None)
+    step_statics(problem, [plain])
+    monkeypatch.setattr(stepping, "BALANCED", -1.0)
+    monkeypatch.setattr(stepping, "_polish", lambda p, s, m, f: polish(p, Nowhere(), m, f))
+    step_statics(problem, [spoilt])
+    for name in ("u", "w", "t", "state", "reaction"):
+        np.testing.assert_array_equal(spoilt.of(name), plain.of(name))
 
 
 def following_bulk(problem, force, length, hard=2e3, late=5.0):
