@@ -76,7 +76,7 @@ def through_map(
 def through_turn(
     call: Call,
     angle: float = Arg(
-        "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER
+        "FLOTTANT", en="angle by which vectors turn", unit="deg", range=ANY_NUMBER
     ),
     objects: Sequence[Any] = _OBJECTS,
     before: Mesh = _BEFORE,
