@@ -270,7 +270,12 @@ def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
 ) -> NodeField:
     """Scalar product at each node."""
-    part = node_algebra.scalar_product(first, second, *paired_names(call, left, right))
+    pairs = paired_names(call, left, right)
+    for field, names in zip((first, second), pairs, strict=True):
+        if field.components and field.components.keys().isdisjoint(names):
+            told = {"names": names, "known": list(field.components)}
+            call.warn("operators.fields.product-of-other-names", field, **told)
+    part = node_algebra.scalar_product(first, second, *pairs)
     return node_algebra.rebuilt(first, {"SCAL": part})
 
 

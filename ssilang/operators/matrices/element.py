@@ -197,13 +197,21 @@ def lump(
 
 @lump.form()
 def lump_of_matrix(
+    call: Call,
     matrix: Matrix = Arg("RIGIDITE", en="full mass"),
     kept: ListMots | None = Opt(
         "LISTMOTS", kind="component", en="unknowns that keep their diagonal term"
     ),
 ) -> Matrix:
     """Diagonal mass of a full one."""
-    return lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
+    made = lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
+    pairs = zip(made.blocks, matrix.blocks, strict=True)
+    if matrix.blocks and all(
+        np.abs(own.values).max(initial=0.0) < 1e-9 * np.abs(full.values).max(initial=0.0)
+        for own, full in pairs
+    ):
+        call.warn("operators.matrices.lumped-to-nothing", matrix)
+    return made
 
 
 @operator(
