@@ -35,8 +35,8 @@ def zgam(
         if isinstance(motion, Table)
         else cast("list[NodeField]", motion.values)
     )
-    for field in fields[:1] if isinstance(motion, ListChpo) else ():
-        tell_no_unknown(call, cast(NodeField, field))
+    if isinstance(motion, ListChpo):
+        tell_no_unknown(call, cast(NodeField, fields[0]))
     return CellField(
         tuple(
             largest_shear_strain(z, _vectors(families.family_of(z).layout(z), fields))

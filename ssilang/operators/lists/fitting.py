@@ -28,7 +28,9 @@ def moca(
         "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
     ),
     weights: ListReel | None = Key(
-        "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE, usual=Range(some=True)), en="weights"
+        "POIDS",
+        arg("weights", "LISTREEL", range=NOT_NEGATIVE, usual=Range(some=True)),
+        en="weights",
     ),
 ) -> ListReel:
     """Linear least squares from a first set of parameters."""

@@ -85,9 +85,9 @@ def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
 
 
 for _kind in LISTS[:-1]:
-    EXTR.form(
-        _list(_kind), _PLACES, gives=by("places", {"LISTENTI": _kind}, default=_ITEM[_kind])
-    )(_extract)
+    EXTR.form(_list(_kind), _PLACES, gives=by("places", {"LISTENTI": _kind}, default=_ITEM[_kind]))(
+        _extract
+    )
 
 
 @EXTR.form(_list("LISTOBJE"), key("kind", "TYPE", optional=False, en="type of its objects"))

@@ -218,16 +218,13 @@ def depi(
     """Values of conditions."""
     if not matrix.relations:
         raise call.error("operators.matrices.matrix-without-condition", matrix)
-    if not isinstance(value, NodeField):
-        found = imposed.imposed_uniform(matrix.relations, value)
-    else:
-        fill = imposed.imposed_by_node if mixed else imposed.imposed_from_field
-        found = fill(matrix.relations, value)
+    by_field = imposed.imposed_by_node if mixed else imposed.imposed_from_field
+    fill: Any = by_field if isinstance(value, NodeField) else imposed.imposed_uniform
+    found: NodeField = fill(matrix.relations, value)
     way = float(np.abs(found.components["FLX"].values).max())
     size = float(np.ptp(matrix.table.coordinates, axis=0).max())
-    if way > _FAR * size > 0.0 and _TRANSLATIONS.issuperset(
-        u for r in matrix.relations for u in r.unknowns
-    ):
+    names = {u for r in matrix.relations for u in r.unknowns}
+    if way > _FAR * size > 0.0 and names <= _TRANSLATIONS:
         call.warn("operators.matrices.imposed-far", value, way=way, size=size, times=way / size)
     return found
 

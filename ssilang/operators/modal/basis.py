@@ -135,8 +135,7 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     if not isinstance(force, NodeField):
         raise call.error("operators.modal.only-nodal-forces-times")
     known = {dual_of(name) for s in shapes for name in s.field.components}
-    if force.components and known.isdisjoint(force.components):
-        names = list(force.components)
+    if known.isdisjoint(names := list(force.components)):
         call.warn("operators.modal.force-of-other-names", force, names=names, known=sorted(known))
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
 

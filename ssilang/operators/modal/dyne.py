@@ -263,9 +263,9 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
         raise call.error(
             "operators.modal.entry-is-a-field", table, name=name, subtype=table.subtype
         )
-    known = system.numbering.unknowns
-    if field.components and set(known).isdisjoint(field.components):
-        told = {"name": name, "names": list(field.components), "known": sorted(known)}
+    known, names = system.numbering.unknowns, list(field.components)
+    if set(known).isdisjoint(names):
+        told = {"name": name, "names": names, "known": sorted(known)}
         call.warn("operators.modal.start-of-other-names", table, **told)
     return field_to_vector(field, system.numbering, dual=False)
 
