@@ -338,8 +338,7 @@ def _listed(matrix: Matrix, short: bool, say: Teller) -> str:
 
 
 def _form(call: Call, left: NodeField, matrix: Matrix, right: NodeField) -> float:
-    for field in (left,) if left is right else (left, right):
-        _warn_of_other_names(call, matrix, field)
+    _warn_of_other_names(call, matrix, left)
     numbering = numbering_of(matrix)
     y = field_to_vector(left, numbering, dual=False)
     x = field_to_vector(right, numbering, dual=False)

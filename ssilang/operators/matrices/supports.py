@@ -223,8 +223,7 @@ def depi(
     found: NodeField = fill(matrix.relations, value)
     way = float(np.abs(found.components["FLX"].values).max())
     size = float(np.ptp(matrix.table.coordinates, axis=0).max())
-    names = {u for r in matrix.relations for u in r.unknowns}
-    if way > _FAR * size > 0.0 and names <= _TRANSLATIONS:
+    if way > _FAR * size > 0.0 and all({*r.unknowns} <= _TRANSLATIONS for r in matrix.relations):
         call.warn("operators.matrices.imposed-far", value, way=way, size=size, times=way / size)
     return found
 

@@ -265,8 +265,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
         )
     known, names = system.numbering.unknowns, list(field.components)
     if set(known).isdisjoint(names):
-        told = {"name": name, "names": names, "known": sorted(known)}
-        call.warn("operators.modal.start-of-other-names", table, **told)
+        call.warn("operators.modal.start-of-other-names", table, names=names, known=known)
     return field_to_vector(field, system.numbering, dual=False)
 
 

@@ -90,13 +90,12 @@ def _odd(
                 {"value": value, "range": meant.usual.text(name)},
             )
     for other, usual in meant.beside.items():
-        base = _measure(other, given)
+        base = _measure(other.strip("()"), given)
         if base is None or not np.all(base):
             continue
         ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
         if (ratio := next((r for r in ratios if r not in usual), None)) is not None:
-            over = f"({other})" if {" ", "/"}.intersection(other) else other
-            told = {"other": over, "range": usual.text(f"{name}/{over}")}
+            told = {"other": other, "range": usual.text(f"{name}/{other}")}
             yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
             break
     if name == "EPAI" and low > (size := _size(zone)) > 0.0:

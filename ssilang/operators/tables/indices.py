@@ -7,7 +7,7 @@ from typing import Any
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.language.values import known_types
-from ssilang.operators.dispatch import COPI, DIME, ENLE
+from ssilang.operators.dispatch import COPI, DIME, ENLE, unite_all
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.prelude import *
 
