@@ -301,7 +301,7 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_SPRINGS = Range(0.0, 1e20)
+_SPRINGS = Range(-1e20, 1e20)  # below zero: the moment of a weight
 _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER, usual=_SPRINGS)
 
 

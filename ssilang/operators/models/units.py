@@ -90,9 +90,10 @@ def _odd(
                 {"value": value, "range": meant.usual.text(name)},
             )
     for other, usual in meant.beside.items():
-        base = _measure(other.strip("()"), given)
-        if base is None or not np.all(base):
+        base = given.get(other.removesuffix("**2"), np.empty(0))
+        if base.dtype != float or not base.size or not base.all():
             continue
+        base = base ** (1 + other.endswith("**2"))
         ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
         if (ratio := next((r for r in ratios if r not in usual), None)) is not None:
             told = {"other": other, "range": usual.text(f"{name}/{other}")}
@@ -103,17 +104,6 @@ def _odd(
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
     if name == "NU" and high > COMPRESSIBLE and mean is not None:
         yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}
-
-
-def _measure(formula: str, given: Mapping[str, NDArray[Any]]) -> Any:
-    """A parameter, a sum, quotient or power of some, at each place; None where one is no number."""
-    for sign, made in (" + ", np.add), ("/", np.divide), ("**", np.power):
-        left, found, right = formula.partition(sign)
-        if found:
-            parts = _measure(left, given), _measure(right, given)
-            return None if any(p is None for p in parts) else made(*parts)
-    values = np.array(float(formula)) if formula.isdigit() else given.get(formula, np.empty(0))
-    return values if values.dtype == float and values.size else None
 
 
 def _ends(array: NDArray[Any]) -> tuple[float, float] | tuple[()]:
