@@ -119,8 +119,6 @@ def _cases(
         axes[MOTION] = [*motions_in(Path(records), [])]
     elif records is not None:
         axes[MOTION] = [str(Path(r).resolve()) for r in records]
-    if not axes:
-        raise GivenError("cli.nothing-sweep-set-name")
     return combined(axes)
 
 

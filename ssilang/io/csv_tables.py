@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.system import system_reason
 
 _TITLE_WIDTH = 12
 _GAP = 3  # blank lines between two groups of columns
@@ -86,10 +85,7 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> Rows:
     InputError
         If the file cannot be read, or a cell is no number.
     """
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    text = text_of(path)
     regular = _regular(text, separator, first_line)
     if regular is not None:
         return regular

@@ -18,6 +18,7 @@ from typing import Any, Concatenate, Literal, ParamSpec
 
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.filled import Filled
+from ssilang.language.values import type_of
 from ssilang.language.vocabulary.terms import CARRIED, UNSAID, Range
 from ssilang.messages.message import Translated, examples, help_texts, spoken
 
@@ -340,7 +341,7 @@ class Like:
 
 @dataclass(frozen=True, slots=True)
 class By:
-    """Results by what the entry `name` says: its word, or True or False for a flag.
+    """Results by what the entry `name` says: its word, True or False for a flag, else its type.
 
     An entry that collects several says True where there are any.
     """
@@ -354,13 +355,14 @@ class By:
         key = value.word if isinstance(value, Chosen) else value
         if isinstance(key, tuple | list):
             key = bool(key)
-        return self.results.get(key, self.default)
+        said = key is None or isinstance(key, str | bool)
+        return self.results.get(key if said else type_of(key), self.default)
 
 
 def by(
     name: str, results: Mapping[Any, str | Sequence[str]], default: str | Sequence[str] = ()
 ) -> By:
-    """Results by the word of a `select` or a `choice`, or by a `flag`."""
+    """Results by the word of a `select` or a `choice`, by a `flag`, or by an operand's type."""
     made = {k: _as_words(v) for k, v in results.items()}
     return By(name, made, _as_words(default))
 

@@ -105,7 +105,7 @@ def _unite(call: Call) -> Any:
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
         return _unite_table(call, left.value)
     if left is not None and not call.operands and isinstance(left.value, ListObje):
-        return _unite_all(call, left.value, list(left.value.values))
+        return unite_all(call, left.value, list(left.value.values))
     right = call.read("*") if left is not None else None
     if left is None or right is None:
         raise SsiError("two-operands", call.span, operator="ET")
@@ -119,10 +119,10 @@ def _unite(call: Call) -> Any:
 
 
 def _unite_table(call: Call, table: Any) -> Any:
-    return _unite_all(call, table, [v for index, v in table.items() if type(index) is int])
+    return unite_all(call, table, [v for index, v in table.items() if type(index) is int])
 
 
-def _unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
+def unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
     if not values:
         raise call.error("operators.tables.empty-table", holder)
     total = values[0]

@@ -80,6 +80,8 @@ def errors(source: Source) -> list[str]:
         ("L = PROG 1. ; X = L ET FLUX (L ET L) ; MESS X ;", "unknown-operator"),
         ("L = PROG 1. ; X = (L ET L) FLUX 'DEPL' ; MESS X ;", "unknown-operator"),
         ("FLUX 1 ;", "unknown-operator"),
+        ("L = MOTS 'UX' ; M = EXTR L 1 ; X = M EGA 'UX' ; MESS X ;", "unread-operator"),
+        ("L = MOTS 'UX' ; X = EXTR L 1 EGA 'UX' ; MESS X ;", "unread-operator"),
     ],
 )
 def test_finds(text, code):

@@ -138,6 +138,10 @@ class PhraseReader:
         if procedure is not None:
             self._procedure(procedure.value, procedure.span, call)
             raise Ambiguous  # its results are not known
+        if len(call.operands) > 2 and call.operands[0].value is ANY_WORD and call.operands[0].name:
+            word = call.operands[1]  # a word is read as an operator, and comparisons are not
+            if isinstance(word.value, Mot) and not word.result and str(word.value) in _COMPARISONS:
+                self.session.evaluator.refuse_leftovers(call.operands)
         i = call.word_index()
         if i is None:
             return False

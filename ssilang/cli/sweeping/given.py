@@ -154,13 +154,19 @@ def cases_of(
         axes[name] = values
     if motions is not None:
         axes[MOTION] = [*motions_in(motions, [] if left is None else left)]
-    if not axes:
-        raise GivenError("cli.nothing-sweep-set-name")
     return combined(axes)
 
 
 def combined(axes: Mapping[str, Sequence[Value]]) -> list[Case]:
-    """All combinations of values, those of the last name fastest."""
+    """All combinations of values, those of the last name fastest.
+
+    Raises
+    ------
+    GivenError
+        If no name is swept.
+    """
+    if not axes:
+        raise GivenError("cli.nothing-sweep-set-name")
     rows = itertools.product(*axes.values())
     return [Case(i, dict(zip(axes, row, strict=True))) for i, row in enumerate(rows, start=1)]
 

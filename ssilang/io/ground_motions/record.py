@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.system import system_reason
 
 G = 9.81
 """Standard gravity as the rest of the house takes it (m/s2)."""
@@ -97,10 +96,7 @@ def lines_of(path: Path) -> list[str]:
     InputError
         If it cannot be read.
     """
-    try:
-        return path.read_text(encoding="latin-1").splitlines()
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    return text_of(path, "latin-1").splitlines()
 
 
 def real(text: str) -> float:

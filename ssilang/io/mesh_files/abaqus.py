@@ -14,10 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
-from ssilang.system import system_reason
 
 # family of elements (letters before the number of nodes) and that number -> cell type
 _SOLIDS = {4: "TET4", 5: "PYR5", 6: "PRI6", 8: "CUB8", 10: "TE10", 15: "PR15", 20: "CU20"}
@@ -83,10 +82,7 @@ def _blocks(
     """Keyword, its parameters and its data lines, with included files in their place."""
     if depth > 10:
         raise ValueError("*INCLUDE")
-    try:
-        text = path.read_text(encoding="latin-1")
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    text = text_of(path, "latin-1")
     lines = [t for t in text.splitlines() if t.strip() and not t.startswith("**")]
     starts = [i for i, t in enumerate(lines) if t.startswith("*")]
     for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):

@@ -14,14 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError, OutputError
+from ssilang.io.errors import InputError, OutputError, text_of
 from ssilang.io.mesh_files.file_mesh import refuse_doubles
 from ssilang.io.vtk.grid import ORDERS, cell_means
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.system import system_reason
 
 _KINDS = {
     "POI1": "pt", "SEG2": "line", "SEG3": "line", "TRI3": "tri", "TRI6": "tri", "QUA4": "quad",
@@ -118,10 +117,7 @@ def read_avs(path: Path, skip: int = 0) -> Structure | None:
     InputError
         If the file cannot be read or is no AVS file.
     """
-    try:
-        text = path.read_text(encoding="latin-1")
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    text = text_of(path, "latin-1")
     lines = iter([t for t in text.splitlines() if t.strip() and not t.startswith("#")])
     try:
         for _ in range(skip):

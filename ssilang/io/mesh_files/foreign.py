@@ -17,12 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, readable
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
-from ssilang.system import system_reason
 
 _TYPES = {
     "vertex": "POI1", "line": "SEG2", "line3": "SEG3", "triangle": "TRI3", "triangle6": "TRI6",
@@ -106,10 +105,8 @@ def foreign_mesh(path: Path, kind: str) -> Any:
 def _guarded(path: Path, kind: str) -> Iterator[io.StringIO]:
     """Keeps what a library prints meanwhile, and makes refusals of what it raises."""
     said = io.StringIO()
-    try:
+    with readable(path):
         path.open("rb").close()
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     try:
         with redirect_stderr(said), redirect_stdout(said):
             yield said

@@ -10,11 +10,10 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.io.mesh_files import gmsh_alone
 from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.foreign import read_foreign
-from ssilang.system import system_reason
 
 FREE = "SSILANG_ALLOW_GEO"
 """In the environment (`--allow-geo` puts it there): scripts run where no guard is to be had."""
@@ -39,10 +38,7 @@ def read_geo(path: Path, dimension: int) -> FileMesh:
     InputError
         Without Gmsh or a guard, if the script reaches out of its folder, or if Gmsh cannot mesh it.
     """
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    text = text_of(path)
     outward = _OUTWARD.search(_PASSIVE.sub(" ", text))
     if outward is not None:
         raise InputError("io.geo-reaches-out", name=path.name, word=outward.group(0)[:40])

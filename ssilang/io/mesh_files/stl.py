@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError, OutputError
+from ssilang.io.errors import InputError, OutputError, readable
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.system import system_reason
 
 
 def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
@@ -47,10 +46,8 @@ def read_stl(path: Path) -> FloatArray:
     InputError
         If the file cannot be read.
     """
-    try:
+    with readable(path):
         raw = path.read_bytes()
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
     if len(raw) >= 84:
         (count,) = struct.unpack_from("<I", raw, 80)
         if len(raw) == 84 + 50 * count:

@@ -10,10 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.system import system_reason
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
 _CELLS: dict[int, str] = {
@@ -34,10 +33,7 @@ def read_unv(path: Path) -> FileMesh:
     InputError
         If it cannot be read or holds no nodes.
     """
-    try:
-        lines = path.read_text(encoding="latin-1").splitlines()
-    except OSError as error:
-        raise InputError("io.cannot-read", path=path, strerror=system_reason(error)) from error
+    lines = text_of(path, "latin-1").splitlines()
     labels: list[int] = []
     points: list[list[float]] = []
     rows: list[tuple[int, str, list[int]]] = []

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.beams.bar import Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
@@ -30,7 +30,12 @@ from ssilang.kernel.elements.solids.solid_moduli import (
     moduli_from_field,
     solid_compliance,
 )
-from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
+from ssilang.kernel.elements.zone_fields import (
+    ZoneField,
+    missing_parameter,
+    none_of,
+    zone_field,
+)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
@@ -244,12 +249,7 @@ def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> Float
     """Components (n_cells, n_names, n_points) at 'STRESSES', zero where absent."""
     seen = zone_field(zone, field)
     if not any(name in seen for name in names):
-        raise FieldError(
-            "kernel.elements.field-none-cells-element",
-            names=names,
-            element=zone.element,
-            present=seen.names,
-        )
+        raise none_of(names, zone, seen)
     return seen.matrix(names, "STRESSES")
 
 

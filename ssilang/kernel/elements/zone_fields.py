@@ -193,6 +193,12 @@ def missing_parameter(zone: Zone, name: str, given: tuple[str, ...]) -> Material
     )
 
 
+def none_of(names: tuple[str, ...], zone: Zone, seen: ZoneField) -> FieldError:
+    """The refusal of a field that has none of some components in the cells of a zone."""
+    code = "kernel.elements.field-none-cells-element"
+    return FieldError(code, names=names, element=zone.element, present=seen.names)
+
+
 def zone_field(zone: Zone, field: CellField | None) -> ZoneField:
     """The part of a field that stands on a zone's cells.
 

@@ -45,14 +45,20 @@ def complex_modes(
     KernelError
         If nothing can move or the search does not converge.
     """
-    problem = reduced_problem(stiffness, mass, damping)
-    if problem.size == 0:
-        raise KernelError("kernel.modal.conditions-hold-every-unknown")
+    problem = _movable(stiffness, mass, damping)
     values, shapes = _eigenpairs(problem, 2j * np.pi * near, count)
     frequencies = values / (2j * np.pi)
     keep = np.argsort(np.abs(frequencies - near), kind="stable")[:count]
     keep = keep[np.argsort(frequencies[keep].real, kind="stable")]
     return [_mode(problem, complex(frequencies[k]), shapes[:, k]) for k in keep]
+
+
+def _movable(stiffness: Matrix, mass: Matrix, damping: Matrix | None) -> ReducedProblem:
+    """What the conditions leave, refused where that is nothing."""
+    problem = reduced_problem(stiffness, mass, damping)
+    if problem.size == 0:
+        raise KernelError("kernel.modal.conditions-hold-every-unknown")
+    return problem
 
 
 def conjugate_modes(
@@ -62,9 +68,7 @@ def conjugate_modes(
 
     Sorted by modulus, the positive real part of a couple first; shapes of Euclidean norm one.
     """
-    problem = reduced_problem(stiffness, mass, damping)
-    if problem.size == 0:
-        raise KernelError("kernel.modal.conditions-hold-every-unknown")
+    problem = _movable(stiffness, mass, damping)
     values, shapes = _eigenpairs(problem, 0.0, problem.size)
     frequencies = values / (2j * np.pi)
     modulus = np.round(np.abs(frequencies) / np.abs(frequencies).max(initial=1e-300), 9)

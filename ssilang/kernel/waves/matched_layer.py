@@ -302,6 +302,8 @@ class _Histories:
         xyz = np.einsum("pa,cad->cpd", shapes, zone.cells.coordinates)
         beta = stretching.rates(xyz[..., :2])
         moduli = solid_moduli(zone, parameters, "RIGIDITE")[..., IN_PLANE, :][..., IN_PLANE]
+        if not moduli.any(axis=(-1, -2)).all():
+            raise MaterialError("kernel.waves.layer-without-stiffness")
         compliances = np.linalg.inv(moduli) * volumes[..., None, None]
         nodes = zone.cells.nodes.add(xyz.reshape(-1, xyz.shape[-1])).reshape(volumes.shape)
         by_p = _tie(gradients, volumes, beta[..., ::-1])

@@ -83,6 +83,7 @@ _A_WORD = Mot("")
 _NAMED = (Mot, Procedure)  # what may be the name of an operator, a keyword or a procedure
 _NAMED_OR_TEXT = (Mot, Procedure, Texte)
 _BESIDE_WORDS = ("MOT", "LISTENTI")  # types that may also stand beside the main operand
+_ODD = {"not-increasing": "out-of-order", "of-noughts": "of-noughts"}
 _MANY = 16  # operands from which what stands there is not looked up
 _MAX_EXPANSIONS = 10_000  # TEXTE objects put into one phrase
 
@@ -216,8 +217,7 @@ class Call:
         """Tell of a number that is unusual, of a curve over something else or of noughts."""
         usual = usual_of(a.usual, "", a.unit, self.session.units())
         if odd := usual.flaw(operand.value, a.name):
-            code = "out-of-order" if odd[0] == "not-increasing" else "unusual"
-            self.session.report(self.flaw(code, a, operand, odd[1]))
+            self.session.report(self.flaw(_ODD.get(odd[0], "unusual"), a, operand, odd[1]))
         over = getattr(operand.value, "over", "") if a.over else ""
         if a.over and is_of_noughts(operand.value):
             self.session.report(self.flaw("of-noughts", a, operand, {}))

@@ -133,7 +133,7 @@ def pert(
     signs: bool = Flag("SIGN", en="signs drawn, the default"),
     degrees: float | None = Key(
         "AMPL",
-        arg("degrees", "FLOTTANT", unit="degree", usual=between(0.0, 90.0)),
+        arg("degrees", "FLOTTANT", unit="deg", usual=between(0.0, 90.0)),
         en="largest angle whose sin^2 is the share given to the neighbours",
     ),
     seed: int | None = _SEED,

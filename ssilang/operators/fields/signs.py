@@ -37,13 +37,17 @@ def nature_of(call: Call, word: str | None) -> Nature | None:
     return _NATURES[word.upper()[:4]]
 
 
-def paired_names(call: Call, left: ListMots, right: ListMots) -> tuple[list[str], list[str]]:
-    """Names of two lists of the same length."""
+def paired_names(
+    call: Call, left: ListMots, right: ListMots, *fields: NodeField
+) -> tuple[list[str], list[str]]:
+    """Names of two lists of the same length; told where two fields have no pair of them."""
     names = names_of(left), names_of(right)
     if len(names[0]) != len(names[1]):
         raise call.error(
             "operators.fields.word-counts-differ", n_left=len(names[0]), n_right=len(names[1])
         )
+    if not any(all(n in f.components for n, f in zip(p, fields)) for p in zip(*names)):  # noqa: B905
+        call.warn("operators.fields.product-of-nothing", left)
     return names
 
 
@@ -270,7 +274,8 @@ def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
 ) -> NodeField:
     """Scalar product at each node."""
-    part = node_algebra.scalar_product(first, second, *paired_names(call, left, right))
+    names = paired_names(call, left, right, first, second)
+    part = node_algebra.scalar_product(first, second, *names)
     return node_algebra.rebuilt(first, {"SCAL": part})
 
 

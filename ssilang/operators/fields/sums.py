@@ -51,12 +51,7 @@ _PAIRED = (
 )
 def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
     """Scalar product of fields."""
-    names = paired_names(call, left, right)
-    if not any(
-        a in first.components and b in second.components for a, b in zip(*names, strict=True)
-    ):
-        call.warn("operators.fields.product-of-nothing", left)
-    return _product(first, second, *names)
+    return _product(first, second, *paired_names(call, left, right, first, second))
 
 
 @xty.form(

@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.fields import node_algebra
 from ssilang.language.run.procedures import call_procedure
+from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _ROUNDS = 200
@@ -27,7 +28,9 @@ def moca(
         "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
     ),
     weights: ListReel | None = Key(
-        "POIDS", arg("weights", "LISTREEL", range=NOT_NEGATIVE), en="weights"
+        "POIDS",
+        arg("weights", "LISTREEL", range=NOT_NEGATIVE, usual=Range(some=True)),
+        en="weights",
     ),
 ) -> ListReel:
     """Linear least squares from a first set of parameters."""

@@ -84,9 +84,10 @@ def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     return _plain(value.values[chosen[0]])
 
 
-EXTR.form(_list("LISTREEL"), _PLACES, gives="FLOTTANT|LISTREEL")(_extract)
-for _kind in LISTS[1:-1]:
-    EXTR.form(_list(_kind), _PLACES, gives=f"{_ITEM[_kind]}|{_kind}")(_extract)
+for _kind in LISTS[:-1]:
+    EXTR.form(_list(_kind), _PLACES, gives=by("places", {"LISTENTI": _kind}, default=_ITEM[_kind]))(
+        _extract
+    )
 
 
 @EXTR.form(_list("LISTOBJE"), key("kind", "TYPE", optional=False, en="type of its objects"))

@@ -337,7 +337,8 @@ def _listed(matrix: Matrix, short: bool, say: Teller) -> str:
 # --- quadratic forms -------------------------------------------------------------------------
 
 
-def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
+def _form(call: Call, left: NodeField, matrix: Matrix, right: NodeField) -> float:
+    _warn_of_other_names(call, matrix, left)
     numbering = numbering_of(matrix)
     y = field_to_vector(left, numbering, dual=False)
     x = field_to_vector(right, numbering, dual=False)
@@ -346,18 +347,19 @@ def _form(left: NodeField, matrix: Matrix, right: NodeField) -> float:
 
 @operator("XTMX", family="matrix")
 def xtmx(
-    field: NodeField = Arg("CHPOINT", en="X"), matrix: Matrix = Arg("RIGIDITE", en="M")
+    call: Call, field: NodeField = Arg("CHPOINT", en="X"), matrix: Matrix = Arg("RIGIDITE", en="M")
 ) -> float:
-    return _form(field, matrix, field)
+    return _form(call, field, matrix, field)
 
 
 @operator("YTMX", family="matrix")
 def ytmx(
+    call: Call,
     right: NodeField = Arg("CHPOINT", en="X"),
     left: NodeField = Arg("CHPOINT", en="Y"),
     matrix: Matrix = Arg("RIGIDITE", en="M"),
 ) -> float:
-    return _form(left, matrix, right)
+    return _form(call, left, matrix, right)
 
 
 @operator("DIMN", family="matrix", full_name="DIMNOYAU")

@@ -13,6 +13,7 @@ from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.language.registry import Argument, When
+from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -30,7 +31,9 @@ def as_matrix(relations: Relations) -> Matrix:
     return Matrix(relations.table, (), (relations,))
 
 
-_DISPLACEMENTS = frozenset({"UX", "UY", "UZ", "UR", "UT", "RX", "RY", "RZ", "RT"})
+_TRANSLATIONS = frozenset({"UX", "UY", "UZ", "UR", "UT"})
+_DISPLACEMENTS = _TRANSLATIONS | {"RX", "RY", "RZ", "RT"}
+_FAR = 100.0  # times what all nodes span: no displacement
 
 
 def warn_of_foreign(call: Call, unknowns: Sequence[str]) -> None:
@@ -215,10 +218,14 @@ def depi(
     """Values of conditions."""
     if not matrix.relations:
         raise call.error("operators.matrices.matrix-without-condition", matrix)
-    if not isinstance(value, NodeField):
-        return imposed.imposed_uniform(matrix.relations, value)
-    fill = imposed.imposed_by_node if mixed else imposed.imposed_from_field
-    return fill(matrix.relations, value)
+    by_field = imposed.imposed_by_node if mixed else imposed.imposed_from_field
+    fill: Any = by_field if isinstance(value, NodeField) else imposed.imposed_uniform
+    found: NodeField = fill(matrix.relations, value)
+    way = float(np.abs(found.components["FLX"].values).max())
+    size = float(np.ptp(matrix.table.coordinates, axis=0).max())
+    if way > _FAR * size > 0.0 and all({*r.unknowns} <= _TRANSLATIONS for r in matrix.relations):
+        call.warn("operators.matrices.imposed-far", value, way=way, size=size, times=way / size)
+    return found
 
 
 @depi.form()
@@ -294,7 +301,8 @@ anti.form(*_plane(3), when=IN_SPACE)(anti.forms[0].function)
 # --- springs to the ground -------------------------------------------------------------------
 
 
-_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER)
+_SPRINGS = Range(-1e20, 1e20)  # below zero: the moment of a weight
+_STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER, usual=_SPRINGS)
 
 
 @operator(

@@ -91,11 +91,14 @@ def _odd(
             )
     for other, usual in meant.beside.items():
         base = given.get(other.removesuffix("**2"), np.empty(0))
-        if base.dtype == float and base.size and base.all():
-            base = base.mean(axis=1, keepdims=True) ** (1 + other.endswith("**2"))
-            if (ratio := float((given[name] / base).max())) not in usual:
-                told = {"other": other, "range": usual.text(f"{name}/{other}")}
-                yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
+        if base.dtype != float or not base.size or not base.all():
+            continue
+        base = base ** (1 + other.endswith("**2"))
+        ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
+        if (ratio := next((r for r in ratios if r not in usual), None)) is not None:
+            told = {"other": other, "range": usual.text(f"{name}/{other}")}
+            yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
+            break
     if name == "EPAI" and low > (size := _size(zone)) > 0.0:
         yield "operators.models.thicker-than-large", {"value": low, "size": size}
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)

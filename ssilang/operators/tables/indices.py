@@ -7,7 +7,7 @@ from typing import Any
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.language.values import known_types
-from ssilang.operators.dispatch import COPI, DIME, ENLE, united
+from ssilang.operators.dispatch import COPI, DIME, ENLE, unite_all
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.prelude import *
 
@@ -133,11 +133,6 @@ def etg(call: Call, table: Table = Arg("TABLE", en="objects at 1, 2 ...")) -> An
     if table.subtype != "ESCLAVE":
         raise call.error("operators.tables.wrong-subtype", table, subtype=table.subtype)
     values = [v for index, v in table.items() if type(index) is int]
-    if not values:
-        raise call.error("operators.tables.empty-table", table)
-    if all(isinstance(v, Mesh) for v in values):
+    if values and all(isinstance(v, Mesh) for v in values):
         return gathered([v for v in values if isinstance(v, Mesh)])
-    total = values[0]
-    for value in values[1:]:
-        total = united(call, total, value, call.span)
-    return total
+    return unite_all(call, table, values)

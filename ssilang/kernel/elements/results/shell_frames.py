@@ -44,12 +44,12 @@ def is_flat_shell(zone: Zone) -> bool:
 
 def shell_support(zone: Zone, field: CellField) -> Support:
     """Where a field of forces or strains stands."""
-    return _values(zone, field)[2]
+    return strains_or_stresses(zone, field)[2]
 
 
 def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldBlock:
     """Forces or strains of a zone of flat shells in other axes."""
-    names, values, support, strains = _values(zone, field)
+    names, values, support, strains = strains_or_stresses(zone, field)
     own = SHELL_FRAMES[ELEMENTS[zone.element].family](zone)[0][:, None]
     Q = _turn(own, axes)
     made = np.empty(np.broadcast_shapes(values.shape, (len(own), 1, Q.shape[1])))
@@ -67,7 +67,13 @@ def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldB
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
 
 
-def _values(zone: Zone, field: CellField) -> tuple[tuple[str, ...], FloatArray, Support, bool]:
+def strains_or_stresses(
+    zone: Zone, field: CellField
+) -> tuple[tuple[str, ...], FloatArray, Support, bool]:
+    """Names, values (n_cells, n_names, n_points) and points of what a field has of a zone.
+
+    Last comes whether these are strains.
+    """
     family = family_of(zone)
     seen = zone_field(zone, field)
     strains = any(n in seen for n in family.strain_names(zone))

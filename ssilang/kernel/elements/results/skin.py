@@ -10,6 +10,7 @@ from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.frames import SHELL_FRAMES
+from ssilang.kernel.elements.results.shell_frames import strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
@@ -39,11 +40,8 @@ def shell_skin(
     components : SMXX SMYY SMXY, or EPXX EPYY GAXY
     support : where they stand
     """
-    family, parameters = family_of(zone), zone_field(zone, material)
-    seen = zone_field(zone, field)
-    strains = any(n in seen for n in family.strain_names(zone))
-    names = family.strain_names(zone) if strains else family.stress_names(zone)
-    values, support = components_at_home(zone, field, names)
+    parameters = zone_field(zone, material)
+    names, values, support, strains = strains_or_stresses(zone, field)
     half = sum(n[0] == ("R" if strains else "M") for n in names)
     membrane, bending = values[:, :half], values[:, half : 2 * half]
     h = parameters.at("EPAI", support)[:, None]
@@ -90,10 +88,7 @@ def is_thick_shell(zone: Zone) -> bool:
 
 def thick_tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support]:
     """Stress or strain tensors (n_cells, n_points, 3, 3) of a thick shell, in its own frames."""
-    family, seen = family_of(zone), zone_field(zone, field)
-    strains = any(n in seen for n in family.strain_names(zone))
-    names = family.strain_names(zone) if strains else family.stress_names(zone)
-    values, support = components_at_home(zone, field, names)
+    _, values, support, strains = strains_or_stresses(zone, field)
     T = np.zeros((len(values), values.shape[2], 3, 3))
     for row, (i, j) in enumerate(((0, 0), (1, 1), (0, 1), (0, 2), (1, 2))):
         T[..., i, j] = T[..., j, i] = values[:, row] / (2 if strains and i != j else 1)

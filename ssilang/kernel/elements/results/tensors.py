@@ -8,7 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.solids.gradients import PAIRS
 from ssilang.kernel.elements.solids.solid import kinematics
-from ssilang.kernel.elements.zone_fields import carry, zone_field
+from ssilang.kernel.elements.zone_fields import carry, none_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.model import Mode, Zone
 
@@ -24,12 +24,7 @@ def components_at_home(
     seen = zone_field(zone, field)
     present = [n for n in names if n in seen]
     if not present:
-        raise FieldError(
-            "kernel.elements.field-none-cells-element",
-            names=names,
-            element=zone.element,
-            present=seen.names,
-        )
+        raise none_of(names, zone, seen)
     raws = {n: seen.raw(n) for n in present}
     support = next((s for v, s in raws.values() if v.shape[1] > 1), raws[present[0]][1])
     moved = {n: carry(v.astype(float), zone.element, s, support) for n, (v, s) in raws.items()}

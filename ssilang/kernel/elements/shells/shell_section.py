@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
@@ -49,6 +51,22 @@ def _orthotropic(parameters: ZoneField, support: Support) -> FloatArray:
 _LAWS = {"ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic}
 
 
+def _law_of(zone: Zone) -> Callable[[ZoneField, Support], FloatArray]:
+    """Moduli of plane stress of a zone's elasticity.
+
+    Raises
+    ------
+    MaterialError
+        If shells do not have it.
+    """
+    kind = symmetry_of(zone)
+    if kind not in _LAWS:
+        raise MaterialError(
+            "kernel.elements.elasticity-not-available-shells", kind=kind, element=zone.element
+        )
+    return _LAWS[kind]
+
+
 def section_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Moduli (n_cells or 1, n_points or 1, 6, 6) of membrane and bending.
 
@@ -57,12 +75,7 @@ def section_moduli(zone: Zone, parameters: ZoneField, support: Support) -> Float
     MaterialError
         If a parameter is missing.
     """
-    kind = symmetry_of(zone)
-    if kind not in _LAWS:
-        raise MaterialError(
-            "kernel.elements.elasticity-not-available-shells", kind=kind, element=zone.element
-        )
-    Q = _LAWS[kind](parameters, support)
+    Q = _law_of(zone)(parameters, support)
     h = parameters.at("EPAI", support)[..., None, None]
     shape = np.broadcast_shapes(Q.shape[:2], h.shape[:2])
     D = np.zeros((*shape, 6, 6))
@@ -96,12 +109,7 @@ def _shear(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
 
 def material_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Moduli (n_cells or 1, n_points or 1, 5, 5) of plane stress and transverse shear."""
-    kind = symmetry_of(zone)
-    if kind not in _LAWS:
-        raise MaterialError(
-            "kernel.elements.elasticity-not-available-shells", kind=kind, element=zone.element
-        )
-    Q, G = _LAWS[kind](parameters, support), _shear(zone, parameters, support)
+    Q, G = _law_of(zone)(parameters, support), _shear(zone, parameters, support)
     D = np.zeros((*np.broadcast_shapes(Q.shape[:2], G.shape[:2]), 5, 5))
     D[..., :3, :3], D[..., 3:, 3:] = Q, SHEAR_FACTOR * G
     return D

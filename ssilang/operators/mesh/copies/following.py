@@ -75,9 +75,7 @@ def through_map(
 @dedu.form(said("ROTA"), gives=ANY)
 def through_turn(
     call: Call,
-    angle: float = Arg(
-        "FLOTTANT", en="angle by which vectors turn", unit="degree", range=ANY_NUMBER
-    ),
+    angle: float = Arg("FLOTTANT", en="angle by which vectors turn", unit="deg", range=ANY_NUMBER),
     objects: Sequence[Any] = _OBJECTS,
     before: Mesh = _BEFORE,
     after: Mesh = _AFTER,

@@ -23,7 +23,7 @@ from ssilang.operators.prelude import *
 RATIO = arg("ratio", "FLOTTANT", en="ratio", usual=NOT_ZERO)
 FIXED = arg("fixed", "POINT", en="point that stays")
 DIRECTION = arg("towards", "POINT", en="other point of the direction")
-ANGLE = arg("angle", "FLOTTANT", en="angle", unit="degree", range=ANY_NUMBER)
+ANGLE = arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER)
 
 _POINT = arg("point", "POINT", en="point there")
 _SECOND = arg("second", "POINT", en="second point")

@@ -72,7 +72,7 @@ def turned(
     call: Call,
     moved: Mesh | Point = _MOVED,
     angle: NodeField | float = Arg(
-        "CHPOINT", "FLOTTANT", en="angle, or one for each node", unit="degree", range=ANY_NUMBER
+        "CHPOINT", "FLOTTANT", en="angle, or one for each node", unit="deg", range=ANY_NUMBER
     ),
     axis: Sequence[Point] = AXIS,
 ) -> None:

@@ -29,7 +29,7 @@ COUNT = opt(
     en="number of elements, graded by the mesh sizes if negative; without it these decide",
     range=CELLS_ALONG,
 )
-ANGLE = opt("angle", "FLOTTANT", en="angle", unit="degree", usual=between(-360.0, 360.0))
+ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 360.0))
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),

@@ -71,7 +71,7 @@ def aret(
         range=between(0.0, 180.0),
         default=20.0,
         en="turn of the skin from which on an edge is sharp",
-        unit="degree",
+        unit="deg",
     ),
 ) -> Mesh:
     """Sharp edges."""

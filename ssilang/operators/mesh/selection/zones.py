@@ -36,7 +36,7 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
                     range=between(0.0, 180.0),
                     default=20.0,
                     en="least angle",
-                    unit="degree",
+                    unit="deg",
                 ),
             )
         },

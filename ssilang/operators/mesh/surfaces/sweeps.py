@@ -65,16 +65,21 @@ def grown(first: Mesh, new: Mesh) -> Mesh:
     return Mesh(made.nodes, made.blocks, (old[0], right, new.sides[2], left))
 
 
+def _along(call: Call, line: Mesh, path: Path, layers: Subdivision) -> Mesh:
+    """The surface that a line sweeps; flat cells are told."""
+    surface = chosen_family(workspace(call.session)).need_surface()
+    made = sweep_line(line, path, layers, surface)
+    warn_of_flat_cells(call, made)
+    return made
+
+
 def _swept(
     call: Call, mesh: Mesh, path_of: Callable[[Mesh], Path], end_size: float, cuts: Cuts
 ) -> Mesh:
     line = line_to_sweep(mesh)
     path = path_of(line)
     layers = layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
-    surface = chosen_family(workspace(call.session)).need_surface()
-    made = sweep_line(line, path, layers, surface)
-    warn_of_flat_cells(call, made)
-    return grown(mesh, made)
+    return grown(mesh, _along(call, line, path, layers))
 
 
 @operator("TRAN", family="mesh", full_name="TRANSLATION")
@@ -168,7 +173,4 @@ def gene(
 ) -> Mesh:
     """Sweep a line along another line."""
     path, layers = generator_path(way)
-    surface = chosen_family(workspace(call.session)).need_surface()
-    made = sweep_line(line, path, layers, surface)
-    warn_of_flat_cells(call, made)
-    return made
+    return _along(call, line, path, layers)
