@@ -25,8 +25,14 @@ from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
-from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
-from ssilang.language.say.visible import visible
+from ssilang.language.say.errors import (
+    ReaderLeft,
+    SeveralErrors,
+    SsiError,
+    interruption,
+    unprinted,
+    visible,
+)
 from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source

@@ -17,10 +17,10 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.law import HARD_AREA
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import HARD_AREA
 from ssilang.kernel.interface.laws.places import n_places, place
-from ssilang.kernel.interface.point_state import CLOSED, OPEN, WHOLE, energies_of_points
+from ssilang.kernel.interface.response import CLOSED, OPEN, WHOLE, energies_of_points
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,13 @@ import pytest
 from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.changes.cut_open import cut_open
-from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.mesh.changes.merge import (
+    cut_open,
+    merge_between,
+    merge_close,
+    regenerate,
+    repeated_nodes,
+)
 from ssilang.kernel.mesh.combine import poi1, union
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh
 from ssilang.kernel.mesh.generators.sweep import rotation, sweep_line, sweep_surface, translation

@@ -16,9 +16,8 @@ from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
-from ssilang.kernel.stepping.force_track import ForceTrack
 from ssilang.kernel.stepping.newmark import Scheme, hht
-from ssilang.kernel.stepping.node_track import NodeTrack
+from ssilang.kernel.stepping.node_track import ForceTrack, NodeTrack
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced

@@ -33,8 +33,7 @@ from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import SLIPS, Law
-from ssilang.kernel.interface.laws.parameters import refuse
+from ssilang.kernel.interface.laws.law import SLIPS, Law, refuse
 
 TURNS = 60
 ENOUGH = 1e-15

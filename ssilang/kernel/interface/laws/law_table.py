@@ -9,8 +9,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.laws import bearing_law, mohr_law, sdm_law
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
-from ssilang.kernel.interface.laws.law import Law
-from ssilang.kernel.interface.laws.parameters import check_macro_parameters
+from ssilang.kernel.interface.laws.law import Law, check_macro_parameters
 
 
 def _rocking_rectangle(p: FloatArray) -> tuple[FloatArray, FloatArray]:

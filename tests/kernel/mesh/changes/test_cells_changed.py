@@ -16,8 +16,13 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
-from ssilang.kernel.mesh.generators.stitch import cone, stitch
-from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
+from ssilang.kernel.mesh.generators.sweep import (
+    cone,
+    stitch,
+    sweep_line,
+    sweep_surface,
+    translation,
+)
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
