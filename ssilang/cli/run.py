@@ -112,7 +112,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             out=out,
             language=options.language,
             limits=options.limits,
-            given={k: _as_object(v) for k, v in options.given.items()},
+            given={k: Mot(v) if isinstance(v, str) else v for k, v in options.given.items()},
             was_interrupted=take,
             hold=holding,
             on_form=options.on_form,
@@ -124,10 +124,6 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
 
         workspace(session).petsc = PetscServer(options.petsc)
     return session
-
-
-def _as_object(value: Any) -> Any:
-    return Mot(value) if isinstance(value, str) else value
 
 
 def allow_nesting(depth: int) -> None:

@@ -53,17 +53,13 @@ def yielding_at(model: Model, edge: Mesh) -> Yielding | None:
 def _yielding(model: Model, wanted: Callable[[IntArray], BoolArray]) -> Yielding | None:
     count, first = 0, None
     for zone in model.zones:
-        if _is_linear(zone):
+        if law_of(zone.behaviour).linear if is_joint(zone) else not is_plastic(zone):
             continue
         found = np.flatnonzero(wanted(zone.cells.connectivity))
         if len(found) and first is None:
             first = (zone.behaviour, zone.cells.shown_middle(int(found[0])))
         count += len(found)
     return None if first is None else Yielding(*first, count)
-
-
-def _is_linear(zone: Zone) -> bool:
-    return law_of(zone.behaviour).linear if is_joint(zone) else not is_plastic(zone)
 
 
 def _keys(nodes: IntArray) -> list[bytes]:
