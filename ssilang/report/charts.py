@@ -60,7 +60,7 @@ class Chart:
             "x": self.x,
             "y": self.y,
             "log": list(self.log),
-            "loop": self.loop or not all(bool((np.diff(line.x) > 0.0).all() and np.isfinite(line.x).all()) for line in self.lines),
+            "loop": self.loop or not all(_rises(line.x) for line in self.lines),
             "lines": [
                 {
                     "name": line.name, "x": _plain(line.x), "y": _plain(line.y),
@@ -69,6 +69,10 @@ class Chart:
                 for line in self.lines
             ],
         }  # fmt: skip
+
+
+def _rises(x: FloatArray) -> bool:
+    return bool((np.diff(x) > 0.0).all() and np.isfinite(x).all())
 
 
 def _plain(values: FloatArray) -> list[float | None]:

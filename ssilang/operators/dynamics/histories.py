@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.atomic import write_text
-from ssilang.io.csv_tables import write_parquet
+from ssilang.io.tables import write_parquet
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.language.values import LazyRows, LazyTable, promises
 from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit

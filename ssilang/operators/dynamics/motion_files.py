@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.io.csv_tables import is_there
+from ssilang.io.tables import is_there
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.interface.elements import is_joint

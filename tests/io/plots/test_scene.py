@@ -19,9 +19,13 @@ from ssilang.io.plots.patches import visible_faces
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES, component_names, values_on
 from ssilang.io.plots.view import Plane, view_along
-from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.fields.deformed import Deformed, DeformedPart
+from ssilang.kernel.fields.deformed import (
+    Deformed,
+    DeformedPart,
+    arrows_at_nodes,
+    principal_strokes,
+)
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

@@ -8,7 +8,7 @@ from references.assembled import Bench
 from references.recorder import Recorder
 from references.soil_block import FRICTION, soil_block
 
-from ssilang.kernel.contact.friction_rows import Friction
+from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows
