@@ -13,7 +13,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import is_symmetric, vector_to_field
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
-from ssilang.kernel.modal.reduced import reduced_problem
+from ssilang.kernel.modal.basis import reduced_problem
 from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.statics.linear import SolveOptions, linear_system
 from ssilang.kernel.waves.matched_layer import HISTORIES

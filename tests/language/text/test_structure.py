@@ -4,10 +4,17 @@ import pytest
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import end_of_run
-from ssilang.language.text.printer import heading, print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Definition, If, Loop, Statement, first_assignments
+from ssilang.language.text.tree import (
+    Definition,
+    If,
+    Loop,
+    Statement,
+    first_assignments,
+    heading,
+    print_items,
+)
 
 
 @pytest.mark.parametrize(
