@@ -17,8 +17,8 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter, Variable
-from ssilang.kernel.interface.laws.law import HARD_AREA
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.laws.macro_law import HARD_AREA
 from ssilang.kernel.interface.laws.places import n_places, place
 from ssilang.kernel.interface.response import CLOSED, OPEN, WHOLE, energies_of_points
 

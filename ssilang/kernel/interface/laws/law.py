@@ -1,6 +1,6 @@
 """What is known of a joint's law beside its equations, as each law's file declares it.
 
-Parameters of the joint laws: defaults, admissibility.
+Parameters of the joint laws: defaults, columns, refusals.
 """
 
 from __future__ import annotations
@@ -76,33 +76,18 @@ DEFAULTS: dict[str, float] = {"FROT": -1.0, "ETA": 1.0, "BETA": 0.5}
 """What laws take for the parameters that are not given, if not 0: a joint without tension, the
 plainest hysteresis."""
 
-HARD_AREA = 0.1
-"""Share of the area of each place under a footing that its hard spots take (PDUR)."""
 
-
-def check_macro_parameters(parameters: FloatArray) -> None:
-    """Refuse a macro-element without stiffness or size.
+def columns_of(parameters: FloatArray) -> dict[str, FloatArray]:
+    """Parameters (n,) by name, of a table (n, N_PARAMETERS).
 
     Raises
     ------
     MaterialError
-        Naming the parameter.
+        If one is no finite number.
     """
     if not np.isfinite(parameters).all():
         raise MaterialError("kernel.interface.joint-parameter-not-finite")
-    columns = {p.name: parameters[:, p] for p in Parameter}
-    refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
-    for name in ("LARG", "LONG", "RAYO"):
-        refuse(columns[name] < 0, columns[name], name, "> 0")
-    for name in ("COHE", "QULT"):
-        refuse(columns[name] < 0, columns[name], name, ">= 0")
-    spots = columns["PDUR"]
-    even = (spots == 0) | ((spots > HARD_AREA) & (spots < 1))
-    refuse(~even, spots, "PDUR", f"0, {HARD_AREA} < ... < 1")
-    strong = columns["COHE"] == 0.0
-    for name, idle in (("QULT", 0.0), ("FROT", -1.0), ("PDUR", 0.0)):
-        if (strong & (columns[name] > idle)).any():
-            raise MaterialError("kernel.interface.macro-needs-cohe", name=name)
+    return {p.name: parameters[:, p] for p in Parameter}
 
 
 def refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:

@@ -23,10 +23,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
-from ssilang.kernel.interface.laws.columns import LawCode, Parameter
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.law import Law, columns_of, refuse
 from ssilang.kernel.interface.laws.places import pressed_at_places
+
+HARD_AREA = 0.1
+"""Share of the area of each place under a footing that its hard spots take (PDUR)."""
 
 
 @compiled
@@ -356,13 +361,79 @@ def _of_rectangle(slopes: FloatArray, v: FloatArray) -> FloatArray:
 
 def outline_of(code: LawCode, p: FloatArray, dimension: int) -> Outline:
     """The outline of a macro-element from its parameters (N_PARAMETERS,)."""
-    width, length = p[Parameter.LARG], p[Parameter.LONG]
+    width, length = p[Par.LARG], p[Par.LONG]
     if code == LawCode.DISC:
-        radius = p[Parameter.RAYO]
+        radius = p[Par.RAYO]
         halves, area = np.full(dimension - 1, radius), float(np.pi * radius**2)
     elif code == LawCode.SPRINGS:
-        return Outline(code, np.array([0.5 * width]), 1.0, float(0.5 * p[Parameter.KN]))
+        return Outline(code, np.array([0.5 * width]), 1.0, float(0.5 * p[Par.KN]))
     else:
         halves = 0.5 * np.array([width, length][: dimension - 1])
         area = float(width * (length if length > 0.0 else 1.0))
-    return Outline(code, halves, area, float(p[Parameter.KN] / area))
+    return Outline(code, halves, area, float(p[Par.KN] / area))
+
+
+def _check(parameters: FloatArray) -> None:
+    """Refuse a macro-element without stiffness or size.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
+    columns = columns_of(parameters)
+    refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
+    for name in ("LARG", "LONG", "RAYO"):
+        refuse(columns[name] < 0, columns[name], name, "> 0")
+    for name in ("COHE", "QULT"):
+        refuse(columns[name] < 0, columns[name], name, ">= 0")
+    spots = columns["PDUR"]
+    even = (spots == 0) | ((spots > HARD_AREA) & (spots < 1))
+    refuse(~even, spots, "PDUR", f"0, {HARD_AREA} < ... < 1")
+    strong = columns["COHE"] == 0.0
+    for name, idle in (("QULT", 0.0), ("FROT", -1.0), ("PDUR", 0.0)):
+        if (strong & (columns[name] > idle)).any():
+            raise MaterialError("kernel.interface.macro-needs-cohe", name=name)
+
+
+def _rocking_rectangle(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    k, width, length = p[:, Par.KN], p[:, Par.LARG], p[:, Par.LONG]
+    about_2 = k * width**2 / 12
+    return np.where(length > 0, k * length**2 / 12, about_2), about_2
+
+
+def _rocking_disc(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    both = p[:, Par.KN] * p[:, Par.RAYO] ** 2 / 4
+    return both, both
+
+
+def _rocking_springs(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+    both = p[:, Par.KN] * p[:, Par.LARG] ** 2 / 4
+    return both, both
+
+
+LAWS = {
+    "MACRO_SEMELLE": Law(
+        LawCode.STRIP,
+        ("KN", "KS", "LARG"),
+        ("LONG", "COHE", "QULT", "FROT", "PDUR"),
+        _check,
+        rocking=_rocking_rectangle,
+        in_space=("LONG",),
+    ),
+    "MACRO_DISQUE": Law(
+        LawCode.DISC,
+        ("KN", "KS", "RAYO"),
+        ("COHE", "QULT", "FROT", "PDUR"),
+        _check,
+        rocking=_rocking_disc,
+    ),
+    "MACRO_RESSORTS": Law(
+        LawCode.SPRINGS,
+        ("KN", "KS", "LARG"),
+        (),
+        _check,
+        rocking=_rocking_springs,
+        in_space=None,
+    ),
+}
