@@ -20,7 +20,7 @@ from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Paramet
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.macro_law import HARD_AREA
 from ssilang.kernel.interface.laws.places import n_places, place
-from ssilang.kernel.interface.response import CLOSED, OPEN, WHOLE, energies_of_points
+from ssilang.kernel.interface.point_state import CLOSED, OPEN, WHOLE, energies_of_points
 
 
 @dataclass(frozen=True, eq=False)

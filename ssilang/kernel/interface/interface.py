@@ -40,7 +40,8 @@ from ssilang.kernel.interface.laws.law_table import (
     state_of,
 )
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
-from ssilang.kernel.interface.response import Joints, energies_of_points, point_states
+from ssilang.kernel.interface.point_state import energies_of_points, point_states
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix

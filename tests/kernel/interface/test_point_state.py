@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
 from ssilang.kernel.interface.laws.point_laws import respond
-from ssilang.kernel.interface.response import (
+from ssilang.kernel.interface.point_state import (
     CLOSED,
     CLOSING,
     OPEN,
