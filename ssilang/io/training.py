@@ -49,10 +49,11 @@ class TrainingFile:
         try:
             with np.load(self.path, allow_pickle=False) as f:
                 model, dt, taught = str(f["model"]), float(f["dt"]), f["taught"]
-                vectors = np.asarray(f["vectors"], float)
-                if (taught.ndim, vectors.ndim) != (1, 2) or not np.isfinite(vectors).all():
-                    raise ValueError(f"taught {taught.shape}, vectors {vectors.shape}")
-                return Training(model, dt, tuple(map(str, taught.tolist())), vectors)
+                vectors, answers = (np.asarray(f[name], float) for name in ("vectors", "answers"))
+                for part in (vectors, answers):
+                    if (taught.ndim, part.ndim) != (1, 2) or not np.isfinite(part).all():
+                        raise ValueError(f"taught {taught.shape}, vectors {part.shape}")
+                return Training(model, dt, tuple(map(str, taught.tolist())), vectors, answers)
         except DAMAGES as error:
             raise InputError("io.damaged", name=self.name, error=str(error)) from error
 
@@ -70,7 +71,8 @@ class TrainingFile:
         """Put a training there."""
         t = training
         with replacing(self.path) as stream:
-            np.savez(stream, model=t.model, dt=t.dt, taught=list(t.taught), vectors=t.vectors)
+            parts = {"vectors": t.vectors, "answers": t.answers}
+            np.savez(stream, model=t.model, dt=t.dt, taught=list(t.taught), **parts)
 
 
 def _hold(path: Path) -> RunLock | None:

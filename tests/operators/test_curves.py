@@ -1,6 +1,5 @@
 """EVOL in its kinds, parts of curves, arithmetic, interpolation, integrals."""
 
-import numpy as np
 import pytest
 
 from ssilang.cli.run import run_text
@@ -27,19 +26,6 @@ def test_curve_in_time_from_fields_and_from_tables(found):
     assert g.parts[0].abscissas.tolist() == [0, 1, 4]
 
 
-def test_complex_curves_multiply_as_complex_numbers(found):
-    a, b = found(
-        "X = PROG 0. 1. ; E = EVOL 'COMP' 'REIM' 'F' X 'A' (PROG 1. 2.) 'B' (PROG 3. -1.) ; "
-        "M = EVOL 'COMP' 'MOPH' 'F' X 'A' (PROG 2. 1.) 'B' (PROG 90. 180.) ; "
-        "P = E * M ; Q = M * E ;",
-        "P", "Q",
-    )  # fmt: skip
-    z = np.array([(1 + 3j) * 2j, (2 - 1j) * -1])
-    np.testing.assert_allclose(a.parts[0].ordinates + 1j * a.parts[1].ordinates, z, atol=1e-14)
-    np.testing.assert_allclose(b.parts[0].ordinates, np.abs(z), rtol=1e-14)
-    np.testing.assert_allclose(b.parts[1].ordinates, np.degrees(np.angle(z)), rtol=1e-13)
-
-
 def test_integral_around_a_loop_is_the_area_inside(found):
     loop = "X = PROG 0. 2. 3. 1. 0. ; Y = PROG 0. 0. 5. 5. 0. ; "  # a parallelogram 2 x 5
     assert found(loop + "A = INTG (EVOL 'MANU' X Y) ;", "A") == pytest.approx(-10.0)
@@ -57,29 +43,6 @@ def test_curve_in_time_at_a_point_of_a_cell(found):
     ).parts[0]
     assert part.abscissas.tolist() == [0, 0.5, 1]
     assert part.ordinates.tolist() == [0, 2, 4]
-
-
-def test_words_as_abscissas_stand_at_whole_numbers_and_come_back(found):
-    words, second, total = found(
-        "E = EVOL 'MANU' 'CAS' (MOTS 'A' 'B' 'C') 'Y' (PROG 1. 2. 4.) ; L = EXTR (2. * E) 'ABSC' ; "
-        "M = EXTR (EXTR E 'PAS' 2) 'CAS' ; X = INTG E ;",
-        "L", "M", "X",
-    )  # fmt: skip
-    assert [w.strip() for w in words.values] == ["A", "B", "C"]
-    assert [w.strip() for w in second.values] == ["A", "C"]
-    assert total == pytest.approx(1.5 + 3.0)  # trapezoids of width 1
-
-
-@pytest.mark.parametrize(
-    "phrase",
-    [
-        "IPOL 0.5 L M", "IPOL L M 0.5", "IPOL L 0.5 M", "IPOL E 0.5", "IPOL 0.5 E",
-        "IPOL L M 0.5 'SPLI'", "IPOL 'SPLI' 0.5 E",
-    ],
-)  # fmt: skip
-def test_place_of_the_number_in_an_interpolation_is_free(found, phrase):
-    lists = "L = PROG 0. 1. ; M = PROG 2. 4. ; E = EVOL 'MANU' L M ; "
-    assert found(f"{lists}X = {phrase} ;", "X") == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize(

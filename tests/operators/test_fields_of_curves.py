@@ -20,6 +20,8 @@ E1 = EVOL 'MANU' 'T' (PROG 0. 1. 3.) 'YOUN' (PROG 2. 4. 5.) ; A = MATE M 'YOUN' 
         ("1. / A", lambda y: 1 / y, 1 / 0.3),
         ("A ** 2", lambda y: y**2, 0.09),
         ("A + 1.", lambda y: y + 1, 1.3),
+        ("ASIH A", np.arcsinh, np.arcsinh(0.3)),
+        ("ABS (-1. * A)", np.abs, 0.3),
     ],
 )
 def test_curves_in_cells_go_with_numbers(said, run, plain, tmp_path):

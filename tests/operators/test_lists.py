@@ -77,28 +77,6 @@ def test_lists_and_words_that_would_fill_the_memory_are_refused(refused, monkeyp
     assert "too long, the limit is 5" in refused(f"OPTI DIME 2 ; {before}Z = {phrase} ;")
 
 
-def test_each_operand_loses_its_doubles():
-    result = ran(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; "
-        "A B C = UNIQ (PROG 0.3 (0.1 + 0.2) 1. 1.05 1.) (LECT 3 3 1) (L ET (INVE L)) ; "
-        "E = UNIQ 0.1 (PROG 1. 2. 1.05) ;"
-    )
-    a, b, c, e = map(result.session.root.find, "ABCE")
-    assert a.values.tolist() == [0.3, 1.0, 1.05]  # 0.1 + 0.2 is 0.3 but for rounding
-    assert (b.values.tolist(), c.n_cells) == ([3, 1], 2)
-    assert e.values.tolist() == [1.0, 2.0]
-
-
-def test_places_may_stand_before_a_list_of_another_type(found):
-    words, reals, integers = found(
-        "W = ENLE (LECT 1 3) (MOTS 'A' 'B' 'C') ; R = ENLE (LECT 2) (PROG 4. 5. 6.) ; "
-        "I = ENLE (LECT 1 3 7) (LECT 2 3) ;", "W", "R", "I",
-    )  # fmt: skip
-    assert [str(w) for w in words.values] == ["B"]
-    assert reals.values.tolist() == [4.0, 6.0]
-    assert integers.values.tolist() == [1]  # of two alike the first is the list
-
-
 def test_values_of_fields_on_one_point_need_no_point(found, refused):
     script = (
         "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; C = MANU 'CHPO' P 'T' 3. 'Q' 1. ; "
@@ -111,18 +89,3 @@ def test_values_of_fields_on_one_point_need_no_point(found, refused):
     assert "stand on 2 points" in refused(two)
     assert found(script + "A = EXTR L 'VALE' 'T' Q ;", "A").values.tolist() == [0.0, 0.0]
     assert "no component" in refused(script + "A = EXTR L 'VALE' 'X' Q ;")
-
-
-def test_type_of_the_objects_of_a_list(found):
-    numbers, meshes = found(
-        "OPTI DIME 2 ELEM SEG2 ; A = EXTR (ENUM 7 8) 'TYPE' ; "
-        "B = EXTR 'TYPE' (ENUM (DROI 1 (0. 0.) (1. 0.))) ;", "A", "B",
-    )  # fmt: skip
-    assert (str(numbers), str(meshes)) == ("ENTIER  ", "MAILLAGE")
-
-
-@pytest.mark.parametrize(("count", "reals", "integers"), [(0, [2.0], [3]), (1, [2.0, 2.5], [3, 5])])
-def test_no_steps_leave_the_first_value(count, reals, integers):
-    result = ran(f"A = PROG 2. 'PAS' 0.5 'NPAS' {count} ; B = LECT 3 'PAS' 2 'NPAS' {count} ;")
-    assert result.session.root.find("A").values.tolist() == reals
-    assert result.session.root.find("B").values.tolist() == integers

@@ -4,18 +4,7 @@ import numpy as np
 import pytest
 from script_runs import ran
 
-from ssilang.kernel.matrices.assembly import assemble
 from ssilang.language.say.diagnostics import sentence
-
-
-def test_power_of_a_lumped_mass_is_its_inverse(found):
-    script = (
-        "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; M = (MASS 'UX' 4. P) ET (MASS 'UX' 5. Q) ; "
-        "I = M ** -1 ; R = M ** 0.5 ;"
-    )
-    inverse, root = found(script, "I", "R")
-    np.testing.assert_allclose(assemble(inverse).diagonal(), [0.25, 0.2])
-    np.testing.assert_allclose(assemble(root).diagonal(), [2.0, np.sqrt(5)])
 
 
 def test_curve_is_zero_where_the_field_is_not_and_says_so():
@@ -40,23 +29,6 @@ def test_model_is_dealt_out_zone_by_zone(found, how):
     assert [len(z.cells) for z in a.zones] == [3, 6]
     assert [len(z.cells) for z in b.zones] == [2, 6]
     assert [z.element for z in a.zones] == ["QUA4", "BARR"]
-
-
-def test_no_node_faces_an_empty_mesh(found):
-    a = found("OPTI DIME 2 ELEM SEG2 ; A B = VISA (DROI 1 (0 0) (1 0)) (VIDE 'MAILLAGE') ;", "A")
-    assert a.n_cells == 0
-
-
-@pytest.mark.parametrize(
-    ("sign", "expected"), [("T1 + T2", [6, 8]), ("T2 - T1", [2, 2]), ("2. * T1", [4, 6])]
-)
-def test_vectors_in_tables(found, sign, expected):
-    script = (
-        "T1 = TABL 'VECTEUR' ; T1 . 1 = 2. ; T1 . 2 = 3. ; "
-        "T2 = TABL 'VECTEUR' ; T2 . 1 = 4. ; T2 . 2 = 5. ; "
-    )
-    made = found(script + f"T = {sign} ;", "T")
-    assert [made.get(1), made.get(2)] == expected
 
 
 SPRINGS = (
@@ -111,16 +83,6 @@ def test_curves_in_cells_through_fields(found, refused):
     assert "one component" in said
 
 
-def test_amplification_of_a_deformed_shape(found):
-    chosen, own = found(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (3. 0.) ; U = MANU 'CHPO' L 'UX' 1. ; "
-        "X = EXTR (DEFO 3. L U) 'AMPL' ; Y = EXTR (DEFO L U) 'AMPL' ;",
-        "X", "Y",
-    )  # fmt: skip
-    assert chosen == 3.0
-    assert own > 0.0
-
-
 def test_table_of_fields_is_reduced_to_a_model(found, refused):
     start = (
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "
@@ -136,21 +98,6 @@ def test_table_of_fields_is_reduced_to_a_model(found, refused):
 
 
 # --- lists and loadings by lists ----------------------------------------------------------------
-
-
-def test_lists_are_taken_from_tables_by_their_integers(found):
-    script = (
-        "T = TABL ; T . 3 = 3. ; T . 'A' = 9. ; T . 1 = 1 ; T . 2 = 2. ; L = PROG 'TABL' T ;"
-        "U = TABL ; U . 2 = PROG 5. ; U . 1 = PROG 4. 3. ; O = ENUM 'TABL' U ; A = EXTR O 1 ;"
-        "R = ENUM 3 * A ; N = DIME R ; J = ET O ; K = ET (ENUM 2 7) ; B = ET VRAI VRAI FAUX ;"
-    )
-    numbers, first, n, joined, integers, both = found(script, *"LANJKB")
-    np.testing.assert_array_equal(numbers.values, [1.0, 2.0, 3.0])
-    np.testing.assert_array_equal(first.values, [4.0, 3.0])
-    assert n == 3
-    np.testing.assert_array_equal(joined.values, [4.0, 3.0, 5.0])
-    np.testing.assert_array_equal(integers.values, [2, 7])
-    assert both is False
 
 
 def test_a_loading_by_lists_is_that_by_tables(found):

@@ -18,25 +18,6 @@ def value(script):
     return ran(f"X = {script} ;").session.root.find("X")
 
 
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
-    [
-        ("ASIN 1.", 90.0),
-        ("ACOS (2. ** -0.5)", 45.0),
-        ("ATG -1. -1.", -135.0),
-        ("ATG 1. 0.", 90.0),
-        ("ACOH 2.", math.acosh(2)),
-        ("ATAH 0.5", math.atanh(0.5)),
-        ("LOG 10.", math.log(10)),
-        ("FLOT '-1.5'", -1.5),
-        ("FLOT '.2E3'", 200.0),
-    ],
-)
-def test_function_has_the_value_of_the_c_library(phrase, expected):
-    # a few units in the last place, for the conversion of degrees
-    assert value(phrase) == pytest.approx(expected, rel=1e-14)
-
-
 @pytest.mark.parametrize("limit", [0.0, 0.3, 2.0, 30.0])
 def test_fresnels_integrals_are_those_of_their_definition(found, limit):
     """t = u^2 takes the root of the denominator away."""
@@ -44,34 +25,6 @@ def test_fresnels_integrals_are_those_of_their_definition(found, limit):
     for value, function in ((cosine, math.cos), (sine, math.sin)):
         whole = quad(lambda u, f=function: f(u * u), 0.0, math.sqrt(limit), limit=200)[0]
         assert value == pytest.approx(whole * math.sqrt(2 / math.pi), abs=1e-10)
-
-
-def test_integers_stay_integers_in_abs_and_sign_only():
-    assert (value("ABS -3"), type(value("ABS -3"))) == (3, int)
-    assert type(value("SIGN -3")) is int
-    assert type(value("SIN 30")) is float
-
-
-ROUNDED = {
-    # number: cut, below, above, nearest (halves away from zero)
-    8.0: (8, 8, 8, 8),
-    0.5: (0, 0, 1, 1),
-    -3.5: (-3, -4, -3, -4),
-    5.21: (5, 5, 6, 5),
-    -4.9: (-4, -5, -4, -5),
-    -2.05: (-2, -3, -2, -2),
-}
-
-
-@pytest.mark.parametrize("number", ROUNDED)
-def test_four_ways_to_round(number):
-    words = ("TRONCATURE", "INFERIEUR", "SUPERIEUR", "PROCHE")
-    assert tuple(value(f"ENTI '{w}' {number}") for w in words) == ROUNDED[number]
-
-
-def test_words_and_lists_of_words_become_integers():
-    assert value("ENTI '12'") == 12
-    assert value("ENTI (MOTS '1.7' '-1.7')").values.tolist() == [1, -1]
 
 
 @given(NUMBERS, NUMBERS)
@@ -87,36 +40,6 @@ def test_comparisons_order_like_the_reals(a, b):
         a == b,
         a != b,
     ]
-
-
-def test_equality_converts_the_second_number_to_the_type_of_the_first():
-    assert value("1 EGA 1.5") is True
-    assert value("1.5 EGA 1") is False
-    assert value("1. EGA 1.05 0.1") is True
-
-
-def test_equal_words_forget_trailing_blanks_and_points_their_identity(found):
-    assert value("EGA 'AA' 'AA  '") is True
-    assert value("EGA 'AA' 'aa'") is False
-    same, other = found(
-        "OPTI DIME 2 ; P = 1. 2. ; Q = 1. 2. ; R = 1. 2.1 ; A = P EGA Q ; B = P EGA R ;", "A", "B"
-    )
-    assert (same, other) == (True, False)
-
-
-def test_logic_and_multiples():
-    assert value("VRAI ET FAUX") is False
-    assert value("FAUX OU VRAI") is True
-    assert value("NON FAUX") is True
-    assert value("MULT 12 4") is True
-    assert value("MULT 12 5") is False
-
-
-def test_maximum_of_numbers_keeps_integers():
-    assert value("MAXI -10 1 7 -5") == 7
-    assert value("MAXI 'ABS' -10. 1. 7.") == 10.0
-    assert type(value("MINI 3 2")) is int
-    assert type(value("MINI 3 2.")) is float
 
 
 @given(st.lists(st.integers(-50, 50), min_size=1, max_size=20), st.integers(-50, 50))
@@ -148,29 +71,6 @@ def test_successive_draws_differ(found):
     assert a.values.tolist() != b.values.tolist()
 
 
-def test_roots_of_a_polynomial(found):
-    real, re, im, word = found(
-        "R = RACP (PROG -6. 11. -6. 1.) ; RE IM = RACP 'IMAGINAIRE' (PROG 1. 0. 1.) ; "
-        "W = RACP 'INTE' 5. 6. (PROG -6. 11. -6. 1.) ;",
-        "R", "RE", "IM", "W",
-    )  # fmt: skip
-    np.testing.assert_allclose(real.values, [1, 2, 3], rtol=1e-10)
-    np.testing.assert_allclose(re.values, [0, 0], atol=1e-14)
-    np.testing.assert_allclose(im.values, [-1, 1], rtol=1e-14)
-    assert word == "VIDE"
-
-
-@pytest.mark.parametrize(
-    "base", ["-8.", "(PROG -8. 8.)", "(EVOL 'MANU' (PROG 0. 1.) (PROG -8. 8.))"]
-)
-def test_roots_of_odd_order_of_negative_values(base: str) -> None:
-    text = f"X = ({base}) ** (1. / 3.) ; "
-    result = ran(text + ("X = EXTR X 'ORDO' ;" if "EVOL" in base else ""))
-    found = result.session.root.find("X")
-    expected = [-2.0] if base == "-8." else [-2.0, 2.0]
-    assert np.atleast_1d(getattr(found, "values", found)).tolist() == pytest.approx(expected)
-
-
 @pytest.mark.parametrize("base", ["-8.", "(PROG -8. 8.)"])
 def test_other_roots_of_negative_values_are_refused(base: str) -> None:
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (-8. 0.) (8. 0.) ; "
@@ -198,21 +98,6 @@ def test_lists_of_integers_follow_the_rules_of_single_ones(pairs, sign):
         assert "64 bits" in result.message
     else:
         assert result.session.root.find("X").values.tolist() == expected
-
-
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
-    [
-        ("(LECT -7 7) / 2", [-3, 3]),
-        ("(LECT -7 7) / (LECT -2 -2)", [3, -3]),
-        ("(LECT 9007199254740993) / 1", [2**53 + 1]),  # a real has 53 bits
-        ("(LECT 3 -2) ** 3", [27, -8]),
-        ("(LECT 2) ** -1", [0]),
-        ("SOMM 'CUMU' (LECT 3 4)", [3, 7]),
-    ],
-)
-def test_integers_of_lists_are_exact(phrase, expected):
-    assert value(phrase).values.tolist() == expected
 
 
 def test_a_sum_of_a_list_may_be_longer_than_its_items():

@@ -1,10 +1,13 @@
 """PASAPAS along paths that loads in time cannot follow: snap-through, snap-back, collapse."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from script_runs import failed, ran
 
 from ssilang.language.say.diagnostics import sentence
+from ssilang.operators.statics.path_following import strain_points
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
 TRUSS = """
@@ -200,6 +203,26 @@ def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):
     find = run(text, tmp_path).session.root.find
     v = -moved(find("T"), "UY", find("P0").node)
     np.testing.assert_allclose(v, 5e-4 * np.arange(5), atol=1e-13)  # its strain is v/2
+
+
+def test_every_zone_with_strains_is_looked_at_whatever_stands_before_it(tmp_path):
+    text = """OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; P = 0. 0. ; Q = 2. 0. ; L = DROI 2 P Q ;
+    S = L TRAN 2 (0. 1.) ; J = RACC 1.E-6 L (L PLUS (0. 0.)) ; B = DROI 1 P (0. 3.) ;
+    M = (MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2') ET
+      (MODE (MANU 'POI1' P) 'MECANIQUE' 'ELASTIQUE' 'MODAL') ET
+      (MODE S 'MECANIQUE' 'ELASTIQUE') ET (MODE B 'MECANIQUE' 'ELASTIQUE' 'BARR') ;"""
+    find = ran(text, tmp_path).session.root.find
+    for region, kept in (
+        (None, [[True] * 4, [True]]),
+        (find("S"), [[True] * 4]),
+        (find("B"), [[True]]),
+    ):
+        given = {"MODELE": find("M"), "ZONE_DE_PILOTAGE": region}
+        entries = SimpleNamespace(
+            needed=given.get, get=given.get, error=lambda code: KeyError(code)
+        )
+        found = strain_points(entries, None).zones
+        assert [k.tolist() for _, k in found] == kept
 
 
 def test_collapse_load_is_where_automatic_steps_end(tmp_path):

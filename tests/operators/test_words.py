@@ -45,36 +45,6 @@ def test_wrong_format_is_explained(form):
         formatted(form, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
-    [
-        ("CHAI 'a' 2 ' ' VRAI", "a2 VRAI"),
-        ("CHAI ' x:' 25.86", " x: 2.58600E+01"),
-        ("CHAI FORMAT '(F6.2)' 'p' 25.86 'q' 1.", "p 25.86q  1.00"),
-        ("CHAI FORMAT '(I5)' 'n' 42", "n   42"),
-        ("CHAI FORMAT '(F5.1)' 42 1.", "42  1.0"),
-        ("CHAI 'ABC' 'DEF'*10", "ABC    DEF"),
-        ("CHAI 'ABC' 'DEF'/10", "ABC      DEF"),
-        ("CHAI 'ABC' 'DEF'<10", "ABC       DEF"),
-        ("CHAI 'ABC' 'DEF'>10", "ABC         DEF"),
-        ("CHAI 321*10 321*20", "       321       321"),
-        ("EXTR 'abcdef' 2 4", "bcd"),
-        ("EXTR 'abcdef' 3", "cdef"),
-        ("EXTR 'abcdef' (LECT 6 1)", "fa"),
-        ("CHAN 'MAJU' 'aB1'", "AB1"),
-        ("CHAN 'MINU' 'aB1'", "ab1"),
-        ("ET 'left ' ' right'", "leftright"),
-        ("ET 'TELQUEL' 'left ' 'right'", "left right"),
-        ("TYPE 3.", "FLOTTANT"),
-        ("TYPE (PROG 1.)", "LISTREEL"),
-        ("TYPE 'x'", "MOT     "),
-        ("MOT 'TRAC'", "TRAC"),
-    ],
-)
-def test_word_made_by_a_phrase(phrase, expected, found):
-    assert found(f"X = {phrase} ;", "X") == expected
-
-
 def test_length_of_a_word_and_characters_outside(found, refused):
     assert found("N = DIME 'abc' ;", "N") == 3
     assert "3 characters" in refused("X = EXTR 'abc' «2» 5 ;")
@@ -102,17 +72,6 @@ def test_forgotten_index_and_name(found):
     size, known = found("T = TABL ; T . 1 = 5 ; OUBL T 1 ; N = DIME T ; X = 2 ; OUBL X ;", "N", "X")
     assert size == 0
     assert known is ANNULE
-
-
-def test_inherited_method_runs_on_the_heir(found):
-    assert (
-        found(
-            "DEBM A1 ; %V = 1 ; %METHODE DIT LIRE ; FINM ; DEBM LIRE ; FINM %V ; "
-            "DEBM B1 ; %V = 2 ; FINM ; P = OBJE A1 ; Q = OBJE B1 ; Q%HERITE P ; X = Q%DIT ;",
-            "X",
-        )
-        == 2
-    )
 
 
 @pytest.mark.parametrize("count", [-1, 10**9])

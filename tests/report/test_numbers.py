@@ -207,6 +207,20 @@ def test_tables_and_cards_hold_what_the_summary_holds(tmp_path: Path) -> None:
     assert "0.7 kB" in page
 
 
+def test_pictures_are_held_as_long_as_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ssilang.report.page.PICTURES", 10)
+    results = _results(tmp_path)
+    results.pictures[:] = [tmp_path / f"{n}.png" for n in ("b", "a", "gone", "e", "c")]
+    for name, size in (("b", 6), ("a", 5), ("e", 0), ("c", 4)):
+        (tmp_path / f"{name}.png").write_bytes(name.encode() * size)
+    page = page_of(results, "en", lambda text: [])
+    held = re.findall('<img alt="(.*?)" src="data:image/png;base64,(.*?)">', page)
+    assert [(n, base64.b64decode(d)) for n, d in held] == [("b.png", b"bbbbbb"), ("c.png", b"cccc")]
+    assert TOLD("report.pictures-left", count=3) in page
+
+
 def test_a_deck_is_shown_as_it_is_written() -> None:
     deck = "A = 1 ;\n* <b>\n\nTITR 'two\nlines' ;"
     at = deck.index("'two")
@@ -284,16 +298,20 @@ def test_a_scene_holds_every_kind_of_cell_and_all_instants(tmp_path: Path) -> No
     bar, line_joint = [0, 1], [2, 3, 4, 5]
     cells = {
         "vertex": [6], "line": bar, "triangle": [7, 8, 9], "quad": [10, 11, 12, 13],
+        "next": [11, 22, 23, 12],
         "line_joint": line_joint, "solid_joint": [14, 15, 16, 17, 18, 19, 20, 21],
     }  # fmt: skip
-    kinds = [1, 3, 5, 9, 9, 12]
+    kinds = [1, 3, 5, 9, 9, 9, 12]
     flat = np.concatenate([[len(c), *c] for c in cells.values()])
-    opening = np.array([np.nan] * 4 + [0.25, -0.5])
+    opening = np.array([np.nan] * 5 + [0.25, -0.5])
+    stress = np.random.default_rng(4).normal(size=(7, 6))
+    stress[:2], stress[2, 3], stress[5:] = np.nan, np.nan, np.nan  # one component misses in a cell
     frames = []
     for step in range(3):
         grid = pyvista.UnstructuredGrid(flat, kinds, points)
         grid.point_data["displacement"] = (step + 1.0) * points[:, ::-1]
         grid.cell_data["opening"] = (step + 1.0) * opening
+        grid.cell_data["stress"] = (step - 1.0) * stress
         grid.cell_data["traction"] = np.stack([-3.0 * (step + 1.0) * opening] * 3, axis=1) * [
             1.0,
             7.0,
@@ -328,10 +346,11 @@ def test_a_scene_holds_every_kind_of_cell_and_all_instants(tmp_path: Path) -> No
     assert sets("lines", 2) == [(0, 1)]
     triangles = sets("triangles", 3)
     assert triangles[0] == (7, 8, 9)
-    assert sorted({n for t in triangles[1:] for n in t}) == [10, 11, 12, 13]
-    assert len(triangles) == 3
+    assert sorted({n for t in triangles[1:] for n in t}) == [10, 11, 12, 13, 22, 23]
+    assert len(triangles) == 5
     assert sets("edges", 2) == [
-        (7, 8), (7, 9), (8, 9), (10, 11), (10, 13), (11, 12), (12, 13),
+        (7, 8), (7, 9), (8, 9), (10, 11), (10, 13), (11, 12), (11, 22), (12, 13), (12, 23),
+        (22, 23),
     ]  # fmt: skip
     assert [node[i] for i in joint] == [2, 3, 14, 15, 16, 17]
     assert sets("joint_lines", 2, joint) == [(2, 3)]
@@ -339,7 +358,17 @@ def test_a_scene_holds_every_kind_of_cell_and_all_instants(tmp_path: Path) -> No
     values = {}
     for field in told["fields"]:
         kept = array(f"field:{field['name']}", "<i2").reshape(3, -1)
-        values[field["name"]] = np.cumsum(kept, axis=0, dtype=np.int16) * field["scale"]
+        numbers = np.cumsum(kept, axis=0, dtype=np.int16)
+        values[field["name"]] = np.where(numbers == -32768, np.nan, numbers * field["scale"])
+    means = np.full((24, 6), np.nan)
+    means[[10, 13]], means[[22, 23]] = stress[3], stress[4]
+    means[[11, 12]] = 0.5 * (stress[3] + stress[4])
+    x, y, z, xy, yz, xz = means[node].T
+    tensors = np.moveaxis(np.array([[x, xy, xz], [xy, y, yz], [xz, yz, z]]), -1, 0)
+    rest = tensors - np.trace(tensors, axis1=1, axis2=2)[:, None, None] * np.eye(3) / 3.0
+    mises = np.sqrt(1.5 * (rest**2).sum(axis=(1, 2)))
+    np.testing.assert_allclose(values["stress_vertical"], [-z, 0.0 * z, z], atol=1e-3)
+    np.testing.assert_allclose(values["stress_mises"], [mises, 0.0 * z, mises], atol=1e-3)
     moved = values["displacement"].reshape(3, -1, 3)
     for step in range(3):
         np.testing.assert_allclose(moved[step], (step + 1) * place[:, ::-1], atol=1e-3)

@@ -21,7 +21,6 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.reference import first_sentence
 from ssilang.language.values import Table, type_of
 from ssilang.language.vocabulary.entries import Declaration, TableEntry
-from ssilang.language.vocabulary.terms import Word
 from ssilang.messages.message import teller
 from ssilang.operators.vocabulary import words
 
@@ -130,34 +129,22 @@ def _keywords(place: Place, document: Document, language: str) -> Iterator[_Foun
 
 def _parameters(place: Place, document: Document, language: str) -> Iterator[_Found]:
     """Parameters of the laws and elements that the model in front was made of."""
-    rows: dict[str, str] = {}
     given = _model_words(place, document)
     springs = any(word[:4] == "IMPE" for word in given)
-    for word in given:
-        for kind in ("law", "element"):
-            for meaning in vocabulary.meanings(kind, word):
-                if meaning.kind != "impedance" or springs:  # ELASTIQUE is a law of both
-                    rows.update(_rows(kind, meaning, language))
-    if not rows:
-        rows = {w.name: words.described(w, language) for w in vocabulary.words("parameter")}
+    laws = [m for word in given for m in vocabulary.meanings("law", word)]
+    laws = [m for m in laws if m.kind != "impedance" or springs]  # ELASTIQUE is a law of both
+    zones = [zone for m in laws if (zone := words.sample_of_law(m)) is not None]
+    found = [row for zone in zones for row in words.parameter_rows(zone, True, False)]
+    for name in (m.name for w in given for m in vocabulary.meanings("element", w)):
+        for zone in list(words.samples_of_element(name))[-1:] if name in ELEMENTS else []:
+            found += words.parameter_rows(zone, not zones, True)
+    need = f" ({teller(language)('help.required')})"
+    rows = {
+        row.word.name: words.described(row.word, language) + need * row.required
+        for row in found if not row.word.kind
+    } or {w.name: words.described(w, language) for w in vocabulary.words("parameter")}  # fmt: skip
     for name, said in rows.items():
         yield name, "word", f"'{name}'", said
-
-
-def _rows(kind: str, word: Word, language: str) -> dict[str, str]:
-    if kind == "law":
-        zone = words.sample_of_law(word)
-        zones = [zone] if zone is not None else []
-    else:
-        zones = list(words.samples_of_element(word.name))[-1:] if word.name in ELEMENTS else []
-    found: dict[str, str] = {}
-    for zone in zones:
-        for row in words.parameter_rows(zone, law=kind == "law", section=kind == "element"):
-            if row.word.kind:
-                continue
-            need = f" ({teller(language)('help.required')})" if row.required else ""
-            found[row.word.name] = words.described(row.word, language) + need
-    return found
 
 
 def _model_words(place: Place, document: Document) -> list[str]:

@@ -57,9 +57,9 @@ class Names:
         return [o for o in self.alike(of) if o.defines]
 
     def visible(self, scope: int) -> dict[str, Occurrence]:
-        """First definitions of the names that can be read in a scope."""
+        """First definitions of the names that can be read in a scope, its own before others."""
         seen: dict[str, Occurrence] = {}
-        for o in self.found:
+        for o in sorted(self.found, key=lambda o: self._owner(o) != scope):
             if o.defines and self._owner(o) in (0, scope):
                 seen.setdefault(o.name, o)
         return seen

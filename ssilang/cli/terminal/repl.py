@@ -151,12 +151,12 @@ class Repl:
         self.kept: list[str] = []  # statements that ran, for %save
         self.pending = ""
         self._count = 0
-        self._commands: dict[str, Callable[[str], bool]] = {
-            "%help": self._help,
+        self._commands: dict[str, Callable[[str], None]] = {
+            "%help": lambda _: self._say("cli.commands"),
             "%vars": self._variables,
             "%save": self._save,
             "%run": self._run_file,
-            "%quit": lambda _: False,
+            "%quit": self._quit,
         }
         session.on_warning = self._report
         follow_loops(session, sys.stderr)
@@ -193,7 +193,7 @@ class Repl:
         if action is None:
             self._say("cli.no-such-command", name=name)
             return True
-        return action(rest.strip().strip("'\""))
+        return self._guarded(lambda: action(rest.strip().strip("'\"")))
 
     # ---- statements --------------------------------------------------------------------------
 
@@ -217,6 +217,7 @@ class Repl:
         """Do something that may fail: the session survives; False after FIN."""
         session = self.session
         session.was_interrupted()  # Ctrl-C at the prompt is over
+        session.evaluator.current_span = None  # nothing of this line has run
         try:
             action()
         except StopRun:
@@ -252,34 +253,31 @@ class Repl:
 
     # ---- commands ----------------------------------------------------------------------------
 
-    def _help(self, _: str) -> bool:
-        self._say("cli.commands")
-        return True
+    def _quit(self, _: str) -> None:
+        raise StopRun
 
-    def _variables(self, _: str) -> bool:
+    def _variables(self, _: str) -> None:
         for name, value in sorted(self.session.root.variables.items()):
             short = written(value) if isinstance(value, bool) else value
             shown = f" {short}" if isinstance(value, bool | int | float | Mot) else ""
             self.out.write(f"{name:<24} {type_of(value)}{shown}\n")
-        return True
 
-    def _save(self, path: str) -> bool:
+    def _save(self, path: str) -> None:
         if not path:
             self._say("cli.file-name-wanted", name="%save")
-            return True
+            return
         try:
             Path(path).write_text("\n".join(self.kept) + "\n", encoding="utf-8")
         except OSError as problem:
             self.out.write(f"{path}: {problem.strerror}\n")
-            return True
+            return
         self._say("cli.lines-saved", count=len(self.kept), path=path)
-        return True
 
-    def _run_file(self, path: str) -> bool:
+    def _run_file(self, path: str) -> None:
         if not path:
             self._say("cli.file-name-wanted", name="%run")
-            return True
-        return self._guarded(lambda: execute(self.session, read_source(Path(path))))
+            return
+        execute(self.session, read_source(Path(path)))
 
 
 def start(options: RunOptions) -> int:

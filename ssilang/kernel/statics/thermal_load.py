@@ -16,6 +16,8 @@ from ssilang.kernel.elements.loads.thermal import given_strain, thermal_strain
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
 
@@ -43,16 +45,18 @@ class ThermalStress:
 def check_strains(load: Load | None, zones: tuple[Zone, ...], moving: bool) -> None:
     """Free strains are fields of strains that the bodies have, in small displacements.
 
+    Joints take given ones where their law is linear.
+
     Parameters
     ----------
-    zones : all bodies
+    zones : all bodies and joints
     moving : bool
         Whether they are in finite displacements, whose laws take no free strains.
 
     Raises
     ------
     FieldError
-        If a strain stands on no body, or bodies move far.
+        If a strain stands on no body, or on joints whose law is not linear, or bodies move far.
     """
     for part in load.parts if load is not None else ():
         name = part.name.strip()
@@ -65,11 +69,14 @@ def check_strains(load: Load | None, zones: tuple[Zone, ...], moving: bool) -> N
 
 
 def _check_names(fields: list[object], zones: tuple[Zone, ...]) -> None:
-    wanted = {n for z in zones for n in family_of(z).strain_names(z)}
+    taking = [z for z in zones if not is_joint(z) or law_of(z.behaviour).linear]
+    wanted = {n for z in taking for n in family_of(z).strain_names(z)}
     for field in fields:
         if not isinstance(field, CellField):
             raise FieldError("kernel.statics.given-strain-is-no-field-in-cells")
-        found = {n for z in zones for n in zone_field(z, field).names}
+        if any(given_strain(z, field).any() for z in zones if z not in taking):
+            raise FieldError("kernel.statics.given-strain-of-joints")
+        found = {n for z in taking for n in zone_field(z, field).names}
         if not found or not found <= wanted:
             raise FieldError(
                 "kernel.statics.given-strain-names",
@@ -90,7 +97,8 @@ def split_strains(
     kept = [p for p in load.parts if p.name.strip() not in FREE]
     stresses: list[ThermalStress] = []
     for zone, material in zones:
-        stresses += _thermal_stresses(load, zone, material)
+        if not is_joint(zone):
+            stresses += _thermal_stresses(load, zone, material)
         stresses += _stresses_of_given(load, zone, material)
     parts = [_force(s, _of(zones, s.zone)) for s in stresses]
     return Load((*kept, *parts)), stresses

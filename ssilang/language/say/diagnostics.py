@@ -176,9 +176,9 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["before_text"] = Sentence("ended-by-word", before=data["before"])
     if data.get("bare") and error.code == "wrong-argument" and "held_word" not in data:
         word = str(data["value"])
-        made["bare_hint"] = Sentence(
-            "bare-word", word=word, near=nearest(word, [n for n in names if n != word])
-        )
+        near = nearest(word, [n for n in names if n != word])
+        known = elsewhere(word, language)
+        made["bare_hint"] = f"{known}\n" if known else Sentence("bare-word", word=word, near=near)
     if data.get("found") in ("ENTIER", "FLOTTANT") and "POINT" in _expected(data):
         made["point_hint"] = Sentence("point-in-parentheses")
     if data.get("quoted"):

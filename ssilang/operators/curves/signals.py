@@ -74,9 +74,7 @@ def tfr(
 ) -> Curve:
     """Transform signals."""
     _check_power(call, power)
-    if len(signal.parts) != 1:
-        raise call.error("operators.curves.one-curve-at-a-time", signal, n_parts=len(signal.parts))
-    part = signal.parts[0]
+    part = one_part(call, signal)
     step = constant_step(part.abscissas)
     warn_of_points(call, part, 2**power)
     warn_of_sampling(call, step, highest)

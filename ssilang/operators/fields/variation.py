@@ -11,6 +11,7 @@ from ssilang.kernel.curves.algebra import interpolated
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import Support
+from ssilang.operators.curves.words import one_part
 from ssilang.operators.prelude import *
 
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
@@ -45,7 +46,7 @@ def vari(
     support: str = _SUPPORT,
 ) -> CellField:
     """Evaluate a law in cells."""
-    part = _law(call, curve)
+    part = one_part(call, curve)
     placed = _placed(model, field, cast(Support, support))
     name = argument_name(cell_algebra.component_names(placed), part)
     one = cell_algebra.extracted(placed, [name], ["SCAL"])
@@ -61,17 +62,11 @@ def vari_at_nodes(
     target: str | None = Opt("MOT", en="component of the result, else the name of the ordinate"),
 ) -> NodeField:
     """Evaluate a law at nodes."""
-    part = _law(call, curve)
+    part = one_part(call, curve)
     name = part.ordinate_name.strip() if target is None else target.rstrip()
     given = field.components[argument_name(list(field.components), part)]
     values = interpolated(part.abscissas, part.ordinates, given.values)
     return node_algebra.rebuilt(field, {name or "SCAL": NodeValues(given.nodes, values)})
-
-
-def _law(call: Call, curve: Curve) -> CurvePart:
-    if len(curve.parts) != 1:
-        raise call.error("operators.fields.law-is-one-curve", curve, n_parts=len(curve.parts))
-    return curve.parts[0]
 
 
 def _placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:

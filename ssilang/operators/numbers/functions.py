@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -35,16 +36,27 @@ def mapped(function: Function, value: Any) -> Any:
     if isinstance(value, NodeField):
         return node_algebra.applied(value, function)
     assert isinstance(value, CellField)
-    return cell_algebra.applied(value, function)
+    return cell_algebra.applied(value, lambda x: _of_cells(function, x), objects=True)
+
+
+def _of_cells(function: Function, values: Any) -> Any:
+    """The function of what cells hold: numbers, or curves and lists one by one."""
+    if values.dtype != object:
+        return function(values)
+    made = np.empty_like(values)
+    for place, held in np.ndenumerate(values):
+        if not isinstance(held, Curve | ListReel | ListEnti):
+            raise KernelError("operators.numbers.no-function-of", kind=type_of(held))
+        made[place] = mapped(function, held)
+    return made
 
 
 def _within(name: str, function: Function, low: float, high: float, strict: bool) -> Function:
     """A function that refuses arguments outside of an interval."""
 
     def run(x: Any) -> Any:
-        slack = 0.0 if strict else 1e-12
-        bad = (x <= low) if strict else (x < low - slack)
-        bad = bad | (x > high + slack) | np.isnan(x)
+        bad = (x <= low) if strict else (x < low - 1e-12)
+        bad = bad | (x > high + 1e-12) | np.isnan(x)
         if np.any(bad):
             worst = np.atleast_1d(x)[np.atleast_1d(bad)][0]
             raise _outside(name, worst, low, high, strict)
@@ -67,26 +79,15 @@ def _degrees(function: Function) -> Function:
     return lambda x: np.degrees(function(x))
 
 
-def _of_degrees(function: Function) -> Function:
-    return lambda x: function(np.radians(x))
-
-
 def _exponential(x: Any) -> Any:
     if np.any(np.asarray(x) > 709.7):
         raise KernelError("operators.numbers.exp-too-large", x=np.max(x))
     return np.exp(x)
 
 
-def _erf(x: Any) -> Any:
-    from scipy.special import erf
-
-    return erf(x)
-
-
-def _erfc(x: Any) -> Any:
-    from scipy.special import erfc
-
-    return erfc(x)
+def _special(name: str) -> Function:
+    """A function of scipy, which is imported when it is first used."""
+    return lambda x: getattr(import_module("scipy.special"), name)(x)
 
 
 def _sign(x: Any) -> Any:
@@ -97,9 +98,9 @@ def _sign(x: Any) -> Any:
 _FUNCTIONS: dict[str, Function] = {
     "ABS": np.abs,
     "SIGN": _sign,
-    "SIN": _of_degrees(np.sin),
-    "COS": _of_degrees(np.cos),
-    "TAN": _of_degrees(np.tan),
+    "SIN": lambda x: np.sin(np.radians(x)),
+    "COS": lambda x: np.cos(np.radians(x)),
+    "TAN": lambda x: np.tan(np.radians(x)),
     "ASIN": _degrees(_within("ASIN", np.arcsin, -1, 1, False)),
     "ACOS": _degrees(_within("ACOS", np.arccos, -1, 1, False)),
     "SINH": np.sinh,
@@ -110,8 +111,8 @@ _FUNCTIONS: dict[str, Function] = {
     "ATAH": _within("ATAH", np.arctanh, -1, 1, False),
     "EXP": _exponential,
     "LOG": _within("LOG", np.log, 0, np.inf, True),
-    "ERF": _erf,
-    "ERFC": _erfc,
+    "ERF": _special("erf"),
+    "ERFC": _special("erfc"),
 }
 _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
@@ -121,11 +122,8 @@ _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
 def _run(name: str, function: Function, value: Any) -> Any:
-    if name not in _INTEGERS_STAY:
-        if isinstance(value, int):
-            value = float(value)
-        elif isinstance(value, ListEnti):
-            value = ListReel(value.values)
+    if name not in _INTEGERS_STAY and isinstance(value, int | ListEnti):
+        value = float(value) if isinstance(value, int) else ListReel(value.values)
     return mapped(function, value)
 
 
@@ -159,9 +157,7 @@ def atg(
 ) -> Any:
     """Arc tangent of one or two objects."""
     if second is None:
-        value = float(first) if isinstance(first, int) else first
-        value = ListReel(value.values) if isinstance(value, ListEnti) else value
-        return mapped(_degrees(np.arctan), value)
+        return _run("ATG", _degrees(np.arctan), first)
     if isinstance(first, int | float) and isinstance(second, int | float):
         return float(np.degrees(np.arctan2(first, second)))
     if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):
@@ -203,5 +199,4 @@ def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellFiel
 
 def _part(block: CellFieldBlock, name: str) -> Any:
     """A component of a block, zero where it is absent."""
-    values = block.components.get(name)
-    return np.zeros((1, 1)) if values is None else cell_algebra.numeric(name, values)
+    return cell_algebra.numeric(name, block.components.get(name, np.zeros((1, 1))))

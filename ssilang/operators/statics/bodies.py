@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.elements.results.frames import FOLLOWING
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.operators.prelude import *
@@ -59,6 +60,8 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
 
 def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodies:
     """What makes the bodies in finite displacements once the problem is numbered."""
+    if any(z.options.get("FRAME") == FOLLOWING for z in entries.needed("MODELE").zones):
+        entries.warn("operators.statics.joint-axes-stay")
     material: CellField = entries.needed("CARACTERISTIQUES")
 
     def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:

@@ -9,6 +9,7 @@ import numpy as np
 from ssilang.kernel.curves.algebra import check_increasing
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.operators.curves.words import one_part
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union
 from ssilang.operators.prelude import *
 
@@ -47,11 +48,10 @@ def char(
     """A field times a curve."""
     _refuse_moving(call, moves or path)
     if curve is not None:
-        if len(curve.parts) != 1:
-            raise call.error("operators.statics.one-curve-wanted", curve, n_parts=len(curve.parts))
-        if not len(curve.parts[0].abscissas):
+        part = one_part(call, curve)
+        if not len(part.abscissas):
             raise call.error("operators.statics.empty-curve", curve)
-        check_increasing(curve.parts[0].abscissas)
+        check_increasing(part.abscissas)
         _check_numbers(call, curve)
     return Load((LoadPart(_short(name), held, curve),))
 

@@ -361,9 +361,8 @@ def _inputs(
     pressed = () if model is None else loaded_sides(model)
     forces = with_pressures(entries.get("CHARGEMENT"), pressed, bool(finite_zones(entries)))
     bodies = [z for z in model.zones if z.formulation == "MECANIQUE"] if model is not None else []
-    free = tuple(z for z in bodies if not is_joint(z))
-    check_strains(forces, free, bool(finite_zones(entries)))
-    load, thermal = split_strains(forces, solids)
+    check_strains(forces, tuple(bodies), bool(finite_zones(entries)))
+    load, thermal = split_strains(forces, linear)
     if material is not None and forces and any(p.name.strip() == "T" for p in forces.parts):
         refuse_expanding([z for z in bodies if is_joint(z)], material)
     displacement = start.of("DEPLACEMENTS")

@@ -157,46 +157,24 @@ async def test_quick_fixes(client, wrong, code, right):
     assert applied(wrong, actions[0].edit.changes[URI]) == right
 
 
-async def test_hover_tells_operators_keywords_entries_words_and_names(client):
+async def test_hover_and_completion_are_of_the_place(client):
+    """What they hold: `test_information.py`."""
     open_deck(client)
     await diagnostics(client)
-
-    async def told(word: str, shift: int = 1, number: int = 1) -> str:
-        params = lsp.HoverParams(**at(DECK, word, shift, number))
-        found = await client.text_document_hover_async(params)
-        return found.contents.value if found is not None else ""
-
-    assert "**RACC" in await told("RACC")
-    assert "**DYNAMIC . 'RIGI'** : RIGIDITE" in await told("'RIGI'")
-    assert "Normal stiffness" in await told("'KN'")
-    assert "JOINT_SDM : " in await told("'JOINT_SDM'")
-    assert "**MOJ** : MMODEL (first given at line 6)" in await told("MOJ")
-    assert "DYNAMIC" in await told("DYNAMIC")
-    assert not await told("1.E-6")
-
-
-async def test_completion_knows_what_fits_at_the_place(client):
-    async def offered(text: str, version: int) -> dict[str, str]:
-        change_to(client, text, version)
-        line = text.count("\n")
-        position = lsp.Position(line, len(text) - text.rfind("\n") - 1)
-        found = await client.text_document_completion_async(
-            lsp.CompletionParams(lsp.TextDocumentIdentifier(URI), position)
-        )
-        return {i.label: i.text_edit.new_text for i in found.items}
-
-    open_deck(client)
-    head = DECK[: DECK.index("DEBP")]
-    entries = await offered(DECK[: DECK.index("REPE")] + "T1 . 'A", 2)
-    assert entries["AMOR"] == "'AMOR'"
+    found = await client.text_document_hover_async(lsp.HoverParams(**at(DECK, "MOJ")))
+    assert "**MOJ** : MMODEL (first given at line 6)" in found.contents.value
+    assert (found.range.start, found.range.end) == (lsp.Position(5, 0), lsp.Position(5, 3))
+    assert await client.text_document_hover_async(lsp.HoverParams(**at(DECK, "1.E-6"))) is None
+    text = DECK[: DECK.index("REPE")] + "T1 . 'A"
+    change_to(client, text, 2)
+    position = lsp.Position(text.count("\n"), 7)
+    found = await client.text_document_completion_async(
+        lsp.CompletionParams(lsp.TextDocumentIdentifier(URI), position)
+    )
+    entries = {i.label: i.text_edit for i in found.items}
+    assert entries["AMOR"].new_text == "'AMOR'"
+    assert entries["AMOR"].range.start.character == 5
     assert "DROIT" not in entries
-    parameters = await offered(head + "MA2 = MATE MOJ 'K", 3)
-    assert parameters["KN"] == "'KN'"
-    assert "YOUNG" not in parameters
-    assert "YOUN" not in parameters
-    assert "'NPAS'" in (await offered(head + "L = PROG 1. 'N", 4)).values()
-    names = await offered(head + "X = SI", 5)
-    assert {"SIDE", "SIN", "SI", "MAILLER"} <= set(names)
 
 
 async def test_names_are_found_and_renamed_within_their_scope(client):

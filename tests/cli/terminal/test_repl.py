@@ -1,25 +1,33 @@
-"""The interactive session, fed with lines."""
+"""The interactive session, fed with lines: all that it prints, asks, keeps."""
 
 from __future__ import annotations
 
+import atexit
 import io
+import sys
+from types import SimpleNamespace
 
 import pytest
 
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.cli.terminal.repl import Repl
+from ssilang.cli.terminal import repl
+from ssilang.language.registry import OPERATORS
 from ssilang.language.text.source import Source
+
+STOP = KeyboardInterrupt
+ASK, MORE = "ssi> ", "... "
 
 
 class Typed:
     """A session to which lines are typed; KeyboardInterrupt stands for Ctrl-C."""
 
-    def __init__(self, folder) -> None:
+    def __init__(self, folder, language="en") -> None:
         self.out = io.StringIO()
-        session = make_session(Source("session", ""), RunOptions(output_directory=folder), self.out)
+        options = RunOptions(output_directory=folder, language=language)
+        session = make_session(Source("session", ""), options, self.out)
         self.lines: list[str | type[BaseException]] = []
         self.prompts: list[str] = []
-        self.repl = Repl(session, self._next, self.out)
+        self.repl = repl.Repl(session, self._next, self.out)
 
     def _next(self, prompt: str) -> str:
         self.prompts.append(prompt)
@@ -42,35 +50,68 @@ def typed(tmp_path):
     return Typed(tmp_path / "out")
 
 
-def test_variables_live_from_line_to_line(typed):
-    assert typed.type("x = 1 ;", "MESS (x + 1) ;") == "2\n"
+DIVISION = "error: division by zero\n  --> <{0}>:1:5\n  |\n1 | y = 1 / 0 ;\n  |     ^^^^^\n"
+UNREAD = "the file no.ssi cannot be read: no such file or folder\n"
 
 
-def test_a_statement_may_span_lines(typed):
-    assert typed.type("MESS", "  'two lines'", ";") == "two lines\n"
-    assert typed.prompts[:3] == ["ssi> ", "... ", "... "]
+@pytest.mark.parametrize(
+    ("lines", "out", "prompts", "kept"),
+    [
+        (["x = 1 ;", "MESS (x + 1) ;"], "2\n", [ASK] * 3, "x = 1 ;|MESS (x + 1) ;"),
+        (["MESS", "  'two lines'", ";"], "two lines\n", [ASK, MORE, MORE, ASK],
+         "MESS|  'two lines'|;"),
+        (["REPE b 2 ;", "MESS &b ;", "", "FIN b ;"], "1\n2\n", [ASK, MORE, MORE, MORE, ASK],
+         "REPE b 2 ;|MESS &b ;||FIN b ;"),
+        (["3 + 4 ;", "", "  ", "x = 12 ;", " x ;"], "Integer of value: 7\nInteger of value: 12\n",
+         [ASK] * 6, "3 + 4 ;|x = 12 ;| x ;"),
+        (["x = 5 ;", "y = 1 / 0 ;", "MESS x ;"], DIVISION.format(2) + "5\n", [ASK] * 4,
+         "x = 5 ;|MESS x ;"),
+        (["MESS", "'a' ;", "y = 1 / 0 ;"], "a\n" + DIVISION.format(2), [ASK, MORE, ASK, ASK],
+         "MESS|'a' ;"),
+        (["x = ) ;", "MESS 'alive' ;"], "error 2: this closing parenthesis has no opening one\n"
+         "  --> <1>:1:5\n  |\n1 | x = ) ;\n  |     ^\nalive\n", [ASK] * 3, "MESS 'alive' ;"),
+        (["MESS 'never", STOP, "MESS 'kept' ;"], "\nkept\n", [ASK, MORE, ASK, ASK],
+         "MESS 'kept' ;"),
+        (["FIN ;", "MESS 'not reached' ;"], "", [ASK], ""),
+        (["%QUIT", "MESS 'not reached' ;"], "", [ASK], ""),
+        (["x = 1"], "error: the last statement does not end with ;\n  --> <1>:1:1\n  |\n"
+         "1 | x = 1\n  | ^^^^^\n", [ASK, MORE], ""),
+        (["MESS", "'end' ;", "%what it"],
+         "end\nthere is no command %what; %help lists them\n", [ASK, MORE, ASK, ASK],
+         "MESS|'end' ;"),
+        (["x = 1 ;", "%run no.ssi"], "error: " + UNREAD, [ASK] * 3, "x = 1 ;"),
+        (["%run", "%save", "%save no/such/folder.ssi", "x = 1 ;"],
+         "%run needs a file's name\n%save needs a file's name\n"
+         "no/such/folder.ssi: No such file or directory\n", [ASK] * 5, "x = 1 ;"),
+    ],
+)  # fmt: skip
+def test_what_is_printed_asked_and_kept(typed, lines, out, prompts, kept):
+    assert typed.type(*lines) == out
+    assert typed.prompts == prompts
+    assert "|".join(typed.repl.kept) == kept
 
 
-def test_a_block_runs_when_it_is_closed(typed):
-    out = typed.type("REPE b 2 ;", "MESS &b ;", "FIN b ;")
-    assert out == "1\n2\n"
+def test_files_are_run_and_written(typed, tmp_path):
+    """What a file does is not kept: the script that is saved says %run no more."""
+    part, kept = tmp_path / "part.ssi", tmp_path / "kept.ssi"
+    part.write_text("x = 9 ;\n")
+    out = typed.type(f"%run '{part}'", "MESS x ;", "y = 1 / 0 ;", "z = 2 ;", f"%save {kept}")
+    assert out == f"9\n{DIVISION.format(2)}2 lines written to {kept}\n"
+    assert kept.read_text() == "MESS x ;\nz = 2 ;\n"
 
 
-def test_a_value_is_shown(typed):
-    assert "7" in typed.type("3 + 4 ;")
-    assert "12" in typed.type("x = 12 ;", "x ;")
-
-
-def test_an_error_keeps_the_session(typed):
-    out = typed.type("x = 5 ;", "y = 1 / 0 ;", "MESS x ;")
-    assert "division by zero" in out
-    assert out.endswith("5\n")
-
-
-def test_a_syntax_error_keeps_the_session(typed):
-    out = typed.type("x = ) ;", "MESS 'alive' ;")
-    assert "parenthesis" in out
-    assert out.endswith("alive\n")
+def test_objects_and_commands_are_listed_in_both_languages(tmp_path):
+    french = Typed(tmp_path / "out", "fr")
+    line = "b = 'mot' ; a = VRAI ; k = 2 ; f = 1.5 ; p = PROG 1. ; t = TABL ;"
+    out = french.type(line, "%vars", "%help", "1 / 0 ;").split("\n")
+    own = [row.split() for row in out if row and row[0] in "ABFKPT" and row[:2] not in ("FA", "PI")]
+    assert own == [
+        ["A", "LOGIQUE", "VRAI"], ["B", "MOT", "mot"], ["F", "FLOTTANT", "1.5"],
+        ["K", "ENTIER", "2"], ["P", "LISTREEL"], ["T", "TABLE"],
+    ]  # fmt: skip
+    assert any(row.split() == ["%help", "cette", "liste"] for row in out)
+    assert "erreur : division par zéro" in out
+    assert "Syntax" in Typed(tmp_path / "out").type("INFO PROG ;")
 
 
 def test_an_error_inside_a_procedure_returns_to_the_top(typed):
@@ -81,14 +122,7 @@ def test_an_error_inside_a_procedure_returns_to_the_top(typed):
     assert session.root.find("INNER") is None
 
 
-def test_control_c_while_typing_forgets_the_line(typed):
-    out = typed.type("MESS 'never", KeyboardInterrupt, "MESS 'kept' ;")
-    assert out.strip() == "kept"
-
-
 def test_control_c_while_running_keeps_the_session(typed, monkeypatch):
-    from ssilang.language.registry import OPERATORS
-
     def interrupted(call):
         raise KeyboardInterrupt
 
@@ -103,38 +137,44 @@ def test_control_c_while_running_keeps_the_session(typed, monkeypatch):
     assert out.endswith("1\n")
 
 
-def test_fin_and_quit_leave(typed):
-    assert typed.type("FIN ;", "MESS 'not reached' ;") == ""
-    typed.lines.clear()
-    assert typed.type("%quit", "MESS 'not reached' ;") == ""
+def offered(text: str) -> tuple[str, list[str]]:
+    """What stands for a library of names."""
+    prefix = text.split(" ")[-1]
+    return prefix, [w for w in ("'ALPHA'", "ALP2", "ALP1") if w.startswith(prefix)]
 
 
-def test_info_shows_help(typed):
-    assert "Syntax" in typed.type("INFO PROG ;")
+def test_readline_gets_candidates_and_history(monkeypatch, tmp_path):
+    """Where no prompt_toolkit is."""
+    line, calls, left = "MESS AL", dict[str, object](), []
+    names = ("set_completer_delims", "parse_and_bind", "set_completer", "set_history_length",
+             "read_history_file")  # fmt: skip
+    fake = SimpleNamespace(**{n: lambda value, n=n: calls.__setitem__(n, value) for n in names})
+    fake.get_line_buffer, fake.get_endidx = lambda: line + " + 1", lambda: len(line)
+    fake.write_history_file = object()
+    monkeypatch.setitem(sys.modules, "prompt_toolkit", None)
+    monkeypatch.setitem(sys.modules, "readline", fake)
+    monkeypatch.setattr(atexit, "register", lambda *args: left.append(args))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    assert repl.line_editor(offered) is input
+    found = calls["set_completer"]
+    assert [found("AL", i) for i in range(3)] == ["ALP2", "ALP1", None]
+    line = "MESS "
+    assert [found("", i) for i in range(4)] == ["'ALPHA'", "ALP2", "ALP1", None]
+    line = "T . 'AL"
+    assert found("'AL", 0) == "'ALPHA'"
+    assert calls["read_history_file"] == left[0][1] == tmp_path / "ssilang/history"
+    assert left[0][0] is fake.write_history_file
+    assert calls["set_history_length"] == 5000
+    monkeypatch.setenv("XDG_STATE_HOME", "/dev/null")  # nothing can be kept
+    calls.clear()
+    assert repl.line_editor(offered) is input
+    assert "read_history_file" not in calls
+    assert len(left) == 1
 
 
-def test_save_writes_what_ran(typed, tmp_path):
-    path = tmp_path / "kept.ssi"
-    typed.type("x = 1 ;", "y = 1 / 0 ;", "z = 2 ;", f"%save {path}")
-    assert path.read_text() == "x = 1 ;\nz = 2 ;\n"
-
-
-def test_save_into_a_folder_that_is_not_there(typed, tmp_path):
-    out = typed.type("x = 1 ;", f"%save {tmp_path}/no/such/folder.ssi", "MESS 'alive' ;")
-    assert out.endswith("alive\n")
-
-
-def test_run_a_file(typed, tmp_path):
-    (tmp_path / "part.ssi").write_text("x = 9 ;\n")
-    assert typed.type(f"%run {tmp_path}/part.ssi", "MESS x ;").endswith("9\n")
-    assert "cannot be read" in typed.type("%run nothing.ssi")
-
-
-def test_vars_and_unknown_commands(typed):
-    out = typed.type("n = 4 ;", "%vars", "%what")
-    assert "N                        ENTIER 4" in out
-    assert "%what" in out
-
-
-def test_unfinished_input_at_the_end_is_reported(typed):
-    assert "does not end with ;" in typed.type("x = 1")
+def test_the_toolkit_replaces_what_was_typed_of_a_word():
+    toolkit = pytest.importorskip("prompt_toolkit")
+    ask = repl._toolkit(offered, kept=False)
+    document = toolkit.document.Document("MESS AL")
+    found = list(ask.__self__.completer.get_completions(document, None))
+    assert [(c.text, c.start_position) for c in found] == [("ALP2", -2), ("ALP1", -2)]

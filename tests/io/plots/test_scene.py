@@ -1,6 +1,7 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
 import io
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from ssilang.io.errors import OutputError
+from ssilang.io.plots.annotations import Labels
 from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.composition import Subjects, compose
 from ssilang.io.plots.cutting import behind, section_of
@@ -16,9 +18,9 @@ from ssilang.io.plots.labels import Annotation, Category
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import visible_faces
-from ssilang.io.plots.scene import draw_scene
+from ssilang.io.plots.scene import draw_scene, sheet_bounds
 from ssilang.io.plots.values import VON_MISES, component_names, values_on
-from ssilang.io.plots.view import Plane, view_along
+from ssilang.io.plots.view import Plane, plane_view, view_along
 from ssilang.kernel.fields import deformed
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart
@@ -358,3 +360,33 @@ def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
     expected = choose_levels(np.array([-3.0]), None, np.array([-4.0, -2.0, 0.0]))
     shown = np.isclose(low, expected.rgba(np.array([-3.0]))).all(axis=1)
     assert max(w for w, s in zip(wide, shown, strict=True) if s) > 3
+
+
+@pytest.mark.parametrize("how", ["bounds", "frame", "own"])
+def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
+    """Bounds as they are; what is framed, or all that is drawn, with a twentieth around it."""
+    small, large = grid(2, 2.0), grid(3, 4.0)
+    given = np.array([[-1.0, 2.0], [7.0, 5.0]])
+    options = {"bounds": {"bounds": given, "frame": small}, "frame": {"frame": small}}.get(how, {})
+    found = sheet_bounds(
+        [Layer(small), Layer(large)], None, plane_view(), PictureOptions(**options)
+    )
+    size = {"frame": 2.0, "own": 4.0}.get(how, 0.0)
+    wanted = given if how == "bounds" else [[-0.05 * size] * 2, [1.05 * size] * 2]
+    np.testing.assert_allclose(found, wanted)
+
+
+def test_labels_that_are_seen_are_written_where_they_stand_up_to_so_many(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ssilang.io.plots.annotations._MOST_LABELS", 2)
+    places, view = np.arange(15.0).reshape(5, 3), view_along(np.array([0.0, 0.0, 1.0]))
+    made, written = Labels(view), []
+    made.add(places, list("abcde"), "red", 5)
+    axes = SimpleNamespace(text=lambda x, y, t, **how: written.append((x, y, t, how["fontsize"])))
+    photograph = SimpleNamespace(shows=lambda flat, depth, bounds: np.array([0, 1, 0, 1, 1], bool))
+    flat = view.project(places)
+    for seen, rows in ((None, (0, 1)), (photograph, (1, 3))):
+        written.clear()
+        made.write(axes, seen, np.zeros((2, 2)))
+        assert written == [(*flat[i], "abcde"[i], 5) for i in rows]

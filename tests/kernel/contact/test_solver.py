@@ -1,15 +1,13 @@
-"""Steps with unilateral relations by multipliers: bodies that only they hold, joints beside."""
+"""Steps with unilateral relations by multipliers: bodies that only they hold."""
 
 import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 
-from ssilang.kernel.contact import solver
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
-from ssilang.kernel.stepping.run import integrate
 
 METHODS = ["LAGRANGE", "AUGMENTE", "UZAWA"]
 
@@ -46,56 +44,3 @@ def test_a_body_comes_to_rest_on_its_stops(method):
         down = -k * shares / 2e5
         wanted = [0.0, 0.0, *down, down.mean()]
         np.testing.assert_allclose(u[k][at], wanted, rtol=1e-6, atol=1e-12)
-
-
-def test_a_joint_that_stays_closed_is_its_spring_beside_a_stop(monkeypatch):
-    """A mass on a pressed joint and one on a spring above it, which meets a ceiling."""
-    taken = []
-    with_joints = solver.ContactSolver._with_joints
-
-    def counted(self, *given):
-        taken.append(1)
-        return with_joints(self, *given)
-
-    monkeypatch.setattr(solver.ContactSolver, "_with_joints", counted)
-    found = [motion_below_a_ceiling(by_joint) for by_joint in (True, False)]
-    assert taken
-    (u, pushed), (wanted, pushes) = found
-    assert wanted[:, 0].max() < 0.0  # the joint stays pressed
-    assert (pushes > 0).any()
-    assert (pushes == 0).any()
-    np.testing.assert_allclose(u, wanted, atol=1e-8 * np.abs(wanted).max())
-    np.testing.assert_allclose(pushed, pushes, atol=1e-6 * pushes.max())
-
-
-def motion_below_a_ceiling(by_joint):
-    bench = Bench()
-    soil, low, high = (bench.node(0.0, y) for y in (-1.0, 0.0, 1.0))
-    bench.fix(soil)
-    for a in (low, high):
-        bench.fix(a, "UX")
-    if by_joint:
-        bench.joint("SEG2", [soil, low], "JOI1", KN=2e6, KS=0.0)
-    else:
-        bench.spring(2e6, soil, low)
-    bench.spring(3e5, low, high)
-    bench.mass(30.0, low)
-    bench.mass(20.0, high)
-    bench.relate([(1.0, "UY", high)], sense=-1)
-    times = np.arange(301) * 5e-4
-    factors = 1.0 + 0.6 * np.sin(60.0 * times)
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            bench.mass_matrix,
-            load=bench.load(bench.field((low, "FY", -9e4), (high, "FY", 2e3)), times, factors),
-            displacement=bench.field((low, "UY", -8.8e4 / 2e6), (high, "UY", -1e-2)),
-            model=bench.model,
-            characteristics=bench.characteristics,
-        )
-    )
-    recorder = Recorder(len(times))
-    integrate(problem, [recorder])
-    at = [problem.numbering.index_of(n, "UY") for n in (low, high)]
-    return recorder.of("u")[:, at], recorder.of("contact")

@@ -6,6 +6,7 @@ import pytest
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
@@ -221,3 +222,15 @@ def test_mass_is_that_of_the_matter_in_each_direction(element, mode, lumped):
     near(M.values, np.swapaxes(M.values, 1, 2), 1e-13)
     if lumped:
         near(M.values, M.values * np.eye(M.values.shape[1]), 1e-15)
+
+
+@pytest.mark.parametrize(("element", "mode"), ALL)
+def test_cells_one_by_one_give_what_all_at_once_do(element, mode, monkeypatch):
+    two = Two(element, mode, np.eye(3))
+    made = (families.stiffness, families.mass)
+    whole = [of(two.zone, two.material).values for of in made]
+    monkeypatch.setattr(chunks, "__defaults__", (1,))
+    for of, wanted in zip(made, whole, strict=True):
+        np.testing.assert_allclose(
+            of(two.zone, two.material).values, wanted, atol=1e-12 * np.abs(wanted).max()
+        )

@@ -30,9 +30,10 @@ def test_a_joint_of_two_points_has_its_mass_half_and_half():
 
 
 def test_a_surface_joint_has_its_density_on_the_middle():
-    """Density 5 on a length of 2: the mass of each corner of both sides is a quarter of 10."""
+    """Density 5 on lengths of 3 and 0.8: each corner of both sides has a quarter of a cell's."""
     bench = Bench()
-    low = [bench.node(0.0, 0.0), bench.node(2.0, 0.0)]
-    up = [bench.node(0.0, 0.0), bench.node(2.0, 0.0)]
-    zone = bench.joint("RAC2", [*up, *low], "JOI2", KN=1.0, KS=1.0, RHO=5.0)
-    assert masses(bench, zone) == pytest.approx(dict.fromkeys([*low, *up], 2.5))
+    low, up = ([bench.node(x, 0.0) for x in (0.0, 3.0, 3.8)] for _ in range(2))
+    cells = [[*up[k : k + 2], *low[k : k + 2]] for k in (0, 1)]
+    zone = bench.joint("RAC2", cells, "JOI2", KN=1.0, KS=1.0, RHO=5.0)
+    wanted = dict(zip(low + up, [3.75, 4.75, 1.0] * 2, strict=True))
+    assert masses(bench, zone) == pytest.approx(wanted)

@@ -28,11 +28,24 @@ GIVEN = {
     "IWAN": {},
     "IWAN_PRESSION": {"PREF": 2.0},
 }  # fmt: skip
+FIBRES = {
+    "PARFAIT_UNI": {"SIGY": 2.0, "H": 100.0},
+    "BETON_BAEL": {"FC": 2.0},
+    "ACIER_UNI": {
+        "STSY": 1, "STSU": 2, "EPSH": 2e-3, "EPSU": 0.02, "ROFA": 20, "BFAC": 0.02, "A1FA": 18,
+        "A2FA": 0.15, "FALD": 8, "A6FA": 600, "CFAC": 0.5, "AFAC": 0.006,
+    },
+    "BETON_UNI": {
+        "STFC": 2, "EZER": 4e-3, "STFT": 0.5, "ZETA": 100, "ST85": 0.4, "TRAF": 5, "ALF1": 0,
+        "OME1": 0, "FAMX": -1,
+    },
+}  # fmt: skip
+ALL = {**GIVEN, **FIBRES}
 SOIL = Curve((CurvePart(np.array([1e-3, 4e-3, 2e-2]), np.array([1.0, 0.7, 0.3])),))
 
 
 def parameters(name: str, m: int = M) -> PointParameters:
-    values = {"YOUN": 1000.0, "NU": 0.3, **GIVEN[name]}
+    values = {"YOUN": 1000.0, "NU": 0.3, **ALL[name]}
     arrays = {n: np.full(m, float(v)) for n, v in values.items()}
     which = np.zeros(m, dtype=np.int64)
     return PointParameters(arrays, {"ECRO": ([CURVE], which), "GGAM": ([SOIL], which)})
@@ -46,8 +59,12 @@ def steps(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return first, second
 
 
-@pytest.mark.parametrize("held", [(), (2,), (1, 2, 3, 4, 5)])
-@pytest.mark.parametrize("name", list(GIVEN))
+HELD = ((), (2,), (1, 2, 3, 4, 5))
+
+
+@pytest.mark.parametrize(
+    ("name", "held"), [*((n, h) for n in GIVEN for h in HELD), *((n, ()) for n in FIBRES)]
+)
 def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...]) -> None:
     p = parameters(name)
     law = law_at(PLASTIC_LAWS[name], p)
@@ -55,7 +72,10 @@ def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...
     blank = np.zeros((M, len(law.variables)))
     start, _ = respond_held(law, p, np.zeros((M, 6)), first, blank, held)
     after, _ = respond_held(law, p, start.stress, second, start.variables, held)
-    assert (after.variables[:, 0] > start.variables[:, 0]).mean() > 0.2
+    if name in FIBRES:  # elastic here, yielding or open there
+        assert np.ptp(after.tangent[:, 0, 0]) > 500.0
+    else:
+        assert (after.variables[:, 0] > start.variables[:, 0]).mean() > 0.2
     h = 1e-8
     for j in set(range(6)) - set(held):
         shift = np.zeros((M, 6))
@@ -75,40 +95,6 @@ def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...
 def test_every_law_of_solids_and_of_fibres_is_tested() -> None:
     elsewhere = {"CAM_CLAY"}  # has a test of its own: its elasticity is not that of YOUN and NU
     assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*PLASTIC_LAWS}
-
-
-FIBRES = {
-    "PARFAIT_UNI": {"SIGY": 2.0, "H": 100.0},
-    "BETON_BAEL": {"FC": 2.0},
-    "ACIER_UNI": {
-        "STSY": 1, "STSU": 2, "EPSH": 2e-3, "EPSU": 0.02, "ROFA": 20, "BFAC": 0.02, "A1FA": 18,
-        "A2FA": 0.15, "FALD": 8, "A6FA": 600, "CFAC": 0.5, "AFAC": 0.006,
-    },
-    "BETON_UNI": {
-        "STFC": 2, "EZER": 4e-3, "STFT": 0.5, "ZETA": 100, "ST85": 0.4, "TRAF": 5, "ALF1": 0,
-        "OME1": 0, "FAMX": -1,
-    },
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", list(FIBRES))
-def test_tangent_of_fibres_is_the_derivative_of_the_stress(name: str) -> None:
-    values = {"YOUN": 1000.0, "NU": 0.3, **FIBRES[name]}
-    p = PointParameters({n: np.full(M, float(v)) for n, v in values.items()}, {})
-    law, (first, second) = PLASTIC_LAWS[name], steps(3)
-    start = law.respond(p, np.zeros((M, 6)), first, np.zeros((M, len(law.variables))))
-    after = law.respond(p, start.stress, second, start.variables)
-    assert np.ptp(after.tangent[:, 0, 0]) > 500.0  # elastic here, yielding or open there
-    h = 1e-8
-    for j in (0, 3, 4):
-        shift = np.zeros((M, 6))
-        shift[:, j] = h
-        ends = [
-            law.respond(p, start.stress, second + s * shift, start.variables).stress
-            for s in (1, -1)
-        ]
-        wanted = (ends[0] - ends[1]) / (2 * h)
-        assert np.abs(after.tangent[:, :, j] - wanted).max() < 1e-4
 
 
 @pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
@@ -151,9 +137,10 @@ def test_rounded_surface_meets_coulomb_away_from_edges_and_tip() -> None:
     assert value == pytest.approx(np.cos(0.5), abs=2e-3)  # the tip's hyperbola, at 50 cohesions
 
 
-def uniaxial(name: str, path: list[float]) -> list[float]:
+def uniaxial(name: str, path: list[float], young: float = 1000.0) -> list[float]:
     """Stresses of a bar along a path of strains."""
     law, p = PLASTIC_LAWS[name], parameters(name, 1)
+    p.values["YOUN"][:] = young
     stress, variables, last, out = np.zeros((1, 6)), np.zeros((1, len(law.variables))), 0.0, []
     for strain in path:
         step = np.zeros((1, 6))
@@ -260,17 +247,8 @@ def test_flow_along_its_own_cone_ends_at_the_tip_only_where_the_deviator_is_used
 
 def test_concrete_unloads_and_loads_again_along_its_first_slope() -> None:
     """Parabola FC x (2 - x), x = -e / 0.002; what it left behind stays while it is unloaded."""
-    law, E = PLASTIC_LAWS["BETON_BAEL"], 2000.0
-    values = {"YOUN": E, "NU": 0.3, "FC": 2.0}
-    p = PointParameters({n: np.full(1, v) for n, v in values.items()}, {})
-    stress, variables, last, found = np.zeros((1, 6)), np.zeros((1, len(law.variables))), 0.0, []
-    path = [-1e-3, -0.9e-3, -0.95e-3, 1e-4, -0.5e-3, -3e-3, -2.5e-3, -2.1e-3]
-    for strain in path:
-        step = np.zeros((1, 6))
-        step[0, 0] = strain - last
-        after = law.respond(p, stress, step, variables)
-        stress, variables, last = after.stress, after.variables, strain
-        found.append(float(stress[0, 0]))
+    E, path = 2000.0, [-1e-3, -0.9e-3, -0.95e-3, 1e-4, -0.5e-3, -3e-3, -2.5e-3, -2.1e-3]
+    found = uniaxial("BETON_BAEL", path, E)
     left = -1e-3 + 1.5 / E  # the peak of the first loading is FC 0.5 1.5 = 1.5
     wanted = [-1.5, -1.5 + E * 1e-4, -1.5 + E * 0.5e-4, 0.0, E * (-0.5e-3 - left), -2.0]
     wanted += [-2.0 + E * 0.5e-3, -2.0 + E * 0.9e-3]
@@ -299,7 +277,6 @@ def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
     np.testing.assert_allclose(after.variables[:, 0], wanted, rtol=1e-6, atol=1e-12)
 
 
-ALL = {**GIVEN, **FIBRES}
 OTHER_CURVE = Curve((CurvePart(np.array([0.0, 0.004, 0.05]), np.array([1.5, 1.9, 4.0])),))
 OTHER_SOIL = Curve((CurvePart(np.array([5e-4, 3e-3, 1e-2]), np.array([1.0, 0.8, 0.5])),))
 
@@ -339,16 +316,18 @@ def test_points_have_each_their_own_answer(name: str) -> None:
 @pytest.mark.parametrize("name", list(GIVEN))
 def test_work_is_stored_or_lost_and_never_won(name: str) -> None:
     """Elastic and locked energy grow by no more than the work, at each fine step of any path."""
-    p, fine = unlike(name, M), 100
+    m, fine = 20, 100
+    p = unlike(name, m)
     law = law_at(PLASTIC_LAWS[name], p)
-    stress, variables = np.zeros((M, 6)), np.zeros((M, len(law.variables)))
+    stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
 
     def stored() -> np.ndarray:
         own = p.elastic_energy(stress)
         return own if law.locked is None else own + law.locked(p, stress, variables)
 
-    before, lost, moved = stored(), np.zeros(M), np.zeros(M)
+    before, lost, moved = stored(), np.zeros(m), np.zeros(m)
     for step in (*steps(1), *(-1.4 * s for s in steps(2)), *steps(4)):
+        step = step[:m]
         for _ in range(fine):
             found = law.respond(p, stress, step / fine, variables)
             work = 0.5 * np.vecdot(found.stress + stress, step / fine)

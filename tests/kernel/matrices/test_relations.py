@@ -1,5 +1,7 @@
 """Relations: the motions that they leave free, against geometry."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,27 @@ def test_a_weighted_sum_over_respective_nodes_repeats_a_single_node():
         FieldError, check=lambda e: e.code == "kernel.matrices.relation-node-no-coefficient"
     ):
         make.relation_rows(table, [make.Term(0.0, "UX", ids[:2])])
+
+
+def test_rows_that_push_by_others_stand_among_those_that_push_by_their_own():
+    """Rows that stand twice, in relations of their own, count once."""
+    table, ids = cloud(3, 2)
+    plain = make.relation_rows(table, [make.Term(2.0, "UX", ids[:2])], 0)
+    terms = [make.Term(1.0, "UY", ids[1:2]), make.Term(-3.0, "UX", ids[2:])]
+    gap, pull = (make.relation_rows(table, some, 1) for some in (terms, terms[::-1][:1]))
+    apart = replace(gap, dual=replace(pull, raw_multipliers=gap.raw_multipliers))
+    for parts in ((plain, apart), (apart, plain), (plain, apart, replace(plain), replace(apart))):
+        rows, numbering = rows_of(*parts)
+        assert not rows.associated
+        at = [
+            numbering.index_of(ids[k], u) for k, u in ((0, "UX"), (1, "UX"), (1, "UY"), (2, "UX"))
+        ]
+        order = np.argsort(rows.multipliers)
+        C, D = (m.toarray()[order][:, at] for m in (rows.C, rows.D))
+        assert C.tolist() == [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1, -3]]
+        assert D.tolist() == [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 0, -3]]
+        assert rows.sense[order].tolist() == [0, 0, 1]
+    assert rows_of(plain, replace(plain))[0].associated
 
 
 def test_multipliers_are_new_nodes_of_their_own():

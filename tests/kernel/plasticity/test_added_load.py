@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 from script_runs import ran
 
+from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk
+from ssilang.kernel.plasticity.driven_load import HALVINGS, _towards
 
 
 @pytest.mark.parametrize("n", [20, 200])
 def test_tangent_of_a_load_on_neighbours(n):
     rng = np.random.default_rng(n)
     after = np.roll(np.arange(n), -1)
-    size = rng.uniform(1, 2, n)
+    size = rng.uniform(1, 2, n) * (np.arange(n) >= n // 4)  # the first ones are not loaded
 
     def law(time, u):
         return Added(time * size * u * u[after])
@@ -32,6 +34,25 @@ def test_tangent_of_a_load_on_neighbours(n):
     np.testing.assert_allclose(answer.rate, -law(1.0, u).force, rtol=1e-6)
     if n > 30:
         assert len(bulk._groups(np.arange(n))) < 10  # not one by one
+
+
+@pytest.mark.parametrize("halvings", [0, 3, HALVINGS, HALVINGS + 1])
+def test_a_step_of_time_is_halved_until_it_leads_somewhere(halvings):
+    tried = []
+
+    class Path:
+        def step(self, known, change, control, share, now, most):
+            tried.append((share, now, most, *known))
+            return 0.25 if share == 0.5**halvings else None
+
+    given = Path(), np.array([1.0, 2.0]), np.array([4.0, -2.0]), None, 0.5, np.array([10.0, 12.0])
+    if halvings <= HALVINGS:
+        assert _towards(*given) == 0.75
+    else:
+        with pytest.raises(ConvergenceError, check=lambda e: e.data["now"] == 11.0):
+            _towards(*given)
+    shares = 0.5 ** np.arange(min(halvings, HALVINGS) + 1)
+    assert tried == [(share, 11.0, 0.5, 3.0, 1.0) for share in shares]
 
 
 def run(text, tmp_path):

@@ -1,9 +1,11 @@
 """Supports beside their body, bodies apart, cells twice, hinges, free motions: what is told."""
 
 import numpy as np
+import pytest
 
 from ssilang.kernel.elements import families
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.interface import family as _joints  # noqa: F401
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import Term, relation_rows
@@ -16,7 +18,7 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
 )
 from ssilang.kernel.statics.linear_motion import named_motions, rigid_motions, tied
-from ssilang.kernel.statics.sides import hinges
+from ssilang.kernel.statics.sides import hinges, swapped_joints
 from tests.kernel.elements.samples import ELASTIC, material
 
 SOLID = {"YOUN": 3e7, "NU": 0.2}
@@ -83,6 +85,31 @@ def test_bodies_at_one_place_with_nothing_between_are_found():
     place.hold((1.0, "UZ", 5), (-1.0, "UZ", 9))
     assert not len(bodies_apart(place.matrix))
     assert not len(bodies_apart(on_box().matrix))
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.03])
+@pytest.mark.parametrize("points", [False, True])
+def test_joints_with_their_bodies_the_wrong_way_round(points, apart):
+    """Squares above each other; the last joint of the zone has no body beside it."""
+    place = Place([0, -1], [1, -1], [0, 0], [1, 0], [0, -apart], [1, -apart], [0, 1], [1, 1],
+                  [3, 0], [3, -apart], mode=Mode.PLANE_STRAIN)  # fmt: skip
+    place.cells("QUA4", [[0, 1, 3, 2], [4, 5, 7, 6]], "QUA4", **SOLID)
+
+    def found(cells, way):
+        kind, element = ("SEG2", "JOI1") if points else ("RAC2", "JOI2")
+        block = CellBlock.make(place.table, kind, place.ids[cells])
+        zone = Zone(block, "MECANIQUE", ("ELASTIQUE", "JOINT_SDM"), element, place.mode)
+        field = material(zone, KN=1e9, KS=1e8, **({"V1X": 0, "V1Y": way} if points else {}))
+        return swapped_joints(place.matrix, Model((zone,)), field)
+
+    up = [[2, 4], [8, 9], [3, 5]] if points else [[4, 5, 2, 3], [5, 9, 3, 8]]
+    down = up if points else [c[2:] + c[:2] for c in up]
+    if not apart:
+        assert found(up, 1.0) == ()
+    (one,) = found(down, -1.0)
+    assert (one.points, one.overlap) == (points, pytest.approx(apart))
+    np.testing.assert_allclose(one.middle, [4 / 3, -apart, 0] if points else [5 / 4, 0, 0])
+    assert found(down[1:2], -1.0) == ()
 
 
 def test_cells_and_blocks_that_are_there_twice():

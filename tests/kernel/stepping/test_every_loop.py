@@ -7,25 +7,34 @@ step says that the step is right, whatever way led to it.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 import scipy.linalg as la
 from hypothesis import Phase, given, settings
-from references.awkward import LINES, POINTS, PUSH, problems
+from references.awkward import LINES, POINTS, PUSH, UNITS, Awkward, problems
 from references.recorder import Recorder
 
+from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
+from ssilang.kernel.plasticity.arc_length import follow_arc
+from ssilang.kernel.plasticity.bulk import Bulk
+from ssilang.kernel.plasticity.driven_load import follow_directions, follow_time, history_of
+from ssilang.kernel.plasticity.run import BulkRun, run_bulk
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy
+from ssilang.kernel.statics import stepping
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose, effective
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop
+from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
@@ -50,19 +59,31 @@ def forced(patch, rule):
     """A loop for all problems; those of large ones take them for large."""
     patch.setattr(choose, "RULES", choose.only(rule.partition(",")[0]))
     patch.setattr(hierarchy, "COARSEST", 6)  # several levels
-    if LARGE.items() <= LOOPS[rule].items():
+    if rule == "adaptive, large":
+        patch.setattr(choose.Case, "dense", property(lambda _: False))
+    if LARGE.items() <= LOOPS.get(rule, {}).items():
         patch.setattr(effective, "SMALL", 0)
         patch.setattr(problem_module, "SMALL", 0)
 
 
-def run(awkward, rule):
-    """A problem, its history and instants."""
+def run(awkward, rule, lost=None):
+    """A problem, its history and instants; from the step `lost` on its loads are no numbers."""
     with pytest.MonkeyPatch.context() as patch:
         forced(patch, rule)
         problem = awkward.problem()
         if rule == "multigrid":
             problem = replace(problem, solver=Solver(rule))
+        if rule.startswith("adaptive"):
+            problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
         recorder = Recorder(len(problem.times))
+        if lost:
+            late = np.arange(len(problem.times)) >= lost
+            curves = tuple((x, np.where(late, np.nan, y)) for x, y in problem.loading.curves)
+            problem = replace(problem, loading=replace(problem.loading, curves=curves))
+            with pytest.raises(ConvergenceError) as failed:
+                integrate(problem, [recorder], full_newton=rule == "full Newton")
+            assert recorder.closed
+            return failed.value.data, problem.times, len(recorder.snapshots)
         history = integrate(problem, [recorder], full_newton=rule == "full Newton")
     assert history.loop == choose.rule_named(rule.partition(",")[0]).loop
     return problem, problem.times, history.energies, recorder.snapshots
@@ -93,8 +114,28 @@ def joints_at(interface, u, state):
     return w, t, new, interface.J.T @ force.ravel(), energies
 
 
-def check_steps(problem, times, energies, instants, static=False):
-    """All that a step is made of, at every step; `static` ones are in balance without inertia."""
+def check_fields(problem, now):
+    """Reactions and LX go by the rows that scripts have; for schemes that balance instants."""
+    contact, push = problem.contact, np.abs(now.reaction).max()
+    fields = (now.displacement, now.velocity, now.acceleration, now.reactions)
+    vectors = (now.u, now.v, now.a, now.reaction)
+    for names in (("UX", "FX"), ("UY", "FY")):
+        at = problem.numbering.where(names[0])
+        for field, values in zip(fields, vectors, strict=True):
+            found = field.values_at(names[field is fields[3]], problem.numbering.nodes[at])
+            near(found, values[at], np.abs(values).max())
+    rows, nodes = problem.constraints.C.toarray(), problem.multipliers
+    if contact is not None:
+        rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
+        nodes = np.concatenate([nodes, contact.multipliers])
+    near(-now.displacement.values_at("LX", nodes) @ rows, now.reaction, push)
+
+
+def check_steps(problem, times, energies, instants, static=False, follows=None):
+    """All that a step is made of, at every step; `static` ones are in balance without inertia.
+
+    `follows(t, u)` are loads (n,) beside those of the problem.
+    """
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
     G = np.zeros((0, len(K))) if p.contact is None else p.contact.G.toarray()
@@ -103,6 +144,8 @@ def check_steps(problem, times, energies, instants, static=False):
     free = la.null_space(rows)
     factors = np.stack([np.interp(times, x, y) for x, y in p.loading.curves], axis=1)
     F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
+    if follows:
+        F = F + np.array([follows(t, i.u) for t, i in zip(times, instants, strict=True)])
     state, before, was = p.state, None, None
     u, v, a = (np.array([getattr(i, n) for i in instants]) for n in "uva")
     sizes = [np.abs(x).max() for x in (u, v, a)]
@@ -162,9 +205,19 @@ def test_steps_are_those_of_the_equations(loop):
     @settings(BRIEF)
     @given(problems(**LOOPS[loop]))
     def holds(awkward):
-        check_steps(*run(awkward, loop))
+        problem, *_, instants = made = run(awkward, loop)
+        check_steps(*made)
+        if not (problem.scheme.alpha_m or problem.scheme.alpha_f):
+            check_fields(problem, instants[-1])
 
     holds()
+
+
+@pytest.mark.parametrize("lost", [1, 21])
+@pytest.mark.parametrize("loop", [*[*LOOPS][:-1], "adaptive", "adaptive, large"])
+def test_a_step_without_an_answer_is_told_and_those_before_it_are_handed_over(loop, lost):
+    told, times, instants = run(Awkward(3, **LOOPS.get(loop, {})), loop, lost)
+    assert (told["step"], told["time"], instants) == (lost, times[lost], lost)
 
 
 @pytest.mark.parametrize(
@@ -185,6 +238,96 @@ def test_load_steps_are_equilibria(solver, unilateral):
         check_steps(problem, problem.times, history.energies, recorder.snapshots, static=True)
 
     holds()
+
+
+def test_a_second_solution_that_fails_leaves_the_first(monkeypatch):
+    """What rounding left out of balance is solved for once more; here that leads nowhere."""
+
+    class Nowhere:
+        def solve(self, motion, *given):
+            for values in motion:
+                values += 1.0
+            return StepOutcome(motion.u.copy(), 0, np.inf)
+
+    problem, polish = Awkward(1).problem(), stepping._polish
+    plain, spoilt = Recorder(len(problem.times)), Recorder(len(problem.times))
+    monkeypatch.setattr(stepping, "_polish", lambda *given: None)
+    step_statics(problem, [plain])
+    monkeypatch.setattr(stepping, "BALANCED", -1.0)
+    monkeypatch.setattr(stepping, "_polish", lambda p, s, m, f: polish(p, Nowhere(), m, f))
+    step_statics(problem, [spoilt])
+    for name in ("u", "w", "t", "state", "reaction"):
+        np.testing.assert_array_equal(spoilt.of(name), plain.of(name))
+
+
+def following_bulk(problem, force, length, hard=2e3, late=5.0):
+    """Bodies whose loads (n,) neighbours turn and time changes, and these loads."""
+    n = problem.numbering.size
+    own = np.random.default_rng(1).uniform(1.0, 2.0, n) * hard * force / length
+
+    def follows(time, u):
+        x = u / (1e-3 * length)
+        return -own * u * (x + 2.0 * np.roll(x, 1)) ** 2 * (1.0 + late * time)
+
+    law, shifts = (lambda t, u: Added(follows(t, u))), np.full(n, 1e-7 * length)
+    return loaded_bulk(Bulk((), (), n), law, shifts, 1e-7, None, ""), follows
+
+
+@pytest.mark.parametrize("unilateral", [False, True])
+@pytest.mark.parametrize("static", [False, True])
+def test_steps_under_loads_that_follow_are_those_of_the_equations(static, unilateral):
+    """By Newton's method of bodies."""
+
+    @settings(BRIEF, max_examples=3)
+    @given(problems(steps=20, unilateral=unilateral))
+    def holds(awkward):
+        problem = awkward.problem()
+        hard = 2e2 if static and unilateral else 2e3
+        bulk, follows = following_bulk(problem, *UNITS[awkward.units], hard)
+        recorder = Recorder(len(problem.times))
+        state = bulk.begin((), problem.u, 0.0)
+        history = run_bulk(problem, bulk, state, [recorder], dynamic=not static)
+        instants = recorder.snapshots
+        check_steps(problem, problem.times, history.energies, instants, static, follows)
+
+    holds()
+
+
+def a_share(split, share, by):
+    """The parameter for which the third unknown goes on by so much; < 0: the way of the load."""
+    by = by if by > 0.0 else -by * np.sign(split.unit[2])
+    return [(share * by - split.du[2] - split.rest[2]) / split.unit[2]]
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+@pytest.mark.parametrize("way", ["directions", "time", "arc"])
+def test_steps_along_a_path_are_equilibria_under_the_loads_found(way, seed):
+    """An unknown goes by what is asked, or steps have a length; neighbours turn the loads."""
+    awkward = Awkward(seed, moving=way != "directions", line_laws=LINES[:1], steps=12, units=seed)
+    problem, (force, length) = awkward.problem(), UNITS[awkward.units]
+    ends, loading = problem.times[[0, -1]], problem.loading
+    curves = tuple((ends, np.array([0.0, k + 1.0])) for k in range(len(loading.curves)))
+    problem = replace(problem, loading=replace(loading, curves=curves))
+    late = 0.0 if way == "arc" else 5.0  # arcs know of no load that time changes but its curves
+    bulk, follows = following_bulk(problem, force, length, late=late)
+    recorder, by = Recorder(40), 3e-4 * length
+    run = BulkRun(problem, bulk, bulk.begin((), problem.u, 0.0), (recorder,))
+    if way == "directions":
+        asked = by * np.linspace(0.5, 1.5, 12)
+        path, trace = follow_directions(run, 1, asked, lambda x: partial(a_share, by=x))
+        curves = (*curves[:-1], (problem.times, np.array(trace.parameters)))
+        near(np.diff(recorder.of("u")[:, 2]), asked, by)
+    elif way == "time":
+        run.problem = replace(problem, times=problem.times[::6])
+        path, trace = follow_time(run, lambda _: partial(a_share, by=-by), 6, 1)
+    else:
+        rate = (1.0 + np.arange(len(curves))) / ends[1]
+        lengths = Lengths(0.1, 1e-4, 0.5, u_ref=1e-3 * length, t_ref=float(ends[1]))
+        path, trace = follow_arc(run, rate, lengths, lambda t: t < 0.5 * ends[1], 40, 1)
+    found = replace(problem, loading=replace(loading, curves=curves))
+    history, times = history_of(path, trace, 0.0), np.array(trace.times)
+    near([i.time for i in recorder.snapshots], times, times[-1], 1e-14)
+    check_steps(found, times, history.energies, recorder.snapshots, True, follows)
 
 
 def parts_of(patch):

@@ -5,6 +5,8 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh
@@ -18,7 +20,8 @@ from ssilang.kernel.waves.free_field_forces import (
     layer_forces,
     load_of,
 )
-from ssilang.kernel.waves.resolution import highest_frequency
+from ssilang.kernel.waves.resolution import highest_frequency, longest_sides
+from tests.kernel.elements.samples import cell_zone
 
 N = 7
 
@@ -150,3 +153,12 @@ def test_the_highest_frequency_is_that_of_the_velocity_that_counts():
     assert highest_frequency(t, both) == pytest.approx(12.5, rel=2e-2)
     assert highest_frequency(t, both, 0.2) == pytest.approx(2.5, rel=2e-2)
     assert highest_frequency(t, 0 * both) == 0.0
+
+
+@pytest.mark.parametrize(("element", "longest"), [("QUA4", 2.0), ("CUB8", 3.0), ("TRI3", 5**0.5)])
+def test_the_longest_side_of_an_oblong_cell_and_no_diagonal(element, longest):
+    zone = cell_zone(element, Mode.THREE_DIMENSIONAL if element == "CUB8" else Mode.PLANE_STRAIN)
+    nodes, whole = REFERENCE_CELLS[element].nodes, 1.0 if element == "TRI3" else 2.0
+    x = zone.cells.nodes.coordinates
+    x[:, : nodes.shape[1]] = nodes * np.array([1.0, 2.0, 3.0])[: nodes.shape[1]] / whole
+    np.testing.assert_allclose(longest_sides(zone), longest)

@@ -8,11 +8,17 @@ from ssilang.language.run.call import Call
 FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 2 'UX' 3. 'UY' 4. ;\n"
 
 
-@pytest.mark.parametrize("phrase", ["X = EXCO C 'UX'", "X = EXCO C (MOTS 'UX')", "X = MAXI C"])
+@pytest.mark.parametrize(
+    "phrase",
+    ["X = BRUI 'BLAN' 'UNIF' 0. 1. 3", "X = EXCO C 'UX'", "X = EXCO C (MOTS 'UX')", "X = MAXI C"],
+)
 def test_no_error_is_made_where_a_later_form_fits(monkeypatch, phrase):
     made = []
-    missing = Call.missing
-    monkeypatch.setattr(Call, "missing", lambda self, t: made.append(t) or missing(self, t))
+    for name in ("missing", "error"):
+        was = getattr(Call, name)
+        monkeypatch.setattr(
+            Call, name, lambda self, *a, was=was, **k: made.append(a) or was(self, *a, **k)
+        )
     assert run_text(f"{FIELD}{phrase} ;").exit_code == 0
     assert not made
 

@@ -57,12 +57,14 @@ def test_a_weight_moves_the_edge_by_the_difference_of_squares_over_twice_the_dis
     np.testing.assert_allclose(areas(partition, 2), [place, 1 - place], rtol=1e-12)
 
 
-def test_cells_far_from_the_origin_keep_their_digits():
-    germs = np.random.default_rng(2).random((30, 2))
-    near = areas(voronoi_partition(germs, np.zeros(30), SQUARE, ring(4)), 30)
-    far = voronoi_partition(germs + 1e4, np.zeros(30), SQUARE + 1e4, ring(4))
-    moved = type(far)(far.points - 1e4, far.edges, far.owners)
-    np.testing.assert_allclose(areas(moved, 30), near, rtol=1e-7)
+@pytest.mark.parametrize("n", [2, 30])
+@pytest.mark.parametrize(("size", "shift"), [(1.0, 1e4), (300.0, -7.0), (1e-3, 0.2)])
+def test_cells_of_any_size_and_far_from_the_origin_keep_their_digits(n, size, shift):
+    germs = np.random.default_rng(2).random((n, 2))
+    near = areas(voronoi_partition(germs, np.zeros(n), SQUARE, ring(4)), n)
+    far = voronoi_partition(size * germs + shift, np.zeros(n), size * SQUARE + shift, ring(4))
+    moved = type(far)((far.points - shift) / size, far.edges, far.owners)
+    np.testing.assert_allclose(areas(moved, n), near, rtol=1e-7)
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,10 @@ import pytest
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.backbone import hyperbola
-from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.matrices.assembly import assemble_triplets
 from ssilang.kernel.plasticity.points import PointState
-from ssilang.kernel.plasticity.solving.blocks import cells_of
-from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.positive import Pattern
 from ssilang.kernel.plasticity.zone_points import zone_pass
 
@@ -26,7 +23,13 @@ RANGES = {
         "ALFA": (0.1, 0.3), "BETA": (0.5, 1), "K": (1, 2), "ETA": (0.1, 0.3), "MU": (0.5, 1),
         "KL": (0.5, 3), "H": (-100, 100), "GAMM": (0, 0.2), "DELT": (0.5, 1),
     },
+    "IWAN": {},
+    "IWAN_PRESSION": {"PREF": (1, 2)},
 }  # fmt: skip
+CURVES = [
+    Curve((CurvePart(np.array([0.0, 1e-3, 1e-2]), np.array([1.0, 2.0, 2.5])),)),
+    Curve((CurvePart(np.array([0.0, 0.1]), np.array([1.5, 3.0])),)),
+]
 
 
 class Points:
@@ -38,127 +41,75 @@ class Points:
         self.weights, self.components = np.full((M, 1), 2.0), (0, 1, 2, 3, 4, 5)
 
 
-def state_of(rng: np.random.Generator, law: PlasticLaw) -> PointState:
-    variables = np.zeros((M, len(law.variables)))
+def state_of(rng: np.random.Generator, law: PlasticLaw, nested: bool) -> PointState:
+    """Bodies that have flowed; nested surfaces begin under a pressure alone."""
+    variables, stress = np.zeros((M, len(law.variables))), rng.normal(size=(M, 6)) * 0.5
+    if nested:
+        stress[:] = [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0]
+        return PointState(stress, np.zeros((M, 6)), np.zeros((M, 6)), variables)
     variables[:, 0] = rng.uniform(0, 0.01, M) * (rng.uniform(size=M) > 0.3)
     if variables.shape[1] > 1:
         centre = rng.normal(size=(M, 6)) * 0.2
         centre[:, :3] -= centre[:, :3].mean(axis=1)[:, None]
         variables[:, 1:] = centre
-    stress = rng.normal(size=(M, 6)) * 0.5
     return PointState(stress, rng.normal(size=(M, 6)), np.zeros((M, 6)), variables)
 
 
 @pytest.mark.parametrize("name", RANGES)
 def test_a_pass_gives_what_the_law_does(name: str) -> None:
-    rng, law = np.random.default_rng(0), PLASTIC_LAWS[name]
+    """Three steps: with strains that need no stress, back, and forth again."""
+    rng, nested = np.random.default_rng(0), name.startswith("IWAN")
     ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45)} | RANGES[name]
     values = {k: rng.uniform(*given, M) for k, given in ranges.items()}
-    curves = [
-        Curve((CurvePart(np.array([0.0, 1e-3, 1e-2]), np.array([1.0, 2.0, 2.5])),)),
-        Curve((CurvePart(np.array([0.0, 0.1]), np.array([1.5, 3.0])),)),
-    ]
-    parameters = PointParameters(values, {"ECRO": (curves, rng.integers(0, 2, M))})
-    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 2e-3
-    freed = rng.normal(size=(M, 6)) * 2e-4
-    found = law.respond(parameters, old.stress, strain - freed, old.variables)
-    flows = found.variables[:, 0] > old.variables[:, 0]
-    assert 0.1 < flows.mean() < 1.0
-
-    points, cone = Points(law, parameters), cone_rows(law, parameters)
-    assert cone is not None
-    places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
-    zone = ConePass(cells_of(points, places), cone)  # type: ignore[arg-type]
-    force = np.zeros(6 * M)
-    new = zone.respond(old, strain.ravel(), freed, force)
-    assert np.array_equal(new.beyond > 1e-14, flows)
-    assert np.allclose(new.stress, found.stress, rtol=0, atol=1e-13)
-    assert np.allclose(new.variables, found.variables, rtol=0, atol=1e-14)
-    assert np.allclose(force.reshape(M, 6), 2 * found.stress, rtol=0, atol=1e-12)
-    elastic = np.einsum("mij,mj->mi", parameters.compliance, found.stress - old.stress)
-    flowed = old.plastic + (strain - freed) - elastic
-    assert np.allclose(new.plastic, flowed, rtol=0, atol=1e-15)
-    mean = 0.5 * (old.stress + found.stress)
-    assert new.work == pytest.approx(2 * np.sum(mean * (strain - freed)), rel=1e-12)
-    density = parameters.elastic_energy(found.stress)
-    state = PointState(new.stress, new.plastic, old.free, new.variables)
-    assert zone.stored(state) == pytest.approx(2 * density.sum(), rel=1e-12)
-
-    pattern = Pattern.of(assemble_triplets([places], [np.ones((M, 6, 6))], 6 * M), [places])
-    data = pattern.blank()
-    zone.add_tangent(old, strain.ravel(), freed, pattern.slots[0], data)
-    tangents = data.reshape(M, 6, 6) / 2
-    assert np.allclose(tangents, found.tangent, rtol=0, atol=1e-12 * np.abs(found.tangent).max())
-
-
-def test_what_flow_takes_away_is_what_the_law_does_of_some_cells() -> None:
-    rng, law = np.random.default_rng(2), PLASTIC_LAWS["CINEMATIQUE"]
-    ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45), "SIGY": (1, 2), "H": (0, 300)}
-    parameters = PointParameters({k: rng.uniform(*r, M) for k, r in ranges.items()}, {})
-    old, strain = state_of(rng, law), rng.normal(size=(M, 6)) * 4e-4
-    found = law.respond(parameters, old.stress, strain, old.variables)
-    elastic = old.stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
-    cone = cone_rows(law, parameters)
-    assert cone is not None
-    places = np.arange(6 * M, dtype=np.int32).reshape(M, 6)
-    cells = cells_of(Points(law, parameters), places)  # type: ignore[arg-type]
-    which = np.sort(rng.permutation(M)[: M // 3])
-    flow = np.zeros(6 * M)
-    ConePass(cells, cone).of(which).flow(old, strain.ravel(), flow)
-    expected = np.zeros((M, 6))
-    expected[which] = 2 * (found.stress - elastic)[which]
-    assert 0.05 < np.mean((np.abs(expected) > 1e-9).any(axis=1)) < 0.3
-    assert np.allclose(flow.reshape(M, 6), expected, rtol=0, atol=1e-12)
-
-
-@pytest.mark.parametrize("name", ["IWAN", "IWAN_PRESSION"])
-def test_a_pass_over_nested_surfaces_gives_what_the_law_does(name: str) -> None:
-    """Three steps: forth, back, and one with strains that need no stress."""
-    rng = np.random.default_rng(4)
-    values = {"YOUN": rng.uniform(1e3, 2e3, M), "NU": rng.uniform(0.1, 0.45, M)}
-    if name == "IWAN_PRESSION":
-        values["PREF"] = rng.uniform(1, 2, M)
-    which = rng.integers(0, 2, M)
-    parameters = PointParameters(values, {"GGAM": ([hyperbola(1e-3), hyperbola(5e-3)], which)})
+    which, soils = rng.integers(0, 2, M), [hyperbola(1e-3), hyperbola(5e-3)]
+    parameters = PointParameters(values, {"ECRO": (CURVES, which), "GGAM": (soils, which)})
     law = law_at(PLASTIC_LAWS[name], parameters)
     points, places = Points(law, parameters), np.arange(6 * M, dtype=np.int32).reshape(M, 6)
     zone = zone_pass(points, places)  # type: ignore[arg-type]
     assert zone is not None
     pattern = Pattern.of(assemble_triplets([places], [np.ones((M, 6, 6))], 6 * M), [places])
-    stress = np.zeros((M, 6))
-    stress[:, :3] -= 1.0
-    blank = np.zeros((M, 6)), np.zeros((M, 6)), np.zeros((M, len(law.variables)))
-    old, way = PointState(stress, *blank), rng.normal(size=(M, 6)) * 2e-3
-    for turn, size in enumerate((1.0, -1.5, 0.3)):
-        strain, freed = size * way, 0.1 * way if turn == 2 else np.zeros((0, 6))
-        own = strain - freed if turn == 2 else strain
+    old, way = state_of(rng, law, nested), rng.normal(size=(M, 6)) * 2e-3
+    for turn, size in enumerate((1.0, -1.5, 1.3)):
+        strain, freed = size * way, np.zeros((0, 6)) if turn else rng.normal(size=(M, 6)) * 2e-4
+        own = strain if turn else strain - freed
         found = law.respond(parameters, old.stress, own, old.variables)
         force, flow, data = np.zeros(6 * M), np.zeros(6 * M), pattern.blank()
         new = zone.respond(old, strain.ravel(), freed, force)
+        flows = found.variables[:, 0] > old.variables[:, 0]
+        assert flows.mean() > 0.05
+        clear = np.abs(new.beyond) > 1e-9  # of the tip of a cone, where rounding decides
+        assert clear.mean() > 0.9
+        assert np.array_equal(
+            (new.beyond == 1.0 if nested else new.beyond > 0)[clear], flows[clear]
+        )
         largest = np.abs(found.stress).max()
         assert np.allclose(new.stress, found.stress, rtol=0, atol=1e-13 * largest)
         assert np.allclose(new.variables, found.variables, rtol=0, atol=1e-13 * largest)
         assert np.allclose(force.reshape(M, 6), 2 * found.stress, rtol=0, atol=1e-12 * largest)
         elastic = np.einsum("mij,mj->mi", parameters.compliance, found.stress - old.stress)
-        assert np.allclose(new.plastic, old.plastic + own - elastic, rtol=0, atol=1e-15)
+        assert np.allclose(new.plastic, old.plastic + own - elastic, rtol=0, atol=3e-15)
+        mean = 0.5 * (old.stress + found.stress)
+        assert new.work == pytest.approx(2 * np.sum(mean * own), rel=1e-11)
         zone.add_tangent(old, strain.ravel(), freed, pattern.slots[0], data)
         tangents = data.reshape(M, 6, 6) / 2
-        assert np.allclose(tangents, found.tangent, rtol=0, atol=1e-12 * found.tangent.max())
+        steep = 1e-12 * np.abs(found.tangent).max()
+        assert np.allclose(tangents, found.tangent, rtol=0, atol=steep)
         some = np.sort(rng.permutation(M)[:300])
         zone.of(some).flow(old, own.ravel(), flow)
         without = old.stress + np.einsum("mij,mj->mi", parameters.moduli, own)
-        taken = 2 * (found.stress - without)[some]
-        assert np.allclose(flow.reshape(M, 6)[some], taken, rtol=0, atol=1e-12 * largest)
+        taken = np.zeros((M, 6))
+        taken[some] = 2 * (found.stress - without)[some]
+        assert np.allclose(flow.reshape(M, 6), taken, rtol=0, atol=1e-12 * largest)
         old = PointState(new.stress, new.plastic, old.free, new.variables)
         density = parameters.elastic_energy(old.stress)
-        density = density + law.locked(parameters, old.stress, old.variables)
+        if law.locked is not None:
+            density = density + law.locked(parameters, old.stress, old.variables)
         assert zone.stored(old) == pytest.approx(2 * density.sum(), rel=1e-11)
-    assert (new.beyond == 1.0).mean() > 0.5
 
 
 def test_only_cones_have_rows() -> None:
     laws = {name for name, law in PLASTIC_LAWS.items() if law.columns is not None}
-    assert laws == set(RANGES)
+    assert laws == {name for name in RANGES if not name.startswith("IWAN")}
 
 
 def test_terms_stay_where_the_assembly_puts_them() -> None:

@@ -32,7 +32,12 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
     refuse_reduction,
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
-from ssilang.kernel.stepping.rests.reduced.trained import Learner, Shelf, trained_basis
+from ssilang.kernel.stepping.rests.reduced.trained import (
+    Learner,
+    Shelf,
+    TrainedBasis,
+    trained_basis,
+)
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.kernel.stepping.state import closed_tap
@@ -159,7 +164,8 @@ class ReducedIntegration:
         given = Integration(p, self.observers)
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
-        pair = _pair_of(p, self.tolerance) if self.shelf is None else self._trained(self.shelf)
+        basis, rounds = self._basis(), 0
+        pair = _pair_of(p, self.tolerance) if basis is None else self._answered(basis)
         while True:
             built = time.perf_counter()
             rich, difference, chunks = self._both(pair, wanted)
@@ -167,13 +173,18 @@ class ReducedIntegration:
             if difference is not None and estimate <= self.tolerance:
                 break
             try:
-                pair.grow()
+                if basis is None:
+                    pair.grow()
+                else:
+                    pair, rounds = self._answered(basis), rounds + 1
             except NoReduction as reason:
                 raise NoReduction(
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
+        if self.shelf is not None and basis is not None and rounds:
+            basis.learn(_model_of(p), self.shelf)
         given.begin()
-        nested = self.shelf is None and self.lifted > LIFTED
+        nested = basis is None and self.lifted > LIFTED
         swing = self._swing(pair.poor) if nested else 0.0
         self._hand_over(pair.rich, given, wanted, chunks)
         return History(
@@ -185,23 +196,33 @@ class ReducedIntegration:
             ),
         )  # fmt: skip
 
-    def _trained(self, shelf: Shelf) -> Pair:
-        """A trained basis, and the same with the step's answers to what it leaves out of balance.
+    def _basis(self) -> TrainedBasis | None:
+        """That which stands on the shelf, if there is one.
 
         Raises
         ------
         NoReduction
-            If it is not trained enough, supports move, or steps on it do not converge.
+            If it is not trained enough, or supports move.
         """
-        p, ahead = self.problem, list[Chunk]()
-        if _imposed(p):
+        if self.shelf is None:
+            return None
+        if _imposed(self.problem):
             raise NoReduction("kernel.stepping.trained-supports-move")
-        basis = trained_basis(p, _model_of(p), shelf)
-        poor, left = basis.model(), list[FloatArray]()
+        return trained_basis(self.problem, _model_of(self.problem), self.shelf)
+
+    def _answered(self, basis: TrainedBasis) -> Pair:
+        """A basis, and the same with the step's answers to what it leaves out of balance.
+
+        Raises
+        ------
+        NoReduction
+            If there is no room for them, or steps on it do not converge.
+        """
+        p, poor, ahead, left = self.problem, basis.model(), list[Chunk](), list[FloatArray]()
         trace = Trace(p, poor, self._sampled)
         for run in comparing(p.times):
             if (chunk := trace.advance(run)) is None:
-                raise NoReduction("kernel.stepping.training-inexact", records=basis.records)
+                raise basis.inexact()
             left += [-s.reaction for s in expanded(p, poor, chunk, np.arange(len(chunk.steps)))]
             ahead.append(chunk)
         basis.answer(np.array(left).T)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -34,7 +34,9 @@ FEWEST = 2  # records that train a basis
 VECTORS = 400
 EVERY, MOST_SNAPSHOTS = 2, 512  # steps to the next displacement of a record, how many
 ROUNDING = 1e-12  # energy of a vector, of the largest
-ROOM = 72  # vectors beside the trained ones: start of a motion, answers to residuals
+ANSWERS = 64  # of a round
+ROUNDS = 10  # of answers that a basis may hold
+START = 3  # vectors of the start of a motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +52,15 @@ class Training:
         Digests of the records that trained it.
     vectors : array (r, n_y)
         On the motions y that the supports leave; the square of their length is their energy.
+    answers : array (s, n_y)
+        What reduced runs missed.
     """
 
     model: str
     dt: float
     taught: tuple[str, ...]
     vectors: FloatArray
+    answers: FloatArray
 
 
 class Shelf(Protocol):
@@ -89,10 +94,11 @@ class TrainedBasis(Basis):
     trained = True
 
     def __init__(self, problem: Problem, training: Training) -> None:
-        largest = len(training.vectors) + ROOM
+        own, known = len(training.vectors), len(training.answers)
+        largest = own + max(known, ROUNDS * ANSWERS) + ANSWERS + START
         self._project(problem, largest)
         self._make_room(largest, HIGHEST_SHIFT * 2.0 / training.dt)
-        self._add(training.vectors.T)
+        self._add(np.vstack([training.vectors, training.answers]).T)
         self._fixed, self.records = self.size, len(training.taught)
         A, end = effective_matrix(problem, training.dt), 1 - problem.scheme.alpha_f
         self._step = effective_of(problem, A, training.dt, end)
@@ -104,12 +110,37 @@ class TrainedBasis(Basis):
         self._add(self._start[:, self._start.any(axis=0)])
 
     def answer(self, left: FloatArray) -> None:
-        """Add the step's answers to what is out of balance (n, k)."""
-        self._add(on_motions(self.T, self._step.solve(left)))
+        """Add the step's answers to what is out of balance (n, k).
 
-    def grow(self) -> None:
-        """A trained basis grows by whole runs alone."""
-        raise NoReduction("kernel.stepping.training-inexact", records=self.records)
+        Raises
+        ------
+        NoReduction
+            If there is no room for them.
+        """
+        try:
+            self._add(on_motions(self.T, self._step.solve(left)))
+        except NoReduction as full:
+            raise self.inexact() from full
+
+    def inexact(self) -> NoReduction:
+        """Why a record has to run whole."""
+        return NoReduction("kernel.stepping.training-inexact", records=self.records)
+
+    def learn(self, model: str, shelf: Shelf) -> None:
+        """Keep the answers, here and on the shelf, for the records to come."""
+        new = self.vectors[self._fixed :]
+        with shelf.held():
+            found = shelf.read()
+            if (
+                found is None
+                or found.model != model
+                or len(new) + len(found.answers) > ROUNDS * ANSWERS
+            ):
+                return
+            shelf.write(replace(found, answers=np.vstack([found.answers, new])))
+            self._fixed = self.size
+            _LAST.clear()
+            _LAST[f"{model} {shelf.stamp()}"] = self
 
 
 _LAST: dict[str, TrainedBasis] = {}
@@ -146,8 +177,9 @@ def read_for(problem: Problem, model: str, shelf: Shelf) -> Training | None:
     if np.abs(steps - dt).max() > SAME * dt * len(steps):
         code = "kernel.stepping.trained-on-another-step"
         raise KernelError(code, name=shelf.name, dt=dt, step=float(steps[-1]))
-    if found is not None and found.vectors.shape[1] != problem.constraints.T.shape[1]:
-        raise KernelError("io.damaged", name=shelf.name, error=f"vectors {found.vectors.shape}")
+    for part in () if found is None else (found.vectors, found.answers):
+        if part.shape[1] != problem.constraints.T.shape[1]:
+            raise KernelError("io.damaged", name=shelf.name, error=f"vectors {part.shape}")
     return found
 
 
@@ -184,4 +216,5 @@ class Learner:
         values, mixed = np.linalg.eigh(0.5 * (gram + gram.T))
         kept = np.flatnonzero(values > ROUNDING * values[-1])[-VECTORS:]
         dt = float(p.times[1] - p.times[0])
-        shelf.write(Training(model, dt, (*taught, record), mixed[:, kept].T @ Y))
+        answers = np.zeros((0, Y.shape[1])) if old is None else old.answers
+        shelf.write(Training(model, dt, (*taught, record), mixed[:, kept].T @ Y, answers))

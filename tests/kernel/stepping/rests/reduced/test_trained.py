@@ -104,7 +104,38 @@ def test_more_joints_than_vectors(suite, monkeypatch, tmp_path):
     assert relative(found.of("w"), whole.of("w")) <= 1.2 * history.reduction.estimate
 
 
-def test_beyond_the_tolerance_a_record_runs_whole_and_trains(suite, tmp_path):
+def test_answers_to_what_is_out_of_balance_reach_the_tolerance_and_stay(suite, tmp_path):
+    file, tolerance = copy_of(suite, tmp_path), 2e-4
+    for seed, kept in ((8, "learns"), (9, "has learnt")):
+        whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
+        integrate(record(seed), [whole])
+        trained._LAST.clear()  # as another process would read it
+        stamp = file.stamp()
+        history = integrate_reduced(record(seed), tolerance, [found], shelf=file)
+        assert history.loop == "reduced"
+        assert max(relative(found.of(x), whole.of(x)) for x in ("u", "w")) <= 1.2 * tolerance
+        assert (file.stamp() != stamp) == (kept == "learns")
+    now, before = file.read(), suite.read()
+    assert now.taught == before.taught
+    np.testing.assert_array_equal(now.vectors, before.vectors)
+    assert len(now.answers) >= trained.ANSWERS
+
+
+def test_answers_of_two_processes_are_both_kept_as_long_as_there_is_room(suite, tmp_path):
+    file, problem, sound = copy_of(suite, tmp_path), record(8), suite.read()
+    basis = trained.TrainedBasis(problem, sound)
+    basis.meet(problem)
+    basis.answer(np.random.default_rng(1).normal(size=(problem.numbering.size, 5)))
+    other = np.ones((trained.ROUNDS * trained.ANSWERS - 5, sound.vectors.shape[1]))
+    for answers, kept in ((other[3:], len(other) + 5), (other, len(other))):
+        file.write(replace(sound, answers=answers))
+        basis._fixed = len(basis.vectors) - 8  # five, and three that start the motion
+        basis.learn(sound.model, file)
+        assert len(file.read().answers) == kept
+
+
+def test_beyond_the_tolerance_a_record_runs_whole_and_trains(suite, tmp_path, monkeypatch):
+    monkeypatch.setattr(trained, "ROUNDS", 0)
     file, problem = copy_of(suite, tmp_path), record(6)
     whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
     integrate(problem, [whole])
