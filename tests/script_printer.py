@@ -12,8 +12,8 @@ from functools import cache
 from typing import Any
 
 from ssilang.language.text import tree
-from ssilang.language.text.printer import _word as word_of
-from ssilang.language.text.printer import heading, print_items
+from ssilang.language.text.tree import _word as word_of
+from ssilang.language.text.tree import heading, print_items
 
 _IGNORED_FIELDS = frozenset({"span", "spelling", "cache"})
 

@@ -25,8 +25,14 @@ from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
-from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError, interruption, unprinted
-from ssilang.language.say.visible import visible
+from ssilang.language.say.errors import (
+    ReaderLeft,
+    SeveralErrors,
+    SsiError,
+    interruption,
+    unprinted,
+    visible,
+)
 from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source
@@ -106,7 +112,7 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
             out=out,
             language=options.language,
             limits=options.limits,
-            given={k: _as_object(v) for k, v in options.given.items()},
+            given={k: Mot(v) if isinstance(v, str) else v for k, v in options.given.items()},
             was_interrupted=take,
             hold=holding,
             on_form=options.on_form,
@@ -118,10 +124,6 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
 
         workspace(session).petsc = PetscServer(options.petsc)
     return session
-
-
-def _as_object(value: Any) -> Any:
-    return Mot(value) if isinstance(value, str) else value
 
 
 def allow_nesting(depth: int) -> None:

@@ -604,7 +604,7 @@ class Operator:
                 read if read or not by_hand else None,
                 function,
                 _injected(function),
-                _gives(gives),
+                gives if gives is None or isinstance(gives, Like | By) else _as_words(gives),
                 by_hand,
                 when,
                 tuple(of),
@@ -623,10 +623,6 @@ class Operator:
         ranks = [OPERATORS.rank(self.name, form.module) for form in self.forms]
         place = OPERATORS.rank(self.name, made.module)
         self.forms.insert((bisect_left if ahead else bisect_right)(ranks, place), made)
-
-
-def _gives(given: str | Sequence[str] | Like | By | None) -> Gives:
-    return given if given is None or isinstance(given, Like | By) else _as_words(given)
 
 
 def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib import resources
 
-from ssilang.language.say.visible import visible
+from ssilang.language.say.errors import visible
 
 
 def text(value: object) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ssilang.io.csv_tables import Column, as_columns, csv_lines, read_csv
 from ssilang.io.errors import InputError
+from ssilang.io.tables import Column, as_columns, csv_lines, read_csv
 
 
 def test_titles_stand_over_columns_of_unequal_length() -> None:

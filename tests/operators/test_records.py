@@ -7,15 +7,15 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import gamma, jv, yv
 
-from ssilang.kernel.records.artificial import Band, motion, sines
-from ssilang.kernel.records.envelope import energy_envelope
 from ssilang.kernel.records.filters import displacement_integral, integrated
+from ssilang.kernel.records.modulated import Band, motion, sines
 from ssilang.kernel.records.power import (
     mean_peak,
     median_peak,
     power_density,
     response_moments,
 )
+from ssilang.kernel.records.signals import energy_envelope
 
 
 def parts(curve):

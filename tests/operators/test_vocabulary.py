@@ -10,8 +10,8 @@ from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
+from ssilang.kernel.interface.laws.law import DEFAULTS
 from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
-from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS

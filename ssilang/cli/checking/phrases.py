@@ -35,8 +35,8 @@ from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
-from ssilang.language.text.printer import heading
 from ssilang.language.text.source import Span
+from ssilang.language.text.tree import heading
 from ssilang.language.values import Mot, Procedure, Texte
 from ssilang.operators.dispatch import WORDS_OF_UNION, joining
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS

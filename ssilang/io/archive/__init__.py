@@ -5,8 +5,7 @@ records: labels and names) and `arrays/N.npy`. Nothing in it is ever executed: o
 from a fixed list of classes, arrays are read without pickles.
 """
 
-from ssilang.io.archive.container import Archive, Record, read_archive, write_archive
+from ssilang.io.archive.container import Archive, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.decoding import Decoder
-from ssilang.io.archive.encoding import Encoder
 
 __all__ = ["Archive", "Decoder", "Encoder", "Record", "read_archive", "write_archive"]

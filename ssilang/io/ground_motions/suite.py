@@ -10,8 +10,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.io.ground_motions.cosmos import read_cosmos
-from ssilang.io.ground_motions.esm import read_esm
-from ssilang.io.ground_motions.peer import read_peer
+from ssilang.io.ground_motions.databases import read_esm, read_peer
 from ssilang.io.ground_motions.record import GroundMotion, plain_unit
 from ssilang.io.ground_motions.titled import read_titled
 

@@ -1,10 +1,15 @@
-"""Annotations of pictures (ANNO): categories beside the drawing, tags at points."""
+"""Annotations of pictures (ANNO): categories beside the drawing, tags at points.
+
+Numbers written by a Fortran edit descriptor: '(F5.1)', '(I4)', '(1PE12.5)', '(G10.2)'.
+"""
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ssilang.io.errors import OutputError
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.view import View
@@ -13,6 +18,7 @@ from ssilang.kernel.mesh.mesh import Point
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 # where a tag stands, seen from its point, and how its text is then aligned
 PLACES: dict[str, tuple[float, float]] = {
@@ -98,3 +104,28 @@ def _draw_tag(axes: Axes, view: View, tag: Tag, size: float) -> None:
         zorder=6,
         bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
     )
+
+
+_DESCRIPTOR = re.compile(r"\(?\s*(?:1P)?([IFEDG])(\d+)(?:\.(\d+))?(?:E\d+)?\s*\)?$", re.IGNORECASE)
+
+
+def formatted(descriptor: str, value: float) -> str:
+    """`value` as the descriptor writes it, without leading blanks.
+
+    Raises
+    ------
+    OutputError
+        For a descriptor that is not one of I, F, E, D, G.
+    """
+    match = _DESCRIPTOR.match(descriptor.strip())
+    if match is None:
+        raise OutputError("io.no-number-format", descriptor=descriptor)
+    kind = match.group(1).upper()
+    digits = int(match.group(3) or 0)
+    if kind == "I":
+        return str(round(value))
+    if kind == "F":
+        return f"{value:.{digits}f}"
+    if kind == "G":
+        return f"{value:.{max(digits, 1)}G}"
+    return f"{value:.{digits}E}"

@@ -19,7 +19,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.contact.friction_rows import Friction
+from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table

@@ -3,12 +3,15 @@
 A family gives its strain operator and its elastic moduli at integration points; stiffness,
 strain, stress, internal forces are then the same few lines for all. Arrays are
 (n_cells, n_strains, n_points, ...): one strain component is a contiguous (n_cells, n_points).
+
+What the shells share: nodes that move and turn, strains and stresses with fixed names.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +19,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points
 from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -231,3 +235,28 @@ def cell_block(
     """A block of a field in cells from values (n_cells, n_components, n_points)."""
     components = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(names)}
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+
+
+class ShellFamily(ElementFamily):
+    """Shell whose nodes carry translations and rotations.
+
+    Attributes
+    ----------
+    strains, stresses : tuple of str
+        Names of the components, in the order of the strain operator's rows.
+    """
+
+    strains: ClassVar[tuple[str, ...]]
+    stresses: ClassVar[tuple[str, ...]]
+
+    def layout(self, zone: Zone) -> Layout:
+        """Translations then rotations, node by node."""
+        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
+
+    def strain_names(self, zone: Zone) -> tuple[str, ...]:
+        """Strains and curvatures, or strains of the points across."""
+        return self.strains
+
+    def stress_names(self, zone: Zone) -> tuple[str, ...]:
+        """Forces and moments per length, or stresses of the points across."""
+        return self.stresses

@@ -18,7 +18,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import HARD_AREA
+from ssilang.kernel.interface.laws.macro_law import HARD_AREA
 from ssilang.kernel.interface.laws.places import n_places, place
 from ssilang.kernel.interface.point_state import CLOSED, OPEN, WHOLE, energies_of_points
 

@@ -21,7 +21,7 @@ from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.outline import Outline, outline_of
+from ssilang.kernel.interface.laws.macro_law import Outline, outline_of
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.assembly import Numbering
 

@@ -1,21 +1,33 @@
-"""Projection on shapes and recombination: `F* = X^T F`, `K* = X^T K X`, `u = X q`."""
+"""Projection on shapes and recombination: `F* = X^T F`, `K* = X^T K X`, `u = X q`.
+
+Stiffness, mass and damping on the motions that the conditions allow.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.matrices.assembly import (
+    Numbering,
     assemble,
     constraint_matrix,
     field_to_vector,
+    is_symmetric,
     numbering_of,
+    refuse_negative_mass,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
+from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
+from ssilang.kernel.statics.linear_motion import rigid_motions
 
 MULTIPLIERS = ("LX", "FLX")
 
@@ -124,3 +136,117 @@ def static_complement(
     """What modes leave out of a static response: `u - sum (work_i / k_i) shape_i`."""
     factors = [1.0, *(-w / k for w, k in zip(works, stiffnesses, strict=True))]
     return combined(factors, [static, *shapes])
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedProblem:
+    """Matrices on the unknowns q that stay, `u = T q`, with the conditions `S q = 0` left over.
+
+    Attributes
+    ----------
+    stiffness, mass : csr arrays (n, n) on `numbering`, for reactions and generalised masses.
+    K, M : csr arrays (r, r)
+    C : csr array (r, r) or None
+        Damping.
+    S : csr array (m, r)
+        Conditions too full to be eliminated.
+    T : csr array (n, r)
+    multipliers : array (n_rows,)
+        Multiplier nodes of all conditions.
+    solver : Solver
+        Which solver takes `K - s M`.
+    """
+
+    numbering: Numbering
+    stiffness: sp.csr_array
+    mass: sp.csr_array
+    K: sp.csr_array
+    M: sp.csr_array
+    C: sp.csr_array | None
+    S: sp.csr_array
+    T: sp.csr_array
+    symmetric: bool
+    elimination: Elimination
+    multipliers: IntArray
+    solver: Solver = FIRST_FIT
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns that stay."""
+        return int(self.K.shape[0])
+
+    def bordered(self, A: sp.csr_array) -> sp.csr_array:
+        """`[A S^T; S 0]`, or A itself if no condition is left."""
+        if self.S.shape[0] == 0:
+            return A
+        return sp.csr_array(sp.block_array([[A, self.S.T], [self.S, None]], format="csr"))
+
+    @property
+    def ordering(self) -> Ordering:
+        """Places of the unknowns that stay, for solvers that go by them."""
+        own = np.asarray(abs(self.T).argmax(axis=0)).ravel()
+        points = self.numbering.table.coordinates[self.numbering.nodes[own]]
+        rigid = None
+        if self.solver.petsc is not None:  # it may have no memory for a factor
+            rigid = rigid_motions(self.numbering)[own]
+        return Ordering(points, np.zeros(0, np.int64), rigid)
+
+    def restricted(self, kept: IntArray) -> ReducedProblem:
+        """The problem with only the unknowns `kept` (k,), the others held at zero."""
+        return replace(
+            self,
+            K=sp.csr_array(self.K[kept][:, kept]),
+            M=sp.csr_array(self.M[kept][:, kept]),
+            C=None if self.C is None else sp.csr_array(self.C[kept][:, kept]),
+            S=sp.csr_array(self.S[:, kept]),
+            T=sp.csr_array(self.T[:, kept]),
+        )
+
+    def reactions(self, u: FloatArray, eigenvalue: float) -> FloatArray:
+        """Multipliers (n_rows,) that balance `(K - lambda M) u` at the eliminated unknowns."""
+        return self.elimination.multipliers(eigenvalue * (self.mass @ u) - self.stiffness @ u)
+
+
+def reduced_problem(
+    stiffness: Matrix,
+    mass: Matrix,
+    damping: Matrix | None = None,
+    solver: Solver = FIRST_FIT,
+) -> ReducedProblem:
+    """Eliminate the conditions of all matrices (unilateral ones taken for equalities).
+
+    Raises
+    ------
+    KernelError
+        If the matrices have no unknown, a condition is non-associated, or a mass is negative.
+    """
+    parts = [stiffness, mass] if damping is None else [stiffness, mass, damping]
+    held = {id(r): r for m in parts for r in m.relations}
+    if any(r.dual is not None for r in held.values()):
+        raise KernelError("kernel.modal.modes-non-associated-relations")
+    all_rows = Matrix(stiffness.table, (), tuple(held.values()))
+    numbering = numbering_of(*parts)
+    if numbering.size == 0:
+        raise KernelError("kernel.modal.matrix-empty-nothing-solve")
+    rows = constraint_matrix(all_rows, numbering)
+    elimination = eliminate(rows.C)
+    T = elimination.T
+    K, M = assemble(stiffness, numbering), assemble(mass, numbering)
+    C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
+    if mass.inertial and not (M.diagonal() > 0.0).any():
+        refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
+    left = np.flatnonzero(~elimination.eliminated)
+    return ReducedProblem(
+        numbering,
+        K,
+        M,
+        sp.csr_array(T.T @ K @ T),
+        sp.csr_array(T.T @ M @ T),
+        C,
+        sp.csr_array(rows.C[left] @ T),
+        T,
+        is_symmetric(stiffness) and is_symmetric(mass),
+        elimination,
+        rows.multipliers,
+        solver,
+    )

@@ -18,7 +18,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import may_be_positive
-from ssilang.kernel.modal.reduced import ReducedProblem
+from ssilang.kernel.modal.basis import ReducedProblem
 from ssilang.kernel.solvers.backends import dissection_pays, factorise, goes_to_petsc
 from ssilang.kernel.solvers.cholesky.inverse import accurate, invert
 from ssilang.kernel.solvers.factor import Factor

@@ -14,7 +14,7 @@ from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.plasticity.driven_load import Trace
 from ssilang.kernel.plasticity.following import PathRun, Split
 from ssilang.kernel.plasticity.run import BulkRun
-from ssilang.kernel.solvers.inertia import count_negative
+from ssilang.kernel.statics.stability import count_negative
 
 
 @dataclass

@@ -29,8 +29,14 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import Numbering, block_indices
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
-from ssilang.kernel.plasticity.finite_beam import CARRIED, FiniteBeam, finite_beam, is_plane_beam
-from ssilang.kernel.plasticity.finite_space_beam import finite_space_beam, is_space_beam
+from ssilang.kernel.plasticity.finite_space_beam import (
+    CARRIED,
+    FiniteBeam,
+    finite_beam,
+    finite_space_beam,
+    is_plane_beam,
+    is_space_beam,
+)
 from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 

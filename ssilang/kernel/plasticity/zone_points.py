@@ -1,30 +1,118 @@
-"""The plastic points of a zone by its kind, and the compiled passes over them by its law."""
+"""The plastic points of a zone by its kind, and the compiled passes over them by its law.
+
+Plastic shells and beams by the forces of their sections: DKT, COQ2, POUT, TIMO, TUYA.
+
+A section yields as a whole when its equivalent stress (VMIS) reaches the strength.
+"""
 
 from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.errors import KernelError, MaterialError
+from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
+from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.equivalent_section import LEVERS, SHELLS, section_form
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.zone_fields import (
+    ZoneField,
     zone_field,
 )
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic import section_flow
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
-from ssilang.kernel.materials.plastic.laws import law_at, plastic_law
+from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
 from ssilang.kernel.plasticity.layered_points import is_layered, layered_points
-from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, law_parameters
-from ssilang.kernel.plasticity.section_points import section_points
+from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, PointState, law_parameters
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
+
+BENT = ("beam", "pipe")
+"""Lines whose strains and forces are linear between their two nodes."""
+
+
+@dataclass(frozen=True, eq=False)
+class EndPoints(PlasticPoints):
+    """Points at both ends of beams; forces and work are those of what is linear between them."""
+
+    characteristics: ZoneField
+
+    def paired(self, full: FloatArray) -> FloatArray:
+        """Two thirds of an end's values (m, ...) and one of the other end's."""
+        ends = full.reshape(-1, 2, *full.shape[1:])
+        found: FloatArray = (2 * ends + ends[:, ::-1]) / 3
+        return found.reshape(full.shape)
+
+    def stored(self, state: PointState) -> float:
+        """Elastic energy of forces that are linear between the ends."""
+        strains = np.einsum("mij,mj->mi", self.parameters.compliance, self.paired(state.stress))
+        return float(0.5 * np.vecdot(state.stress, strains) @ self.weights.ravel())
+
+    def stress_block(self, state: PointState) -> CellFieldBlock:
+        """Forces of the sections, shear forces as the moments at both ends ask for them."""
+        block = super().stress_block(state)
+        turn = beam_frame(self.zone, self.characteristics).rotation(self.zone)
+        local = np.einsum("cij,cj->ci", turn, self.forces(state.stress)).reshape(len(turn), 2, -1)
+        local[:, 0] *= -1.0
+        names, kept = family_of(self.zone).stress_names(self.zone), kept_rows(self.zone)
+        shears = {names[i]: local[:, :, i].copy() for i, row in enumerate(kept) if row in (1, 2)}
+        return replace(block, components={**block.components, **shears})
+
+
+def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
+    """The sections of a zone.
+
+    Raises
+    ------
+    KernelError
+        In Fourier harmonics.
+    MaterialError
+        For missing or inadmissible parameters, beams without a distance for their moments.
+    """
+    kind, family, law = ELEMENTS[zone.element].family, family_of(zone), plastic_law(zone.behaviour)
+    assert law is not None
+    given = zone_field(zone, characteristics)
+    if zone.mode is Mode.FOURIER:
+        raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
+    if kind in ("beam", "timoshenko") and not any(d in given for d, _ in LEVERS.values()):
+        raise MaterialError("kernel.plasticity.moments-without-distances", element=zone.element)
+    if kind == "beam" and ("SECY" in given or "SECZ" in given):
+        raise MaterialError("kernel.plasticity.sheared-beam-is-elastic").about("SECY", "SECZ")
+    operator = family.strain_operator(zone, given, "STRESSES", slice(None))
+    n, s, p, _ = operator.matrix.shape
+    slots = kept_rows(zone) if kind not in SHELLS else {4: (0, 1, 3, 4)}.get(s, tuple(range(s)))
+    sized = pipe_parameters(zone, given) if kind == "pipe" else given
+    size = sized.at("EPAI" if kind in SHELLS else "SECT", "STRESSES")
+
+    def placed(matrix: FloatArray) -> FloatArray:
+        full = np.zeros((n, p, 6, 6))
+        full[..., np.array(slots)[:, None], np.array(slots)] = matrix
+        return full.reshape(-1, 6, 6)
+
+    D = placed(family.moduli(zone, given, "STRESSES"))
+    own = law_parameters(zone, law, given)
+    parameters = section_flow.SectionParameters(
+        own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
+        placed(section_form(zone, given, "STRESSES")), np.broadcast_to(size, (n, p)).ravel(),
+    )  # fmt: skip
+    flowing: PlasticLaw = replace(
+        law, respond=section_flow.respond, columns=None, symmetric=kind not in BENT
+    )
+    weights = np.broadcast_to(operator.weights, (n, p))
+    common = (zone, flowing, family.layout(zone), operator.matrix, weights, None, slots, ())
+    if kind in BENT:
+        return EndPoints(*common, parameters, given)
+    return PlasticPoints(*common, parameters)
 
 
 def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:

@@ -21,7 +21,7 @@ from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.statics.linear import LinearSystem
 from ssilang.kernel.stepping.effective import effective_matrix
 from ssilang.kernel.stepping.newmark import newmark_of
-from ssilang.kernel.stepping.problem.capacity import stiffness_contrast
+from ssilang.kernel.stepping.problem.plausibility import stiffness_contrast
 from ssilang.kernel.stepping.problem.problem import Problem
 
 LARGEST = 20_000  # unknowns for which a factorisation of its own costs little

@@ -19,8 +19,8 @@ from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.capacity import overloads
 from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
+from ssilang.kernel.stepping.problem.plausibility import overloads
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.iterated import (
     IteratedSolver,

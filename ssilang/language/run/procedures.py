@@ -9,8 +9,7 @@ from ssilang.language.run.jumps import LeaveProcedure
 from ssilang.language.run.scopes import Frame
 from ssilang.language.run.session import Runner
 from ssilang.language.say.errors import Interrupted, SsiError, interruption
-from ssilang.language.text.printer import heading
-from ssilang.language.text.tree import Parameter
+from ssilang.language.text.tree import Parameter, heading
 from ssilang.language.values import ANNULE, Objet, Procedure, Table, type_of
 from ssilang.language.vocabulary.entry_checks import check_tables
 

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
-from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted
-from ssilang.language.say.visible import visible
+from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted, visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.messages.message import sentence

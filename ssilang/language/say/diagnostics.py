@@ -8,8 +8,7 @@ from typing import Any, cast
 from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
 from ssilang.language.registry import ANY, OPERATORS, Page, find_operator, keywords_of
 from ssilang.language.say import hints
-from ssilang.language.say.errors import SsiError
-from ssilang.language.say.visible import visible
+from ssilang.language.say.errors import SsiError, visible
 from ssilang.language.search import LIKE, SHORT_LIKE, VERY_LIKE, nearest
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of

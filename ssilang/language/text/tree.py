@@ -1,9 +1,14 @@
-"""The parsed script: items, statements, blocks, each with its place in the source."""
+"""The parsed script: items, statements, blocks, each with its place in the source.
+
+Items of a parsed script back to their text; parsing that text gives the same items again.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ssilang.language.text.source import Span
 
@@ -186,3 +191,62 @@ def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:
         for name, span in inner.items():
             found.setdefault(name, span)
     return found
+
+
+_PLAIN_WORD = re.compile(r"[^\W\d]\w*\Z|[@&!#$]\w+\Z")
+
+
+def heading(node: Definition) -> str:
+    """Name and arguments of a procedure, as they are declared."""
+    return " ".join([_word(node.name), *(_parameter(p) for p in node.parameters)])
+
+
+def _parameter(p: Parameter) -> str:
+    text = _word(p.name)
+    if p.type or p.optional:
+        text += ("/" if p.optional else "*") + _word(p.type)
+    return f"{text}*{_word(p.subtype)}" if p.subtype else text
+
+
+# ---- items -----------------------------------------------------------------------------------
+
+
+def print_items(items: Iterable[Item]) -> str:
+    """Items separated by blanks."""
+    return " ".join(_item(i) for i in items)
+
+
+def _item(item: Item) -> str:
+    return _ITEMS[type(item)](item)
+
+
+def _number(item: Number) -> str:
+    return repr(item.value)
+
+
+def _quoted(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'"
+
+
+def _word(text: str) -> str:
+    return text if _PLAIN_WORD.match(text) and text == text.upper() else _quoted(text)
+
+
+def _path(item: Path) -> str:
+    return " . ".join([_item(item.base), *(_item(i) for i in item.indices)])
+
+
+def _attribute(item: Attribute) -> str:
+    base = "" if item.base is None else _item(item.base)
+    return f"{base}%{_word(item.name)}"
+
+
+_ITEMS: dict[type, Callable[[Any], str]] = {
+    Number: _number,
+    Name: lambda item: item.word,
+    Quoted: lambda item: _quoted(item.text),
+    Symbol: lambda item: item.text,
+    Paren: lambda item: f"({print_items(item.items)})",
+    Path: _path,
+    Attribute: _attribute,
+}

@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.records.artificial import Band, motion, perturbed, sines
 from ssilang.kernel.records.modulated import (
+    Band,
     ModulatedSignal,
     Resolution,
     modulated_response_spectrum,
+    motion,
+    perturbed,
+    sines,
 )
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part

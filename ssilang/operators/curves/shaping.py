@@ -6,8 +6,12 @@ import dataclasses
 
 import numpy as np
 
-from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
-from ssilang.kernel.records.signals import constant_step
+from ssilang.kernel.records.signals import (
+    constant_step,
+    energy_envelope,
+    inverse_laplace,
+    mean_shock,
+)
 from ssilang.language.vocabulary.terms import RISING, between
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *

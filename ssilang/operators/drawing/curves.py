@@ -23,10 +23,6 @@ if TYPE_CHECKING:
     from ssilang.io.recording import Recording
 
 
-def _corner() -> Any:
-    return choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner")
-
-
 def _bounds(name: str, word: str, en: str) -> Any:
     return key(
         name,
@@ -90,7 +86,7 @@ _OPTIONS: tuple[Entry, ...] = (
         "legend",
         {
             "LEGE": [
-                _corner(),
+                choice("corner", ("NO", "NE", "SO", "SE", "EXT"), en="corner"),
                 key(
                     "at",
                     "XY",

@@ -8,12 +8,15 @@ from typing import Any
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.fields.arrows import (
+from ssilang.kernel.fields.deformed import (
+    Arrows,
+    Deformed,
+    DeformedPart,
     arrows_at_nodes,
     arrows_in_cells,
+    automatic_scale,
     principal_strokes,
 )
-from ssilang.kernel.fields.deformed import Arrows, Deformed, DeformedPart, automatic_scale
 from ssilang.operators.dispatch import COUL, EXTR, union
 from ssilang.operators.prelude import *
 

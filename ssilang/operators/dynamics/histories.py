@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.io.atomic import write_text
-from ssilang.io.parquet_tables import write_parquet
+from ssilang.io.tables import write_parquet
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.language.values import LazyRows, LazyTable, promises
 from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
@@ -23,8 +23,7 @@ from ssilang.operators.dynamics.motion_observers import restricted
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.force_track import ForceTrack
-    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.node_track import ForceTrack, NodeTrack
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 PARQUET = ".parquet"

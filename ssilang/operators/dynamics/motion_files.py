@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.io.parquet_tables import is_there
+from ssilang.io.tables import is_there
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.interface.elements import is_joint
@@ -21,7 +21,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.force_track import ForceTrack
+    from ssilang.kernel.stepping.node_track import ForceTrack
     from ssilang.kernel.stepping.problem.problem import Problem
 
 
@@ -97,7 +97,7 @@ def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceTr
     asked = entries.inside("RELATIONS_SAUVEES")
     if asked is None:
         return None
-    from ssilang.kernel.stepping.force_track import ForceTrack
+    from ssilang.kernel.stepping.node_track import ForceTrack
 
     known, named = problem.multipliers, {}
     if problem.contact is not None:

@@ -23,7 +23,7 @@ from ssilang.operators.workspace import units_in_si
 if TYPE_CHECKING:
     from ssilang.kernel.interface.footing import Footing, Loads
     from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.force_track import FootingTrack
+    from ssilang.kernel.stepping.node_track import FootingTrack
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
     from ssilang.kernel.stepping.snapshot import Observer
@@ -101,7 +101,7 @@ def calculation_record(
     entries: Entries, problem: Problem, inputs: Inputs
 ) -> CalculationRecord | None:
     """What takes the calculation down; None if nobody asked, or enough have been."""
-    from ssilang.kernel.stepping.force_track import footing_track
+    from ssilang.kernel.stepping.node_track import footing_track
 
     output = run_output(entries.call.session)
     recording = output.recording

@@ -174,7 +174,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:
     """Warn of footings that the loads of the start already press into ground that yields."""
-    from ssilang.kernel.stepping.problem.capacity import overloads
+    from ssilang.kernel.stepping.problem.plausibility import overloads
 
     for found in overloads(problem, problem.loading.at(problem.times[:1])[0]):
         told = {"node": problem.numbering.table.told(found.node), "pressing": found.pressing}
@@ -220,7 +220,7 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
 def warn_contrast(entries: Entries, problem: Problem) -> None:
     """Warn when joints are out of all proportion to the bodies: units, most often."""
     from ssilang.kernel.statics.conditioning import joint_conditioning
-    from ssilang.kernel.stepping.problem.capacity import STRANGE, stiffness_contrast
+    from ssilang.kernel.stepping.problem.plausibility import STRANGE, stiffness_contrast
 
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:

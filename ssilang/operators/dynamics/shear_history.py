@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.results.shear_history import largest_shear_strain
+from ssilang.kernel.elements.results.tensors import largest_shear_strain
 from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
 from ssilang.operators.prelude import *
 

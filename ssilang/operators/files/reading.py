@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.io.csv_tables import as_columns, read_csv
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
+from ssilang.io.tables import as_columns, read_csv
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.queries.soundness import repeated_cells
+from ssilang.kernel.mesh.queries.quality import repeated_cells
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition

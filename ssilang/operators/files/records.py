@@ -7,8 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ssilang.io.ground_motions.cosmos import read_cosmos
-from ssilang.io.ground_motions.esm import read_esm
-from ssilang.io.ground_motions.peer import read_peer
+from ssilang.io.ground_motions.databases import read_esm, read_peer
 from ssilang.io.ground_motions.record import GroundMotion
 from ssilang.io.ground_motions.titled import read_titled
 from ssilang.operators.files.outputs import file_to_read

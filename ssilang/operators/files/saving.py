@@ -19,10 +19,9 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
-from ssilang.language.text.printer import print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Definition, Script
+from ssilang.language.text.tree import Definition, Script, print_items
 from ssilang.language.values import Annule, LazyRows, LazyTable, Objet, Texte
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from ssilang.io.csv_tables import Column, csv_lines
+from ssilang.io.tables import Column, csv_lines
 from ssilang.language.run.session import Check
 from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.files.outputs import option_name, output_path, run_output

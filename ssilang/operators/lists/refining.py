@@ -43,7 +43,7 @@ def _refined_by_size(
 ) -> ListReel:
     values, lengths = _intervals(call, value)
     check_length(float(np.sum(lengths / size)))
-    return ListReel(_joined(values, [_even(_nearest(d, size)) for d in lengths]))
+    return ListReel(_joined(values, [_even(max(1, math.floor(d / size + 0.5))) for d in lengths]))
 
 
 def _intervals(call: Call, value: ListReel) -> tuple[FloatArray, FloatArray]:
@@ -67,10 +67,6 @@ def _joined(values: FloatArray, cuts: list[FloatArray]) -> FloatArray:
 
 def _even(count: int) -> FloatArray:
     return np.linspace(0.0, 1.0, count + 1)
-
-
-def _nearest(length: float, size: float) -> int:
-    return max(1, math.floor(length / size + 0.5))
 
 
 def _graded(lengths: FloatArray, count: int) -> list[FloatArray]:

@@ -124,7 +124,7 @@ def _warn_swapped_joints(
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.hinges import hinges
+    from ssilang.kernel.statics.sides import hinges
 
     joints = tuple(z for z in model.zones if is_joint(z)) if model is not None else ()
     found = hinges(matrix, joints)

@@ -24,8 +24,7 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
     from ssilang.kernel.continuation.arc import Point as Solution
-    from ssilang.kernel.continuation.expansion import Names
-    from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
+    from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.operators.session.user_procedures import call_user
@@ -188,7 +187,7 @@ def continue_harmonics(entries: Entries) -> None:
 
 
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
-    from ssilang.kernel.continuation.frequency_problem import FrequencyProblem
+    from ssilang.kernel.continuation.expansion import FrequencyProblem
     from ssilang.kernel.continuation.harmonics import basis_of
     from ssilang.kernel.stepping.problem.constraints import constraints_of
     from ssilang.kernel.stepping.problem.loading import loading_of

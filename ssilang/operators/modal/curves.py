@@ -187,15 +187,11 @@ def _projected(call: Call, colours: list[int]) -> Curve:
     for k, number in enumerate(numbers):
         shape = shapes[number - 1].field
         dual = shape if matrix is None else product(matrix, shape)
-        values = np.asarray([_work(dual, f, matrix is None) for f in fields])
+        values = np.asarray([float(work(dual, f, same_names=matrix is None)) for f in fields])
         legend = f"{shapes[number - 1].unknown} {number}"
         colour = colours[k % len(colours)]
         parts.append(CurvePart(times, values, "TEMP", shapes[number - 1].unknown, legend, colour))
     return Curve(tuple(parts), workspace(call.session).title)
-
-
-def _work(dual: NodeField, field: NodeField, same_names: bool) -> float:
-    return float(work(dual, field, same_names=same_names))
 
 
 def _lists_before_table(call: Call) -> bool:

@@ -100,8 +100,7 @@ def _tables(call: Call, given: tuple[Table, ...]) -> dict[str, Table]:
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
 ) -> Oscillators:
-    from ssilang.kernel.continuation.harmonics import Oscillators, basis_of
-    from ssilang.kernel.continuation.link_samples import LinkForces
+    from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 
     n = len(system.M)
     forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])

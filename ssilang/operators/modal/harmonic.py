@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ssilang.kernel.matrices.impedance import factors, impedance
-from ssilang.kernel.modal.complex_modes import ComplexMode, conjugate_modes
+from ssilang.kernel.modal.modes import ComplexMode, conjugate_modes
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.modal.modes import matrices_by_kind, modal_table
 from ssilang.operators.modal.recombination import recombined

@@ -15,8 +15,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.submatrices import support_mesh
-from ssilang.kernel.modal.complex_modes import ComplexMode, complex_modes
-from ssilang.kernel.modal.modes import Mode, modes_between, modes_near
+from ssilang.kernel.modal.modes import ComplexMode, Mode, complex_modes, modes_between, modes_near
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of

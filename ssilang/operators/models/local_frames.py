@@ -10,21 +10,19 @@ from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
+    SurfaceAxes,
     cylindrical_frames,
     fixed_frame,
     given_rotations,
+    is_flat_shell,
     material_frames,
     points_of,
     polar_frames,
     seen_in,
-    spherical_frames,
-    torus_frames,
-)
-from ssilang.kernel.elements.results.shell_frames import (
-    SurfaceAxes,
-    is_flat_shell,
     shell_in_axes,
     shell_support,
+    spherical_frames,
+    torus_frames,
 )
 from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
@@ -32,7 +30,7 @@ from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.mesh.lines.frenet import frenet_frames
+from ssilang.kernel.mesh.lines.lines import frenet_frames
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ssilang.kernel.elements.results.following_axes import following_axes
+from ssilang.kernel.elements.results.frames import following_axes
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.operators.prelude import *
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.elements.results.following_axes import FOLLOWING
+from ssilang.kernel.elements.results.frames import FOLLOWING
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.operators.prelude import *

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
-from ssilang.kernel.contact.friction_rows import Friction
+from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS

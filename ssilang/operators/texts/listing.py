@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.language.text.printer import print_items
+from ssilang.language.text.tree import print_items
 from ssilang.language.values import ANNULE, Objet, Texte, known_types
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing

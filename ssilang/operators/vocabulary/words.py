@@ -17,9 +17,9 @@ from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.elements.families import FAMILIES, family_of
 from ssilang.kernel.elements.zone_fields import INSTEAD
+from ssilang.kernel.interface.laws.law import DEFAULTS
 from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.behaviours import (
     CREEP_FAMILIES,
     ELASTICITIES,

@@ -21,7 +21,7 @@ from ssilang.io.plots.patches import visible_faces
 from ssilang.io.plots.scene import draw_scene, sheet_bounds
 from ssilang.io.plots.values import VON_MISES, component_names, values_on
 from ssilang.io.plots.view import Plane, plane_view, view_along
-from ssilang.kernel.fields.arrows import arrows_at_nodes, principal_strokes
+from ssilang.kernel.fields import deformed
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.deformed import Deformed, DeformedPart
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -237,7 +237,9 @@ def test_multipliers_have_no_panel() -> None:
 
 def test_arrows_lie_within_the_frame() -> None:
     mesh = grid(2)
-    arrows = arrows_at_nodes(field(mesh, FX=lambda x: 1.0 + 0 * x[:, 0]), ("FX", "FY", ""), 0.5)
+    arrows = deformed.arrows_at_nodes(
+        field(mesh, FX=lambda x: 1.0 + 0 * x[:, 0]), ("FX", "FY", ""), 0.5
+    )
     figure = draw_scene((Layer(mesh),), (), None, arrows)
     (quiver,) = [c for c in figure.axes[0].collections if hasattr(c, "U")]
     assert np.allclose(quiver.U, 0.5)
@@ -339,7 +341,7 @@ def test_values_at_integration_points_are_extended_to_the_nodes() -> None:
 
 
 def test_principal_strokes_of_a_shear() -> None:
-    arrows = principal_strokes(stresses(grid(1), SMXX=0.0, SMYY=0.0, SMZZ=0.0, SMXY=5.0))
+    arrows = deformed.principal_strokes(stresses(grid(1), SMXX=0.0, SMYY=0.0, SMZZ=0.0, SMXY=5.0))
     large = {p.name: p.vectors[0] for p in arrows.parts}
     assert np.allclose(np.abs(large["SI11"]), 5.0 / np.sqrt(2) * np.array([1, 1, 0]))
     assert large["SI11"] @ large["SI33"] == pytest.approx(0.0)

@@ -21,7 +21,7 @@ from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.stage import Photograph, Stage
 from ssilang.io.plots.view import View, view_along
-from ssilang.kernel.fields.arrows import arrows_at_nodes
+from ssilang.kernel.fields.deformed import arrows_at_nodes
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

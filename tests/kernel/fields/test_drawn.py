@@ -5,7 +5,7 @@ import pytest
 from scipy import sparse
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.fields import arrows, deformed, proper_orthogonal
+from ssilang.kernel.fields import deformed, proper_orthogonal
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -29,7 +29,7 @@ def test_arrows_stand_at_nodes_that_have_some_component(table):
         "FX": NodeValues(np.array([1, 3]), np.array([2.0, -1.0])),
         "FZ": NodeValues(np.array([3, 4]), np.array([5.0, 7.0])),
     })  # fmt: skip
-    (part,) = arrows.arrows_at_nodes(field, ("FX", "FY", "FZ"), 0.3, 4).parts
+    (part,) = deformed.arrows_at_nodes(field, ("FX", "FY", "FZ"), 0.3, 4).parts
     assert part.nodes.tolist() == [1, 3, 4]
     np.testing.assert_allclose(part.vectors, [[2, 0, 0], [-1, 0, 5], [0, 0, 7]])
     np.testing.assert_allclose(part.origins, table.coordinates[[1, 3, 4]])
@@ -41,12 +41,12 @@ def test_arrows_in_cells_are_means_in_their_middles(cells):
     field = CellField(
         (CellFieldBlock(cells, {"C": np.ones((2, 1))}), CellFieldBlock(cells, values))
     )
-    (part,) = arrows.arrows_in_cells(field, ("B", "", "A"), 2.0, 3).parts
+    (part,) = deformed.arrows_in_cells(field, ("B", "", "A"), 2.0, 3).parts
     np.testing.assert_allclose(part.vectors, [[5, 0, 2], [5, 0, 4]])
     np.testing.assert_allclose(part.origins, cells.coordinates.mean(axis=1))
     assert (part.name, part.nodes) == ("B A", None)
     with pytest.raises(FieldError, match="component"):
-        arrows.arrows_in_cells(field, ("X", "Y", "Z"))
+        deformed.arrows_in_cells(field, ("X", "Y", "Z"))
 
 
 def symmetric(rng):
@@ -74,7 +74,7 @@ def test_strokes_are_principal_values_along_their_directions(cells, given, chose
             i, j = (axes.index(c) for c in name)
             parts["SM" + name] = T[:, i, j, None] + np.array([[-1.0, 1.0]])  # means count
     field = CellField((CellFieldBlock(cells, parts),))
-    found = arrows.principal_strokes(field, 1.5, chosen, (7,)).parts
+    found = deformed.principal_strokes(field, 1.5, chosen, (7,)).parts
     names = chosen or ("SI11", "SI22", "SI33")
     assert [p.name for p in found] == list(names)
     colours = {"SI11": 7, names[1]: 4} | ({"SI33": 1} if not chosen else {})
@@ -87,7 +87,7 @@ def test_strokes_are_principal_values_along_their_directions(cells, given, chose
             np.testing.assert_allclose(np.cross(p.vectors[k], expected), 0, atol=1e-9)
         assert not p.heads
     with pytest.raises(FieldError, match="principal"):
-        arrows.principal_strokes(CellField((CellFieldBlock(cells, {"A": np.ones((2, 1))}),)))
+        deformed.principal_strokes(CellField((CellFieldBlock(cells, {"A": np.ones((2, 1))}),)))
 
 
 @pytest.mark.parametrize("round_body", [False, True])

@@ -8,7 +8,7 @@ from references.assembled import Bench
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.stepping.force_track import FootingTrack, footing_track
+from ssilang.kernel.stepping.node_track import FootingTrack, footing_track
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
 
 K = 2e7

@@ -5,7 +5,7 @@ import pytest
 from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.changes.cut_open import cut_open
+from ssilang.kernel.mesh.changes import merge
 from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
 from ssilang.kernel.mesh.combine import poi1, union
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh
@@ -108,7 +108,7 @@ def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
 
 def test_crack_tip_stays_single_and_the_mouth_opens() -> None:
     plate, first, _ = plate_and_line(3)
-    opened, lip = cut_open(plate, first)
+    opened, lip = merge.cut_open(plate, first)
     assert len(opened.node_ids) == len(plate.node_ids) + 3
     assert lip.n_cells == 3
     tip = first.single_block().connectivity[-1, -1]
@@ -120,7 +120,7 @@ def test_crack_tip_stays_single_and_the_mouth_opens() -> None:
 
 def test_line_across_the_whole_surface_cuts_it_in_two() -> None:
     plate, _, both = plate_and_line(2)
-    opened, lip = cut_open(plate, both)
+    opened, lip = merge.cut_open(plate, both)
     assert len(opened.node_ids) == len(plate.node_ids) + len(both.node_ids)
     assert not set(lip.node_ids.tolist()) & set(both.node_ids.tolist())
 

@@ -13,10 +13,8 @@ from ssilang.kernel.mesh.changes.transform import NodeCopier, shift
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.interfaces import joints_inside
 from ssilang.kernel.mesh.generators.sweep import sweep_line, translation
-from ssilang.kernel.mesh.lines.curves import arc_about_axis
-from ssilang.kernel.mesh.lines.fillet import fillet
-from ssilang.kernel.mesh.lines.frenet import frenet_frames
-from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve, polyline
+from ssilang.kernel.mesh.lines.curves import arc_about_axis, fillet
+from ssilang.kernel.mesh.lines.lines import frenet_frames, line_chain, mesh_curve, polyline
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable

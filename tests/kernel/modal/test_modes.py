@@ -12,8 +12,7 @@ from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal import eigen
-from ssilang.kernel.modal.complex_modes import complex_modes
-from ssilang.kernel.modal.modes import eigenvalue, modes_between, modes_near
+from ssilang.kernel.modal.modes import complex_modes, eigenvalue, modes_between, modes_near
 from ssilang.kernel.statics.stability import negative_eigenvalues
 
 

@@ -14,10 +14,10 @@ from ssilang.kernel.modal.basis import (
     combined,
     projected_matrix,
     projected_relations,
+    reduced_problem,
     static_complement,
     work,
 )
-from ssilang.kernel.modal.reduced import reduced_problem
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix, shape_points
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from script_runs import ran
 
-from ssilang.kernel.plasticity.finite_beam import finite_beam
+from ssilang.kernel.plasticity.finite_space_beam import finite_beam
 
 E, SECTION, INERTIA = 1e7, 1.0, 1e-2
 CANTILEVER = """

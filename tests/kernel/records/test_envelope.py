@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.envelope import energy_envelope, inverse_laplace, mean_shock
+from ssilang.kernel.records.signals import energy_envelope, inverse_laplace, mean_shock
 
 T = np.arange(12.0) * 0.5
 

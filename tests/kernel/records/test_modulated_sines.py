@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
 
-from ssilang.kernel.records.artificial import Band, motion, perturbed
+from ssilang.kernel.records.modulated import Band, motion, perturbed
 
 
 def test_velocity_and_displacement_are_the_integrals_of_the_acceleration():

@@ -6,7 +6,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records import artificial, filters, floors, power, signals
+from ssilang.kernel.records import filters, floors, modulated, power, signals
 
 F = np.array([0.4, 0.9, 1.6, 3.0, 5.0])
 DENSITY = np.array([0.2, 1.1, 0.7, 0.9, 0.1])
@@ -148,7 +148,7 @@ def test_an_oscillator_on_a_floor_moves_as_step_by_step():
         (lambda: floors.floor_spectrum(STOREY, (F, DENSITY), (F, F), -F, 0.1), "positive"),
         (lambda: floors.floor_spectrum(STOREY, (F, DENSITY), (F[:1], F[:1]), F, 0.1), "positive"),
         (lambda: floors.floor_spectrum(STOREY, (F, -DENSITY), (F, F), F, 0.1), "power"),
-        (lambda: artificial.sines(F, -DENSITY, 4), "power"),
+        (lambda: modulated.sines(F, -DENSITY, 4), "power"),
     ],
 )
 def test_floors_without_sense_are_refused(made, match):
@@ -157,7 +157,7 @@ def test_floors_without_sense_are_refused(made, match):
 
 
 def test_sines_have_the_power_of_their_slices():
-    f, a = artificial.sines(F, DENSITY, 23)
+    f, a = modulated.sines(F, DENSITY, 23)
     np.testing.assert_allclose(np.diff(f), (F[-1] - F[0]) / 23)
     assert f[0] - F[0] == pytest.approx(F[-1] - f[-1])
     np.testing.assert_allclose(a**2 / 2, np.interp(f, F, DENSITY) * (F[-1] - F[0]) / 23)
@@ -169,11 +169,11 @@ def test_sines_of_bands_are_modulated_and_integrated_each_by_its_own(start):
     f, a, phase = rng.uniform(0.5, 4.0, 9), rng.uniform(1, 2, 9), rng.uniform(0, 6, 9)
     f[3] = 4.0  # at the end of the last band
     bands = (
-        artificial.Band(0.5, 2.0, np.array([0.0, 1.0, 3.0]), np.array([0.0, 1.5, 0.2])),
-        artificial.Band(2.0, 4.0, np.array([0.0, 2.0, 3.0]), np.array([1.0, 0.5, 0.9])),
+        modulated.Band(0.5, 2.0, np.array([0.0, 1.0, 3.0]), np.array([0.0, 1.5, 0.2])),
+        modulated.Band(2.0, 4.0, np.array([0.0, 2.0, 3.0]), np.array([1.0, 0.5, 0.9])),
     )
     t = np.linspace(start, 3.0, 4001)
-    got = artificial.motion(t, f, a, phase, bands, start)
+    got = modulated.motion(t, f, a, phase, bands, start)
     expected = np.zeros(len(t))
     for one, two, three in zip(f, a, phase, strict=True):
         band = bands[int(one >= 2.0)]

@@ -17,9 +17,8 @@ from ssilang.kernel.statics.doubled import (
     repeated_blocks,
     repeated_cells,
 )
-from ssilang.kernel.statics.hinges import hinges
 from ssilang.kernel.statics.linear_motion import named_motions, rigid_motions, tied
-from ssilang.kernel.statics.sides import swapped_joints
+from ssilang.kernel.statics.sides import hinges, swapped_joints
 from tests.kernel.elements.samples import ELASTIC, material
 
 SOLID = {"YOUN": 3e7, "NU": 0.2}

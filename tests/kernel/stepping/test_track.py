@@ -8,7 +8,7 @@ from references.assembled import Bench
 from references.recorder import Recorder
 from references.soil_block import FRICTION, soil_block
 
-from ssilang.kernel.contact.friction_rows import Friction
+from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows
@@ -16,9 +16,8 @@ from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
-from ssilang.kernel.stepping.force_track import ForceTrack
 from ssilang.kernel.stepping.newmark import Scheme, hht
-from ssilang.kernel.stepping.node_track import NodeTrack
+from ssilang.kernel.stepping.node_track import ForceTrack, NodeTrack
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced

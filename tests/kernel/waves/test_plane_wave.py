@@ -5,8 +5,7 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.waves.free_field_forces import along_columns
-from ssilang.kernel.waves.layered_half_space import HalfSpace
-from ssilang.kernel.waves.plane_wave import PlaneWave, plane_motion
+from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
 
 GROUND = HalfSpace(
     np.array([4.0]), np.array([1800.0, 2100.0]), np.array([150.0, 300.0]),

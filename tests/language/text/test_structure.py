@@ -3,8 +3,8 @@
 import pytest
 
 from ssilang.language.say.errors import SeveralErrors
+from ssilang.language.text import tree
 from ssilang.language.text.parser import end_of_run
-from ssilang.language.text.printer import heading, print_items
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, If, Loop, Statement, first_assignments
@@ -64,15 +64,15 @@ def _shape(nodes):
     for node in nodes:
         match node:
             case If():
-                condition = print_items(node.condition.items)
+                condition = tree.print_items(node.condition.items)
                 made.append(["SI", condition, _shape(node.then), _shape(node.otherwise)])
             case Loop():
-                made.append(["REPE", node.name, print_items(node.count), _shape(node.body)])
+                made.append(["REPE", node.name, tree.print_items(node.count), _shape(node.body)])
             case Definition():
-                results = print_items(node.results)
-                made.append([heading(node), node.method, results, _shape(node.body)])
+                results = tree.print_items(node.results)
+                made.append([tree.heading(node), node.method, results, _shape(node.body)])
             case Statement():
-                made.append(print_items(node.items))
+                made.append(tree.print_items(node.items))
     return made
 
 

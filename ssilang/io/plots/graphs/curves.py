@@ -1,8 +1,13 @@
-"""Pictures of curves (DESS)."""
+"""Pictures of curves (DESS).
+
+Bars of a histogram (curves of type HIST).
+
+Periods along the upper side of what is drawn against frequencies.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from itertools import cycle
@@ -12,10 +17,8 @@ import numpy as np
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import drawing, head
-from ssilang.io.plots.graphs.bars import draw_bars
 from ssilang.io.plots.graphs.differences import differences
 from ssilang.io.plots.graphs.line_style import DASHES, Line, LineStyle
-from ssilang.io.plots.graphs.periods import add_periods
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -23,6 +26,7 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 _WIDTH = 1.6
 _WIDTHS = (2.4, 1.3)  # of the first and the last curve: those that coincide are all seen
@@ -303,7 +307,7 @@ def _frame(panel: Axes, options: CurveOptions) -> None:
 def _graduate(axis: Any, step: float | None, form: str | None, log: bool) -> None:
     from matplotlib.ticker import FuncFormatter, MultipleLocator
 
-    from ssilang.io.plots.fortran import formatted
+    from ssilang.io.plots.labels import formatted
 
     if log:
         return
@@ -395,3 +399,74 @@ def _handle(line: Line) -> Any:
         markersize=style.marker_size, markerfacecolor=line.colour if style.solid else "white",
         markeredgewidth=1.2,
     )  # fmt: skip
+
+
+def draw_bars(panel: Axes, line: Line) -> None:
+    """A bar at each abscissa; a curve that goes up and down (as @HISTOGR makes) is its own outline.
+
+    The markers TRIU and TRID stand under and over the middle of the curve, with its name.
+    """
+    if len(line.x) and np.any(np.diff(line.x) <= 0):
+        panel.fill(line.x, line.y, facecolor=line.colour, alpha=0.75, lw=0)
+        panel.plot(line.x, line.y, color=line.colour, lw=0.8)
+    else:
+        width = np.min(np.diff(line.x)) if len(line.x) > 1 else 1.0
+        drawn: dict[str, Any] = {"color": line.colour, "edgecolor": line.colour, "alpha": 0.75}
+        panel.bar(line.x, line.y, width=0.96 * width, **drawn)
+    if line.style.marker in ("v", "^") and len(line.x):
+        _name_bar(panel, line)
+
+
+def _name_bar(panel: Axes, line: Line) -> None:
+    over = line.style.marker == "v"
+    end = float(np.max(line.y) if over else np.min(line.y))
+    panel.annotate(
+        to_mathtext(line.name),
+        (float(np.mean([np.min(line.x), np.max(line.x)])), end),
+        xytext=(0, 9 if over else -9),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if over else "top",
+        fontsize=8,
+        arrowprops={"arrowstyle": "-|>", "lw": 0.6, "color": line.colour, "shrinkB": 1},
+    )
+
+
+_PERIODS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_APART = 0.05  # of the width
+
+
+def add_periods(panel: Axes, parts: Sequence[CurvePart], lines: Sequence[Line]) -> bool:
+    """Mark round periods, if all curves have frequencies in Hz; whether that was done."""
+    if not parts or any(p.units[0] != "Hz" or p.kind for p in parts):
+        return False
+    if sum(int((line.x > 0).sum()) for line in lines) < 2:
+        return False
+    kept = _seen(*panel.get_xlim(), log=panel.get_xscale() == "log")
+    if len(kept) < 2:
+        return False
+    upper = panel.secondary_xaxis("top", functions=(_turned, _turned))
+    upper.set_xticks(kept, [f"{t:g}" for t in kept])
+    upper.set_xticks([], minor=True)
+    upper.tick_params(labelsize=8, length=3)
+    upper.set_xlabel("T (s)", fontsize=8, loc="left", labelpad=2)
+    upper.spines["top"].set_color("#c9ced4")
+    return True
+
+
+def _seen(low: float, high: float, *, log: bool) -> list[float]:
+    """Round periods within the bounds of the frequencies, none over another."""
+    scale = np.log if log else np.asarray
+    kept, last = [], np.inf
+    for t in _PERIODS:  # from high frequencies to low ones
+        along = float((scale(1.0 / t) - scale(low)) / (scale(high) - scale(low)))
+        if 0.0 <= along <= 1.0 and last - along > _APART:
+            kept.append(t)
+            last = along
+    return kept
+
+
+def _turned(values: Any) -> Any:
+    """Periods of frequencies, and back; an axis may begin below zero."""
+    values = np.asarray(values, dtype=float)
+    return 1.0 / np.where(values == 0.0, 1e-12, values)

@@ -163,7 +163,7 @@ class Beam(_LineBeam):
         """Strains at the two nodes of a beam without shear (weights: half the length)."""
         frame = beam_frame(zone, parameters)
         part = BeamFrame(frame.lengths[cells], frame.axes[cells])
-        matrix = _end_forces(_unit_section(), part, zone)
+        matrix = _end_forces(Section(np.array([[1.0, np.inf, np.inf, 1.0, 1.0, 1.0]])), part, zone)
         shear = [i for i, row in enumerate(kept_rows(zone)) if row in (1, 2)]
         matrix[:, shear] = 0.0
         return StrainOperator(matrix, np.repeat(part.lengths[:, None] / 2, 2, axis=1))
@@ -286,10 +286,6 @@ def section_of(moduli: FloatArray, zone: Zone) -> Section:
     shear = values[:, 1:3]
     shear[shear == 0] = np.inf
     return Section(values)
-
-
-def _unit_section() -> Section:
-    return Section(np.array([[1.0, np.inf, np.inf, 1.0, 1.0, 1.0]]))
 
 
 def _end_forces(section: Section, frame: BeamFrame, zone: Zone) -> FloatArray:

@@ -1,13 +1,31 @@
-"""Local frames at the points of a field in cells, and tensors seen in them."""
+"""Local frames at the points of a field in cells, and tensors seen in them.
+
+Forces and strains of flat shells seen in other axes of their surface.
+
+The side of a shell that counts as upper stays the element's own: only the two axes in its surface
+change.
+
+Local axes among the parameters of beams, pipes and joints of two points, turned by a motion.
+
+The axes of a beam or pipe turn by the mean of the rotations of its nodes: a rotation vector of any
+size. What lies along the line needs none of this, since it follows the nodes themselves. Those of a
+joint turn with the segment between its nodes: about it by the part along it of that mean, then the
+shortest way to where the segment goes; where both nodes are at one place, by the mean.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.results.tensors import as_components, tensor
+from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.results.tensors import as_components, components_at_home, tensor
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
 from ssilang.kernel.elements.shells.plate import plate_frames
@@ -15,7 +33,10 @@ from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
-from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.fields.deformed import displacements
+from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.mesh.mesh import Point
 
 
 def unit(v: FloatArray) -> FloatArray:
@@ -137,3 +158,183 @@ def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     values = as_components(turned, len(names), strains)
     components = {n: np.ascontiguousarray(values[:, i]) for i, n in enumerate(names)}
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceAxes:
+    """What says the axes in a surface; vectors (..., 3), broadcast over cells and points.
+
+    Attributes
+    ----------
+    first : the first axis is its projection
+    toward : the second axis points to its side; where it is normal to the surface, `otherwise`
+    normal : first x second points to its side (without it and `toward`: to the element's normal)
+    """
+
+    first: FloatArray
+    toward: FloatArray | None = None
+    otherwise: FloatArray | None = None
+    normal: FloatArray | None = None
+
+
+def is_flat_shell(zone: Zone) -> bool:
+    """True for shells of flat cells."""
+    return ELEMENTS[zone.element].family in SHELL_FRAMES
+
+
+def shell_support(zone: Zone, field: CellField) -> Support:
+    """Where a field of forces or strains stands."""
+    return strains_or_stresses(zone, field)[2]
+
+
+def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldBlock:
+    """Forces or strains of a zone of flat shells in other axes."""
+    names, values, support, strains = strains_or_stresses(zone, field)
+    own = SHELL_FRAMES[ELEMENTS[zone.element].family](zone)[0][:, None]
+    Q = _turn(own, axes)
+    made = np.empty(np.broadcast_shapes(values.shape, (len(own), 1, Q.shape[1])))
+    half = 0.5 if strains else 1.0
+    for start in (0, 3):
+        a, b, c = (values[:, start + i] for i in range(3))
+        T = np.stack([np.stack([a, half * c], -1), np.stack([half * c, b], -1)], -2)
+        seen = Q @ T @ np.swapaxes(Q, -1, -2)
+        made[:, start], made[:, start + 1] = seen[..., 0, 0], seen[..., 1, 1]
+        made[:, start + 2] = seen[..., 0, 1] / half
+    if len(names) > 6:
+        across = np.einsum("cpij,cjp->cip", Q, values[:, 6:8])
+        made[:, 6:8] = across
+    components = {n: np.ascontiguousarray(made[:, i]) for i, n in enumerate(names)}
+    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+
+
+def strains_or_stresses(
+    zone: Zone, field: CellField
+) -> tuple[tuple[str, ...], FloatArray, Support, bool]:
+    """Names, values (n_cells, n_names, n_points) and points of what a field has of a zone.
+
+    Last comes whether these are strains.
+    """
+    family = family_of(zone)
+    seen = zone_field(zone, field)
+    strains = any(n in seen for n in family.strain_names(zone))
+    names = family.strain_names(zone) if strains else family.stress_names(zone)
+    values, support = components_at_home(zone, field, names)
+    return names, values, support, strains
+
+
+def _turn(own: FloatArray, axes: SurfaceAxes) -> FloatArray:
+    """Rows: the two axes by the element's own first two, (n_cells, n_points, 2, 2)."""
+    inside = np.stack([np.sum(own[..., i, :] * axes.first, axis=-1) for i in (0, 1)], axis=-1)
+    first = unit(inside)
+    second = np.stack([-first[..., 1], first[..., 0]], axis=-1)
+    if axes.normal is not None:
+        sign = np.sign(np.sum(own[..., 2, :] * axes.normal, axis=-1))
+    elif axes.toward is not None:
+        otherwise = axes.toward if axes.otherwise is None else axes.otherwise
+        along = np.sum(_global(own, second) * axes.toward, axis=-1)
+        other = np.sum(_global(own, second) * otherwise, axis=-1)
+        sign = np.sign(np.where(np.abs(along) > 1e-9 * np.linalg.norm(axes.toward), along, other))
+    else:
+        sign = np.ones(first.shape[:-1])
+    return np.stack([first, sign[..., None] * second], axis=-2)
+
+
+def _global(own: FloatArray, inside: FloatArray) -> FloatArray:
+    """Vectors (n_cells, n_points, 3) of components along the first two own axes."""
+    found: FloatArray = inside[..., :1] * own[..., 0, :] + inside[..., 1:] * own[..., 1, :]
+    return found
+
+
+FOLLOWING = "LIE"
+"""Of the option FRAME of JOI1: its axes follow."""
+_VECTORS = (("VX", "VY", "VZ"), ("V1X", "V1Y", "V1Z"), ("V2X", "V2Y", "V2Z"))
+_LINES = ("beam", "timoshenko", "pipe")
+
+
+def following_axes(model: Model, material: CellField, motion: NodeField) -> CellField:
+    """The parameters with the axes of the model's beams, pipes and bound joints turned.
+
+    Parameters
+    ----------
+    motion : NodeField
+        Its rotations RX RY RZ [rad] count; those that it lacks are zero.
+    """
+    blocks = list(material.blocks)
+    for zone in model.zones:
+        if not _turns(zone):
+            continue
+        for i, block in enumerate(blocks):
+            if block.cells is zone.cells and block.element in ("", zone.element):
+                blocks[i] = _turned(block, _turns_of(zone, motion))
+    return CellField(tuple(blocks), material.title)
+
+
+def _turns(zone: Zone) -> bool:
+    if zone.element == "JOI1":
+        return zone.options.get("FRAME") == FOLLOWING
+    kind = ELEMENTS.get(zone.element)
+    return kind is not None and kind.family in _LINES
+
+
+def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
+    """Turns of the cells' axes, (n, 3, 3); the nodes stand where the motion has taken them."""
+    from scipy.spatial.transform import Rotation
+
+    nodes, ends = zone.cells.connectivity, zone.cells.coordinates
+    mean = np.zeros((len(nodes), 3))
+    for i, name in enumerate(("RX", "RY", "RZ")):
+        if name in motion.components:
+            mean[:, i] = motion.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
+    plain = Rotation.from_rotvec(mean)
+    if zone.element != "JOI1":
+        return plain.as_matrix()
+    starts = ends - displacements(motion)[nodes]
+    before, after = starts[:, 1] - starts[:, 0], ends[:, 1] - ends[:, 0]
+    lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
+    apart = lengths > 0.0
+    axis = before / np.where(apart, np.linalg.norm(before, axis=1), 1.0)[:, None]
+    about = Rotation.from_rotvec(np.vecdot(mean, axis)[:, None] * axis)
+    across = np.cross(before, after)
+    sine = np.linalg.norm(across, axis=1)
+    back = (sine == 0.0) & (np.vecdot(before, after) < 0.0)  # any axis across the segment does
+    across[back] = np.cross(before[back], np.eye(3)[np.abs(before[back]).argmin(axis=1)])
+    size = np.linalg.norm(across, axis=1)
+    angle = np.arctan2(sine, np.vecdot(before, after))
+    swing = Rotation.from_rotvec(across * (angle / np.where(size > 0.0, size, 1.0))[:, None])
+    return np.where(apart[:, None, None], (swing * about).as_matrix(), plain.as_matrix())
+
+
+def _turned(block: CellFieldBlock, turn: FloatArray) -> CellFieldBlock:
+    made = dict(block.components)
+    for names in _VECTORS:
+        if any(n in made for n in names):
+            made.update(_turned_columns(made, names, turn))
+    if "VECT" in made:
+        made["VECT"] = _turned_points(block, made["VECT"], turn)
+    return replace(block, components=made)
+
+
+def _turned_columns(
+    components: dict[str, NDArray[Any]], names: tuple[str, ...], turn: FloatArray
+) -> dict[str, FloatArray]:
+    """Three columns of cosines, turned; absent ones count as zero and are added."""
+    given = [
+        np.asarray(components[n], float) if n in components else np.zeros((1, 1)) for n in names
+    ]
+    shape = np.broadcast_shapes(*(g.shape for g in given), (len(turn), 1))
+    v = np.stack([np.broadcast_to(g, shape) for g in given], axis=-1)
+    moved = np.einsum("cij,cpj->cpi", turn, v)
+    return {n: moved[..., i] for i, n in enumerate(names)}
+
+
+def _turned_points(block: CellFieldBlock, values: NDArray[Any], turn: FloatArray) -> NDArray[Any]:
+    """Vectors kept as points: new points, one for cells that turn alike."""
+    flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
+    rows = [v.coordinates if isinstance(v, Point) else np.asarray(v, float) for v in flat]
+    moved = np.einsum("cij,cj->ci", turn, np.broadcast_to(np.array(rows), (len(turn), 3)))
+    different, place = np.unique(moved.round(14), axis=0, return_inverse=True)
+    table = block.cells.nodes
+    points = [Point(table, int(n)) for n in table.add(different)]
+    made = np.empty((len(turn), 1), dtype=object)
+    made[:, 0] = [points[k] for k in place.ravel()]
+    return made

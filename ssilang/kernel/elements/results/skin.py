@@ -9,8 +9,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.frames import SHELL_FRAMES
-from ssilang.kernel.elements.results.shell_frames import strains_or_stresses
+from ssilang.kernel.elements.results.frames import SHELL_FRAMES, strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support

@@ -13,9 +13,9 @@ from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     Layout,
+    ShellFamily,
     StrainOperator,
 )
-from ssilang.kernel.elements.shells.shell_family import ShellFamily
 from ssilang.kernel.elements.shells.shell_section import offset, section_moduli
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import circumference

@@ -13,11 +13,11 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     Layout,
+    ShellFamily,
     StrainOperator,
 )
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
-from ssilang.kernel.elements.shells.shell_family import ShellFamily
 from ssilang.kernel.elements.shells.shell_section import (
     drilled,
     inertia_off_mesh,

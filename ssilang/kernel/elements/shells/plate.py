@@ -16,10 +16,10 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     Layout,
+    ShellFamily,
     StrainOperator,
 )
 from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.elements.shells.shell_family import ShellFamily
 from ssilang.kernel.elements.shells.shell_section import (
     drilled,
     inertia_off_mesh,

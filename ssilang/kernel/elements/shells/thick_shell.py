@@ -14,6 +14,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import (
     Layout,
+    ShellFamily,
     StrainOperator,
 )
 from ssilang.kernel.elements.shapes.geometry import chunks
@@ -22,7 +23,6 @@ from ssilang.kernel.elements.shapes.reference import (
     shape_functions,
     shape_gradients,
 )
-from ssilang.kernel.elements.shells.shell_family import ShellFamily
 from ssilang.kernel.elements.shells.shell_section import (
     drilled,
     inertia_off_mesh,

@@ -23,18 +23,14 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import SLIPS, Law
-from ssilang.kernel.interface.laws.parameters import refuse
+from ssilang.kernel.interface.laws.law import SLIPS, Law, columns_of, refuse
 
 TURNS = 60
 ENOUGH = 1e-15
@@ -242,9 +238,7 @@ def check_pendulum_parameters(parameters: FloatArray) -> None:
 
 
 def _bearing_columns(parameters: FloatArray) -> dict[str, FloatArray]:
-    if not np.isfinite(parameters).all():
-        raise MaterialError("kernel.interface.joint-parameter-not-finite")
-    columns = {p.name: parameters[:, p] for p in Par}
+    columns = columns_of(parameters)
     for name in ("KN", "KS1"):
         refuse(columns[name] <= 0, columns[name], name, "> 0")
     # KS2 is 0 in the plane, where there is no second direction

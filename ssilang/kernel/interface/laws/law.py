@@ -1,12 +1,18 @@
-"""What is known of a joint's law beside its equations, as each law's file declares it."""
+"""What is known of a joint's law beside its equations, as each law's file declares it.
+
+Parameters of the joint laws: defaults, columns, refusals.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.interface.laws.columns import LawCode, Variable
+from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 
 
 @dataclass(frozen=True)
@@ -64,3 +70,32 @@ class Law:
 
 
 SLIPS: dict[str, tuple[Variable, ...]] = {"GLI1": (Variable.SLIP1,), "GLI2": (Variable.SLIP2,)}
+
+
+DEFAULTS: dict[str, float] = {"FROT": -1.0, "ETA": 1.0, "BETA": 0.5}
+"""What laws take for the parameters that are not given, if not 0: a joint without tension, the
+plainest hysteresis."""
+
+
+def columns_of(parameters: FloatArray) -> dict[str, FloatArray]:
+    """Parameters (n,) by name, of a table (n, N_PARAMETERS).
+
+    Raises
+    ------
+    MaterialError
+        If one is no finite number.
+    """
+    if not np.isfinite(parameters).all():
+        raise MaterialError("kernel.interface.joint-parameter-not-finite")
+    return {p.name: parameters[:, p] for p in Parameter}
+
+
+def refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:
+    """Refuse the first value of a parameter that is `wrong`: it must be as `wanted`."""
+    if wrong.any():
+        raise MaterialError(
+            "kernel.interface.joint-parameter-must",
+            name=name,
+            values=values[wrong][0],
+            wanted=wanted,
+        )

@@ -7,59 +7,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.interface.laws import bearing_law, mohr_law, sdm_law
+from ssilang.kernel.interface.laws import bearing_law, macro_law, mohr_law, sdm_law
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law import Law
-from ssilang.kernel.interface.laws.parameters import check_macro_parameters
-
-
-def _rocking_rectangle(p: FloatArray) -> tuple[FloatArray, FloatArray]:
-    k, width, length = p[:, Parameter.KN], p[:, Parameter.LARG], p[:, Parameter.LONG]
-    about_2 = k * width**2 / 12
-    return np.where(length > 0, k * length**2 / 12, about_2), about_2
-
-
-def _rocking_disc(p: FloatArray) -> tuple[FloatArray, FloatArray]:
-    both = p[:, Parameter.KN] * p[:, Parameter.RAYO] ** 2 / 4
-    return both, both
-
-
-def _rocking_springs(p: FloatArray) -> tuple[FloatArray, FloatArray]:
-    both = p[:, Parameter.KN] * p[:, Parameter.LARG] ** 2 / 4
-    return both, both
-
-
-_OF_FOOTINGS = {
-    "MACRO_SEMELLE": Law(
-        LawCode.STRIP,
-        ("KN", "KS", "LARG"),
-        ("LONG", "COHE", "QULT", "FROT", "PDUR"),
-        check_macro_parameters,
-        rocking=_rocking_rectangle,
-        in_space=("LONG",),
-    ),
-    "MACRO_DISQUE": Law(
-        LawCode.DISC,
-        ("KN", "KS", "RAYO"),
-        ("COHE", "QULT", "FROT", "PDUR"),
-        check_macro_parameters,
-        rocking=_rocking_disc,
-    ),
-    "MACRO_RESSORTS": Law(
-        LawCode.SPRINGS,
-        ("KN", "KS", "LARG"),
-        (),
-        check_macro_parameters,
-        rocking=_rocking_springs,
-        in_space=None,
-    ),
-}
 
 LAWS: dict[str, Law] = {
     "ELASTIQUE": Law(LawCode.ELASTIC, ("KN", "KS"), linear=True),
     **sdm_law.LAWS,
     **mohr_law.LAWS,
-    **_OF_FOOTINGS,
+    **macro_law.LAWS,
     **bearing_law.LAWS,
 }
 """Laws by the last word of a model's behaviour; the purely elastic joint under 'ELASTIQUE'."""

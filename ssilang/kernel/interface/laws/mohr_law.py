@@ -25,8 +25,7 @@ from ssilang.kernel.interface.laws.columns import (
 )
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import Law
-from ssilang.kernel.interface.laws.parameters import refuse
+from ssilang.kernel.interface.laws.law import Law, refuse
 
 ROUNDING = 1e-10
 """What of the cohesion a normal traction may pull beyond the strength: faces that slide at no

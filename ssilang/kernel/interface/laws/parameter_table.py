@@ -12,9 +12,8 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.interface.kinematics import JointCells, point_values
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, Parameter
-from ssilang.kernel.interface.laws.law import Law
+from ssilang.kernel.interface.laws.law import DEFAULTS, Law
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
-from ssilang.kernel.interface.laws.parameters import DEFAULTS
 from ssilang.kernel.materials.model import Zone
 
 ELASTIC_SHEAR = "CISAILLEMENT_ELASTIQUE"

@@ -34,8 +34,7 @@ from ssilang.kernel.interface.laws.columns import (
 )
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import Law
-from ssilang.kernel.interface.laws.parameters import refuse
+from ssilang.kernel.interface.laws.law import Law, refuse
 
 
 @compiled

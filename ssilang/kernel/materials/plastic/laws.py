@@ -15,8 +15,8 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.plastic import (
     cam_clay,
+    cone,
     creep,
-    drucker_prager,
     hognestad,
     iwan,
     menegotto_pinto,
@@ -142,17 +142,17 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         columns=von_mises.saturating_columns,
     ),
     "DRUCKER_PARFAIT": PlasticLaw(
-        drucker_prager.perfect,
+        cone.perfect,
         ("LTR", "LCS"),
-        check=drucker_prager.check_perfect,
-        columns=drucker_prager.perfect_columns,
+        check=cone.check_perfect,
+        columns=cone.perfect_columns,
     ),
     "DRUCKER_PRAGER": PlasticLaw(
-        drucker_prager.hardening,
+        cone.hardening,
         _CONE,
-        check=drucker_prager.check_hardening,
+        check=cone.check_hardening,
         symmetric=False,
-        columns=drucker_prager.hardening_columns,
+        columns=cone.hardening_columns,
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
     "IWAN": PlasticLaw(

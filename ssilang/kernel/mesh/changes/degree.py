@@ -1,14 +1,20 @@
-"""Cells of one degree made of cells of the other: middles added or dropped."""
+"""Cells of one degree made of cells of the other: middles added or dropped.
+
+Complete quadratic cells (TRI7 QUA9 TE15 PY19 PR21 CU27) and the linear cells inside them.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 
 QUADRATIC = {
     "SEG2": "SEG3",
@@ -131,3 +137,141 @@ def _with_middles(block: CellBlock, name: str, middles: IntArray) -> CellBlock:
     table[:, list(kind.corners)] = block.connectivity
     table[:, [m for m, _, _ in middle_places(name)]] = middles
     return CellBlock.make(block.nodes, name, table, block.colours)
+
+
+COMPLETE = {
+    "TRI6": "TRI7",
+    "QUA8": "QUA9",
+    "TE10": "TE15",
+    "PY13": "PY19",
+    "PR15": "PR21",
+    "CU20": "CU27",
+}
+
+
+def complete(mesh: Mesh) -> Mesh:
+    """Each cell replaced by the complete quadratic one; a common face gets one node only."""
+    whole = quadratic(mesh)
+    todo = [b for b in whole.blocks if b.cell_type in COMPLETE]
+    faces = [_corners_of_faces(b) for b in todo]
+    flat = [f.reshape(-1, f.shape[-1]) for f in faces]
+    corners = np.concatenate(flat) if flat else np.empty((0, 4), dtype=np.int64)
+    unique, which = np.unique(corners, axis=0, return_inverse=True)
+    made = _middle_nodes(mesh.nodes, unique)[which.ravel()]
+    parts, start = [], 0
+    for block in whole.blocks:
+        if block.cell_type not in COMPLETE:
+            parts.append(block)
+            continue
+        count = CELL_TYPES[COMPLETE[block.cell_type]].n_nodes - block.kind.n_nodes - 1
+        middles = made[start : start + count * len(block)].reshape(len(block), count)
+        start += count * len(block)
+        centre = _middle_nodes(mesh.nodes, block.connectivity[:, list(block.kind.corners)])
+        table = np.column_stack([block.connectivity, middles, centre])
+        parts.append(CellBlock.make(mesh.nodes, COMPLETE[block.cell_type], table, block.colours))
+    return union(*(Mesh(mesh.nodes, (b,)) for b in parts), as_given=True) if parts else mesh
+
+
+def _corners_of_faces(block: CellBlock) -> IntArray:
+    """Corners (n_cells, n_faces, 4) of the faces of volumes, sorted, -1 where there are three."""
+    if block.kind.dimension < 3:
+        return np.empty((len(block), 0, 4), dtype=np.int64)
+    table = np.full((len(block), len(block.kind.faces), 4), -1, dtype=np.int64)
+    for i, (_, local) in enumerate(block.kind.faces):
+        places = list(local[::2])
+        table[:, i, : len(places)] = block.connectivity[:, places]
+    return np.sort(table, axis=-1)
+
+
+def _middle_nodes(nodes: NodeTable, corners: IntArray) -> IntArray:
+    """New nodes in the middle of corners (m, k), -1 standing for none."""
+    there = (corners >= 0)[..., None]
+    count = there.sum(axis=1)
+    xyz = (nodes.coordinates[corners] * there).sum(axis=1) / count
+    size = (nodes.density[corners][..., None] * there).sum(axis=1) / count
+    return nodes.add(xyz, size[:, 0]) if len(corners) else np.empty(0, dtype=np.int64)
+
+
+Places = list[tuple[int, ...]]
+
+
+def taken_apart(block: CellBlock, target: str) -> Mesh:
+    """Linear cells on all nodes of complete cells.
+
+    TET4, PYR5 stand on the triangles, quadrangles between a corner, the middles beside it and
+    those of the faces, with the middle of the cell as apex; a CUB8 fills each corner. Plane cells
+    become the triangles or quadrangles that such volumes would have on them.
+
+    Raises
+    ------
+    MeshError
+        If the cells cannot be taken apart into that type.
+    """
+    kind = block.kind
+    rule = _RULES.get((target, kind.dimension))
+    places = rule(kind) if rule is not None else []
+    if not places:
+        raise MeshError("kernel.mesh.cells-type-cannot-changed", name=kind.name, target=target)
+    table = block.connectivity[:, places].reshape(-1, len(places[0]))
+    name = CELL_TYPES[target].name if kind.dimension == 3 else _FLAT[target]
+    return Mesh.of(block.nodes, name, table, np.repeat(block.colours, len(places)))
+
+
+_FLAT = {"TRI3": "TRI3", "QUA4": "QUA4", "TET4": "TRI3", "PYR5": "QUA4", "CUB8": "QUA4"}
+
+
+def _triangles_on(face: tuple[int, ...]) -> Places:
+    """The triangles of a complete face, oriented as it is."""
+    *ring, centre = face
+    return [(a, b, centre) for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]
+
+
+def _quadrangles_on(face: tuple[int, ...]) -> Places:
+    """The quadrangle at each corner of a complete face, from the corner, oriented as it is."""
+    *ring, centre = face
+    return [(ring[k], ring[k + 1], centre, ring[k - 1]) for k in range(0, len(ring), 2)]
+
+
+def _tetrahedra(kind: CellType) -> Places:
+    centre = kind.n_nodes - 1
+    return [(b, a, c, centre) for _, face in kind.faces for a, b, c in _triangles_on(face)]
+
+
+def _pyramids(kind: CellType) -> Places:
+    centre = kind.n_nodes - 1
+    return [(a, d, c, b, centre) for _, face in kind.faces for a, b, c, d in _quadrangles_on(face)]
+
+
+def _bricks(kind: CellType) -> Places:
+    """One brick a corner, of cells three faces of which meet at each corner; else none."""
+    quads = [quad for _, face in kind.faces for quad in _quadrangles_on(face)]
+    bricks: Places = []
+    for corner in kind.corners:
+        mine = [quad for quad in quads if quad[0] == corner]
+        if len(mine) != 3:
+            return []
+        (_, first, below, last), *others = mine
+        # of the two other faces at the corner one holds `first`, one `last`; both the third edge
+        side = {
+            middle: face for _, a, face, b in others for middle in (a, b) if middle in (first, last)
+        }
+        (third,) = {m for _, a, _, b in others for m in (a, b)} - {first, last}
+        top = (third, side[last], kind.n_nodes - 1, side[first])
+        bricks.append((corner, last, below, first, *top))
+    return bricks
+
+
+def _itself(kind: CellType) -> tuple[int, ...]:
+    return tuple(range(kind.n_nodes))
+
+
+_RULES: dict[tuple[str, int], Callable[[CellType], Places]] = {
+    ("TRI3", 2): lambda kind: _triangles_on(_itself(kind)),
+    ("TET4", 2): lambda kind: _triangles_on(_itself(kind)),
+    ("QUA4", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("PYR5", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("CUB8", 2): lambda kind: _quadrangles_on(_itself(kind)),
+    ("TET4", 3): _tetrahedra,
+    ("PYR5", 3): _pyramids,
+    ("CUB8", 3): _bricks,
+}

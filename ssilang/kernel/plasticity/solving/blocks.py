@@ -6,7 +6,8 @@ points is made but the state itself.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -320,8 +321,11 @@ class ZonePass:
     are kept by columns.
     """
 
-    def __init__(self, cells: Cells, points: IntArray | None = None) -> None:
-        self.cells, self._points = cells, points
+    pass_over: ClassVar[Callable[..., float]]
+    pass_flow_over: ClassVar[Callable[..., None]]
+
+    def __init__(self, cells: Cells, law: Any, points: IntArray | None = None) -> None:
+        self.cells, self.law, self._points = cells, law, points
         self.space = _space(cells)
         self._last: tuple[PointState, Start] | None = None
 
@@ -342,12 +346,12 @@ class ZonePass:
     def over(
         self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
     ) -> float:
-        """`pass_over`."""
-        raise NotImplementedError
+        """The law's `pass_over`."""
+        return self.pass_over(self.cells, self.law, step, new, force, D, beyond, self.space)
 
     def flow_over(self, step: Step, force: FloatArray) -> None:
         """Add what flow takes away from the forces."""
-        raise NotImplementedError
+        self.pass_flow_over(self.cells, self.law, step, force, self.space)
 
     def kept(self, variables: FloatArray) -> FloatArray:
         """Internal variables (m, k) of what a pass has made."""

@@ -224,27 +224,17 @@ def pass_over(
 class ConePass(ZonePass):
     """The passes of a zone whose law is a cone."""
 
-    def __init__(self, cells: Cells, cone: ConeRows, points: IntArray | None = None) -> None:
-        super().__init__(cells, points)
-        self.cone = cone
+    law: ConeRows
+    pass_over = staticmethod(pass_over)
+    pass_flow_over = staticmethod(flow_over)
 
     def of(self, which: IntArray) -> ConePass:
         """A pass over some cells: it reads their points of the zone's states."""
         cells, points = self.some(which)
-        return ConePass(cells, self.cone._replace(of=self.cone.of[points]), points)
+        return ConePass(cells, self.law._replace(of=self.law.of[points]), points)
 
     def given(self, points: Points) -> FloatArray:
         """Moduli, coefficients of the surface, strength."""
         found = np.empty((5, points.stress.shape[1]))
-        prepare(self.cone, points.variables[0], found)
+        prepare(self.law, points.variables[0], found)
         return found
-
-    def over(
-        self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
-    ) -> float:
-        """`pass_over`."""
-        return pass_over(self.cells, self.cone, step, new, force, D, beyond, self.space)
-
-    def flow_over(self, step: Step, force: FloatArray) -> None:
-        """Add what flow takes away from the forces."""
-        flow_over(self.cells, self.cone, step, force, self.space)

@@ -254,20 +254,20 @@ def locked_over(cells: Cells, nested: Nested, start: Start) -> float:
 class NestedPass(ZonePass):
     """The passes of a zone that yields by nested surfaces; its internal variables go by points."""
 
-    def __init__(self, cells: Cells, nested: Nested, points: IntArray | None = None) -> None:
-        super().__init__(cells, points)
-        self.nested = nested
+    law: Nested
+    pass_over = staticmethod(pass_over)
+    pass_flow_over = staticmethod(flow_over)
 
     def of(self, which: IntArray) -> NestedPass:
         """A pass over some cells: it reads their points of the zone's states."""
         cells, points = self.some(which)
-        own = self.nested
+        own = self.law
         moduli = np.ascontiguousarray(own.moduli[:, points])
         return NestedPass(cells, own._replace(which=own.which[points], moduli=moduli), points)
 
     def given(self, points: Points) -> FloatArray:
         """Moduli, pressure at which the curves hold."""
-        return self.nested.moduli
+        return self.law.moduli
 
     def variables(self, values: FloatArray) -> FloatArray:
         """Internal variables (m, k)."""
@@ -277,16 +277,6 @@ class NestedPass(ZonePass):
         """Internal variables (m, k)."""
         return variables
 
-    def over(
-        self, step: Step, new: Points, force: FloatArray, D: FloatArray, beyond: FloatArray
-    ) -> float:
-        """`pass_over`."""
-        return pass_over(self.cells, self.nested, step, new, force, D, beyond, self.space)
-
-    def flow_over(self, step: Step, force: FloatArray) -> None:
-        """Add what flow takes away from the forces."""
-        flow_over(self.cells, self.nested, step, force, self.space)
-
     def locked(self, start: Start) -> float:
         """Energy of the parts beyond that of the stresses."""
-        return locked_over(self.cells, self.nested, start)
+        return locked_over(self.cells, self.law, start)

@@ -86,7 +86,7 @@ def uzawa(
     ConvergenceError
         If the reactions still change after the last sweep.
     """
-    largest = _largest_eigenvalue(W)
+    largest = float(np.linalg.eigvalsh(0.5 * (W + W.T))[-1]) if len(W) else 1.0
     c = coefficient if coefficient is not None else 1.0 / largest
     if not 0.0 < c < 2.0 / largest:
         raise KernelError(
@@ -111,10 +111,6 @@ def _exact(W: FloatArray, q: FloatArray, p: FloatArray, active: BoolArray) -> Fl
     """Reactions p freed of what the iteration left over, if the active rows are the right ones."""
     found = lagrange(W, q, None, active)
     return found.p if np.array_equal(found.active, active) else p
-
-
-def _largest_eigenvalue(W: FloatArray) -> float:
-    return float(np.linalg.eigvalsh(0.5 * (W + W.T))[-1]) if len(W) else 1.0
 
 
 Method = Callable[[FloatArray, FloatArray, "float | None", "BoolArray | None"], Reactions]

@@ -9,9 +9,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.friction_rows import Friction, friction_rows
 from ssilang.kernel.contact.modified_mass import without_contact_mass
-from ssilang.kernel.contact.rows import ContactRows, split_rows, with_friction
+from ssilang.kernel.contact.rows import (
+    ContactRows,
+    Friction,
+    friction_rows,
+    split_rows,
+    with_friction,
+)
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.families import stiffness as zone_stiffness

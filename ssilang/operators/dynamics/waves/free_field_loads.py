@@ -50,7 +50,7 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
 
 def _outside_is_linear(entries: Entries) -> None:
     """Refuse laws in the layer and outside it, where matrices stand for the ground."""
-    from ssilang.kernel.waves.yielding_cells import yielding_outside
+    from ssilang.kernel.waves.free_field_forces import yielding_outside
 
     found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
     if found is not None:
@@ -59,7 +59,7 @@ def _outside_is_linear(entries: Entries) -> None:
 
 def _edges_are_linear(entries: Entries) -> None:
     """Refuse laws in the elements at the edges, whose matrices stand for the ground beyond."""
-    from ssilang.kernel.waves.yielding_cells import yielding_at
+    from ssilang.kernel.waves.free_field_forces import yielding_at
 
     found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
     if found is not None:
@@ -68,7 +68,7 @@ def _edges_are_linear(entries: Entries) -> None:
 
 def _free_field_is_linear(entries: Entries, share: Share) -> None:
     """Refuse a free field that has yielded where the ground's matrices take its motion."""
-    from ssilang.kernel.waves.yielding_cells import yielded
+    from ssilang.kernel.waves.free_field_forces import yielded
 
     table = entries.needed("MOUVEMENT")
     last = max(i for i in table.indices() if isinstance(i, int))

@@ -10,8 +10,13 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.waves.layered_half_space import HalfSpace, Kind
-    from ssilang.kernel.waves.plane_wave import Given, PlaneWave, WaveMotion
+    from ssilang.kernel.waves.layered_half_space import (
+        Given,
+        HalfSpace,
+        Kind,
+        PlaneWave,
+        WaveMotion,
+    )
 
 
 #: share of the largest velocity that a record may keep at its end
@@ -21,7 +26,7 @@ DRIFT = 0.02
 @operator("ZOPL", family="dynamics")
 def zopl(call: Call, table: Table = Arg("TABLE", en="table of @ONDE")) -> Table:
     """Read the table, compute, hand back instants."""
-    from ssilang.kernel.waves.plane_wave import plane_motion
+    from ssilang.kernel.waves.layered_half_space import plane_motion
 
     entries = Entries(call, table, "@ONDE")
     dimension = workspace(call.session).dimension
@@ -45,7 +50,7 @@ def zopl(call: Call, table: Table = Arg("TABLE", en="table of @ONDE")) -> Table:
 
 
 def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
-    from ssilang.kernel.waves.plane_wave import PlaneWave
+    from ssilang.kernel.waves.layered_half_space import PlaneWave
 
     curve = cast("Curve", entries.needed("ACCELERATION")).parts[0]
     steps = np.diff(curve.abscissas)

@@ -13,8 +13,14 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.boundary import edges, faces
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.changes.complete import COMPLETE, complete, taken_apart
-from ssilang.kernel.mesh.changes.degree import LINEAR, linear, quadratic
+from ssilang.kernel.mesh.changes.degree import (
+    COMPLETE,
+    LINEAR,
+    complete,
+    linear,
+    quadratic,
+    taken_apart,
+)
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parted
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union

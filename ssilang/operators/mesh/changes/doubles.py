@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.mesh.changes.cut_open import cut_open
-from ssilang.kernel.mesh.changes.merge import merge_between, merge_close, regenerate, repeated_nodes
+from ssilang.kernel.mesh.changes.merge import (
+    cut_open,
+    merge_between,
+    merge_close,
+    regenerate,
+    repeated_nodes,
+)
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.prelude import *
 

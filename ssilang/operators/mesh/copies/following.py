@@ -8,8 +8,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ssilang.kernel.fields.deformed import displacements, moving_components
-from ssilang.kernel.mesh.changes.follow import followed
-from ssilang.kernel.mesh.changes.transform import NodeCopier, mapping_between
+from ssilang.kernel.mesh.changes.transform import NodeCopier, followed, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix

@@ -23,7 +23,7 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
-from ssilang.kernel.mesh.surfaces.facets import facet_shape
+from ssilang.kernel.mesh.surfaces.surface import facet_shape
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
 from ssilang.operators.mesh.copies.maps import (
     ANGLE,

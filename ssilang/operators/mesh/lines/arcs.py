@@ -14,8 +14,8 @@ from ssilang.kernel.mesh.lines.curves import (
     arc_about_axis,
     arc_about_centre,
     arc_through,
+    fillet,
 )
-from ssilang.kernel.mesh.lines.fillet import fillet
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.language.vocabulary.terms import between

@@ -7,8 +7,15 @@ from collections.abc import Callable
 import numpy as np
 
 from ssilang.kernel.mesh.combine import without_duplicates
-from ssilang.kernel.mesh.queries.quality import aspect_ratio, flatness, quality_in_metric, skewness
-from ssilang.kernel.mesh.queries.soundness import repeated_cells, unfit_faces, unmatched_middles
+from ssilang.kernel.mesh.queries.quality import (
+    aspect_ratio,
+    flatness,
+    quality_in_metric,
+    repeated_cells,
+    skewness,
+    unfit_faces,
+    unmatched_middles,
+)
 from ssilang.operators.prelude import *
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {

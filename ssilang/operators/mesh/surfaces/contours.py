@@ -10,6 +10,10 @@ from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.surfaces.analytic import (
+    PolynomialSurface,
+    mesh_polynomial_surface,
+)
 from ssilang.kernel.mesh.surfaces.charts import (
     Chart,
     cone_chart,
@@ -20,10 +24,6 @@ from ssilang.kernel.mesh.surfaces.charts import (
 )
 from ssilang.kernel.mesh.surfaces.fill import split_contour
 from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
-from ssilang.kernel.mesh.surfaces.polynomial_surface import (
-    PolynomialSurface,
-    mesh_polynomial_surface,
-)
 from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
 from ssilang.operators.mesh.lines.ends import chosen_family
 from ssilang.operators.prelude import *

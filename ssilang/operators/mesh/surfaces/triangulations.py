@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.kernel.mesh.generators.stitch import cone, stitch
+from ssilang.kernel.mesh.generators.sweep import cone, stitch
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
 from ssilang.kernel.mesh.queries.quality import quality_in_metric
 from ssilang.kernel.mesh.surfaces.charts import plane_chart

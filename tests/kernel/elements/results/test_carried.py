@@ -5,14 +5,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.results.following_axes import following_axes
-from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
-from ssilang.kernel.elements.results.shell_frames import (
+from ssilang.kernel.elements.results.frames import (
     SurfaceAxes,
+    following_axes,
     is_flat_shell,
     shell_in_axes,
     shell_support,
 )
+from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
 from ssilang.kernel.elements.shells.plate import plate_frames
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField

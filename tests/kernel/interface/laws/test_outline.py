@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, LawCode, Parameter
-from ssilang.kernel.interface.laws.outline import outline_of
+from ssilang.kernel.interface.laws.macro_law import outline_of
 
 KN = 3e8
 SHAPES = {

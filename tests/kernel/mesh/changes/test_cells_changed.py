@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
-from ssilang.kernel.mesh.generators.stitch import cone, stitch
+from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
@@ -195,7 +195,7 @@ def test_points_are_located() -> None:
 
 def test_stitched_lines_of_unequal_cuts_leave_no_hole() -> None:
     nodes = NodeTable()
-    made = stitch(line(nodes, [0, 0], [1, 0], 5), line(nodes, [0, 1], [1, 1], 2))
+    made = sweep.stitch(line(nodes, [0, 0], [1, 0], 5), line(nodes, [0, 1], [1, 1], 2))
     assert made.n_cells == 7
     assert total_measure(made) == pytest.approx(1.0)
 
@@ -204,10 +204,10 @@ def test_cone_on_a_skin_fills_the_box() -> None:
     volume = box()
     skin = envelope(volume)
     tip = int(volume.nodes.add(np.array([[0.4, 0.9, 1.1]]))[0])
-    made = cone(skin, tip)
+    made = sweep.cone(skin, tip)
     assert total_measure(made) == pytest.approx(6.0)
     corner = int(skin.single_block().connectivity[0, 0])
-    assert total_measure(cone(skin, corner)) == pytest.approx(6.0)
+    assert total_measure(sweep.cone(skin, corner)) == pytest.approx(6.0)
 
 
 def test_split_squares_alternate_their_diagonals() -> None:

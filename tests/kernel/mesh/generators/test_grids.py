@@ -8,14 +8,15 @@ import pytest
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.generators.stitch import cone, stitch
 from ssilang.kernel.mesh.generators.sweep import (
+    cone,
     layer_cuts,
     listed_cuts,
     mean_density,
     mean_position,
     rotation,
     ruling,
+    stitch,
     sweep_line,
     sweep_surface,
     translation,
@@ -26,11 +27,11 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.queries.measure import enclosed_volume
-from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
-from ssilang.kernel.mesh.surfaces.polynomial_surface import (
+from ssilang.kernel.mesh.surfaces.analytic import (
     PolynomialSurface,
     mesh_polynomial_surface,
 )
+from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
 from ssilang.kernel.mesh.volumes.block import fill_block
 
 CORNERS = np.random.default_rng(4).uniform(-0.2, 0.2, (2, 2, 2, 3)) + np.stack(

@@ -12,7 +12,7 @@ from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes import transform
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.queries import measure, partition, quality, select, soundness
+from ssilang.kernel.mesh.queries import measure, partition, quality, select
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
 
 A = np.array([[1.3, 0.4, -0.2], [0.1, 0.8, 0.3], [-0.3, 0.2, 1.1]])
@@ -123,9 +123,9 @@ def test_meshes_as_sets_of_cells():
     both = combine.union(mesh, turned, as_given=True)
     assert len(cells_of(both)) == len(cells_of(mesh)) + len(cells_of(part))
     assert cells_of(combine.without_duplicates(both)) == cells_of(mesh)
-    again = soundness.repeated_cells(both)
+    again = quality.repeated_cells(both)
     assert sorted(cells_of(again)) == sorted(cells_of(part))
-    assert not soundness.repeated_cells(mesh).blocks
+    assert not quality.repeated_cells(mesh).blocks
     assert cells_of(combine.of_type(mesh, "QUA4")) == [c for c in cells_of(mesh) if c[0] == "QUA4"]
     assert {c[2] for c in cells_of(combine.recolour(mesh, 9))} == {9}
     assert cells_of(combine.gathered([mesh, part])) == cells_of(both)
@@ -427,18 +427,18 @@ def test_faults_of_meshes_are_found():
     ids = table.add(np.column_stack([x, np.zeros(10)]))
     bent = CellBlock.make(table, "QUA8", ids[:8])
     plain = CellBlock.make(table, "QUA4", ids[[4, 2, 8, 9]])  # the side in the other sense
-    found = soundness.unmatched_middles(Mesh(table, (bent, plain)))
+    found = quality.unmatched_middles(Mesh(table, (bent, plain)))
     assert found.blocks[0].connectivity.tolist() == [[ids[3]]]
     line = CellBlock.make(table, "SEG2", ids[[6, 0]])
-    found = soundness.unmatched_middles(Mesh(table, (bent, line)))
+    found = quality.unmatched_middles(Mesh(table, (bent, line)))
     assert found.blocks[0].connectivity.tolist() == [[ids[7]]]
     mixed = box(False)
     top = Mesh.of(mixed.nodes, "TET4", np.array([[7, 8, 11, 0], [6, 7, 9, 2], [6, 7, 8, 3]]))
-    unfit = soundness.unfit_faces(Mesh(mixed.nodes, mixed.blocks + top.blocks))
+    unfit = quality.unfit_faces(Mesh(mixed.nodes, mixed.blocks + top.blocks))
     assert {tuple(sorted(r)) for r in unfit.blocks[0].connectivity.tolist()} == {
         (7, 8, 11), (6, 7, 9),
     }  # fmt: skip
-    assert not soundness.unfit_faces(mixed).blocks
+    assert not quality.unfit_faces(mixed).blocks
 
 
 def test_maps_move_what_they_say_and_keep_what_they_hold():

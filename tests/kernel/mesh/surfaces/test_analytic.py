@@ -7,7 +7,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces import analytic, charts
-from ssilang.kernel.mesh.surfaces.facets import facet_shape
+from ssilang.kernel.mesh.surfaces.surface import facet_shape
 
 RNG = np.random.default_rng(5)
 FRAME = np.linalg.qr(RNG.standard_normal((3, 3)))[0]

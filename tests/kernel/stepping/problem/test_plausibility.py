@@ -5,12 +5,12 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.curves.curve import Load
-from ssilang.kernel.stepping.problem.capacity import stiffness_contrast
 from ssilang.kernel.stepping.problem.plausibility import (
     Bodies,
     against_supports,
     contact_resolution,
     masses_alone,
+    stiffness_contrast,
     swings,
 )
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem

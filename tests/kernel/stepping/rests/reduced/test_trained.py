@@ -14,9 +14,8 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.rests.reduced import trained
-from ssilang.kernel.stepping.rests.reduced.coordinates import Coordinates
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
-from ssilang.kernel.stepping.rests.reduced.trace import Trace, comparing
+from ssilang.kernel.stepping.rests.reduced.trace import Coordinates, Trace, comparing
 from ssilang.kernel.stepping.run import integrate
 
 STEPS, SIZE = 150, (16, 6, 8)

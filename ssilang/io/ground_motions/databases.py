@@ -1,4 +1,7 @@
-"""Ground motions in the format of the PEER database (files .AT2, .VT2, .DT2)."""
+"""Ground motions in the format of the PEER database (files .AT2, .VT2, .DT2).
+
+Ground motions in the text format of the ESM and ITACA databases (files .ASC).
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, quantity_of, real
+from ssilang.kernel.base.arrays import FloatArray
 
 _DIGITS = 12  # of a number of values that a file can hold
 _HEADER = 4  # lines: source, event and station, quantity and unit, number of values and step
@@ -33,7 +37,7 @@ def read_peer(path: Path) -> GroundMotion:
     """
     lines = lines_of(path)
     count, dt = _sizes(path, lines)
-    values = np.array([real(t) for t in _values(path, lines)])
+    values = np.array([real(t) for t in _peer_values(path, lines)])
     if len(values) < count:
         raise InputError(
             "io.line-says-values-file", name=path.name, count=count, n_values=len(values)
@@ -56,7 +60,7 @@ def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:
     raise InputError("io.line-no-npts-dt", name=path.name)
 
 
-def _values(path: Path, lines: list[str]) -> list[str]:
+def _peer_values(path: Path, lines: list[str]) -> list[str]:
     found: list[str] = []
     for number, line in enumerate(lines[_HEADER:], start=_HEADER + 1):
         if (rest := _NUMBER.sub("", line).strip()) != "":
@@ -65,3 +69,52 @@ def _values(path: Path, lines: list[str]) -> list[str]:
             )
         found += _NUMBER.findall(line)
     return found
+
+
+def read_esm(path: Path) -> GroundMotion:
+    """Read a record: lines 'KEY: VALUE', then a value a line.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, its head has no SAMPLING_INTERVAL_S, a value is no number, or
+        it holds fewer values than NDATA says.
+    """
+    lines = lines_of(path)
+    begin = next((i for i, line in enumerate(lines) if _is_number(line)), len(lines))
+    head = {k.strip().upper(): v.strip() for k, _, v in (x.partition(":") for x in lines[:begin])}
+    try:
+        dt = float(head["SAMPLING_INTERVAL_S"])
+    except (KeyError, ValueError):
+        dt = math.nan
+    if not 0.0 < dt < math.inf:
+        raise InputError("io.esm-without-step", name=path.name)
+    values = _esm_values(path, lines, begin)
+    if (said := head.get("NDATA", "")).isdigit() and int(said) != len(values):
+        raise InputError(
+            "io.esm-other-count", name=path.name, count=int(said), n_values=len(values)
+        )
+    quantity = quantity_of(head.get("DATA_TYPE", "")) or "ACCE"
+    event = " ".join(head[k] for k in ("EVENT_NAME", "STATION_CODE", "STREAM") if head.get(k))
+    return GroundMotion(values, dt, event, quantity, head.get("UNITS", "").upper())
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _esm_values(path: Path, lines: list[str], begin: int) -> FloatArray:
+    found = []
+    for number, line in enumerate(lines[begin:], start=begin + 1):
+        if not (text := line.strip()):
+            continue
+        if not _is_number(text):
+            raise InputError(
+                "io.record-line-no-number", name=path.name, number=number, rest=text[:20]
+            )
+        found.append(float(text))
+    return finite(path, np.array(found))

@@ -1,15 +1,20 @@
-"""Columns written as CSV, and CSV files read into columns."""
+"""Columns written as CSV, and CSV files read into columns.
+
+Columns of numbers as a Parquet file (extra `sweep`: pyarrow).
+"""
 
 from __future__ import annotations
 
+import importlib.util
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, text_of
 from ssilang.kernel.base.arrays import FloatArray
 
@@ -130,3 +135,29 @@ def as_columns(rows: Rows) -> list[FloatArray]:
         return list(np.ascontiguousarray(rows.T))
     count = max((len(r) for r in rows), default=0)
     return [np.array([r[i] for r in rows if i < len(r)]) for i in range(count)]
+
+
+def is_there() -> bool:
+    """Whether pyarrow is installed."""
+    return importlib.util.find_spec("pyarrow") is not None
+
+
+def write_parquet(path: Path, columns: Mapping[str, FloatArray], units: Mapping[str, str]) -> None:
+    """Write columns of one length, whole or not at all.
+
+    Parameters
+    ----------
+    units : mapping
+        Unit of a column by its name, into the column's metadata under `unit`; those without stay
+        without.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    fields = [
+        pa.field(name, pa.float64(), metadata={"unit": units[name]} if units.get(name) else None)
+        for name in columns
+    ]
+    table = pa.table(list(columns.values()), schema=pa.schema(fields))
+    with replacing(path) as stream:
+        pq.write_table(table, stream, compression="zstd")
