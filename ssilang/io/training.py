@@ -71,8 +71,14 @@ class TrainingFile:
         """Put a training there."""
         t = training
         with replacing(self.path) as stream:
-            parts = {"vectors": t.vectors, "answers": t.answers}
-            np.savez(stream, model=t.model, dt=t.dt, taught=list(t.taught), **parts)
+            np.savez(
+                stream,
+                model=t.model,
+                dt=t.dt,
+                taught=list(t.taught),
+                vectors=t.vectors,
+                answers=t.answers,
+            )
 
 
 def _hold(path: Path) -> RunLock | None:
