@@ -12,6 +12,7 @@ from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.tensors import largest_shear_strain
 from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.stresses import tell_no_unknown
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.node_track import NodeTrack
@@ -22,6 +23,7 @@ MOST_VALUES = 1 << 20
 
 @operator("ZGAM", family="dynamics")
 def zgam(
+    call: Call,
     model: Model = Arg("MMODEL", en="model"),
     motion: ListChpo | Table = Arg("LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
 ) -> CellField:
@@ -33,6 +35,8 @@ def zgam(
         if isinstance(motion, Table)
         else cast("list[NodeField]", motion.values)
     )
+    if isinstance(motion, ListChpo):
+        tell_no_unknown(call, cast(NodeField, fields[0]))
     return CellField(
         tuple(
             largest_shear_strain(z, _vectors(families.family_of(z).layout(z), fields))

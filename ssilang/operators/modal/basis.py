@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.modal.basis import (
     projected_matrix,
@@ -133,6 +134,9 @@ def _pjba(call: Call, thing: NodeField | Load | Matrix, basis: Chosen) -> NodeFi
 def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     if not isinstance(force, NodeField):
         raise call.error("operators.modal.only-nodal-forces-times")
+    known = {dual_of(name) for s in shapes for name in s.field.components}
+    if known.isdisjoint(names := list(force.components)):
+        call.warn("operators.modal.force-of-other-names", force, names=names, known=sorted(known))
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
 
 
