@@ -197,13 +197,18 @@ def lump(
 
 @lump.form()
 def lump_of_matrix(
+    call: Call,
     matrix: Matrix = Arg("RIGIDITE", en="full mass"),
     kept: ListMots | None = Opt(
         "LISTMOTS", kind="component", en="unknowns that keep their diagonal term"
     ),
 ) -> Matrix:
     """Diagonal mass of a full one."""
-    return lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
+    made = lumped_matrix(matrix, () if kept is None else tuple(m.rstrip() for m in kept.values))
+    most = [max(np.abs(b.values).max(initial=0.0) for b in m.blocks) for m in (made, matrix)]
+    if most[0] < 1e-9 * most[1]:
+        call.warn("operators.matrices.lumped-to-nothing", matrix)
+    return made
 
 
 @operator(

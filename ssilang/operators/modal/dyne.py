@@ -263,6 +263,9 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
         raise call.error(
             "operators.modal.entry-is-a-field", table, name=name, subtype=table.subtype
         )
+    known, names = system.numbering.unknowns, list(field.components)
+    if set(known).isdisjoint(names):
+        call.warn("operators.modal.start-of-other-names", table, names=names, known=known)
     return field_to_vector(field, system.numbering, dual=False)
 
 

@@ -22,6 +22,7 @@ from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import dual_of
+from ssilang.kernel.mesh.queries.soundness import repeated_cells
 from ssilang.language.registry import either
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
@@ -166,7 +167,14 @@ def _on_faces(
         if not isinstance(value, NodeField | CellField):
             raise call.missing(("MAILLAGE",))
         faces = loaded_faces(model, value)
-    return pressure(model, faces, value)
+    return pressure(model, _once(call, faces), value)
+
+
+def _once(call: Call, faces: Mesh) -> Mesh:
+    """The sides of a load; told where some stand there twice, and carry it twice."""
+    if count := repeated_cells(faces).n_cells:
+        call.warn("operators.statics.sides-twice", faces, count=count)
+    return faces
 
 
 @pres.form(said("COQU"))
@@ -273,7 +281,7 @@ def fsur(
         if not isinstance(density, NodeField):
             raise call.missing(("MAILLAGE",))
         faces = loaded_faces(model, density)
-    return traction(model, faces, _values(density), joined(fields) if fields else None)
+    return traction(model, _once(call, faces), _values(density), joined(fields) if fields else None)
 
 
 @fsur.form(said("COQU"))

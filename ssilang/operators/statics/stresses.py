@@ -225,11 +225,17 @@ def epth(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellFie
 
 def _thermal(call: Call, fields: Fields) -> tuple[CellField, NodeField | CellField]:
     nodal, cells = nodal_of(fields), cells_of(fields)
-    if nodal:
-        return joined_cells(call, fields), nodal[0]
-    if len(cells) < 2:
+    if not nodal and len(cells) < 2:
         raise call.missing(("CHPOINT", "MCHAML"))
-    return joined(cells[:-1]), cells[-1]
+    material = joined_cells(call, fields if nodal else cells[:-1])
+    if not any(_EXPANDS.intersection(b.components) for b in material.blocks):
+        call.warn("operators.statics.no-expansion", cells[0])
+    return material, nodal[0] if nodal else cells[-1]
+
+
+_EXPANDS = frozenset(
+    ["ALPH", "ALP1", "ALP2", "ALP3", "ALPN", "ALPS", "ALQS", "ALQN", "ALQ1", "ALQ2"]
+)
 
 
 def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField) -> CellFieldBlock:
