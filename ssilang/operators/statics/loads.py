@@ -22,7 +22,7 @@ from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.kernel.mesh.queries.soundness import repeated_cells
+from ssilang.kernel.mesh.queries.quality import repeated_cells
 from ssilang.language.registry import either
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
