@@ -165,7 +165,7 @@ class ReducedIntegration:
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
         basis, rounds = self._basis(), 0
-        pair = _pair_of(p, self.tolerance) if basis is None else self._answered(basis)
+        pair = self._answered(basis, basis.model()) if basis else _pair_of(p, self.tolerance)
         while True:
             built = time.perf_counter()
             rich, difference, chunks = self._both(pair, wanted)
@@ -176,7 +176,7 @@ class ReducedIntegration:
                 if basis is None:
                     pair.grow()
                 else:
-                    pair, rounds = self._answered(basis), rounds + 1
+                    pair, rounds = self._answered(basis, pair.rich), rounds + 1
             except NoReduction as reason:
                 raise NoReduction(
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
@@ -210,15 +210,15 @@ class ReducedIntegration:
             raise NoReduction("kernel.stepping.trained-supports-move")
         return trained_basis(self.problem, _model_of(self.problem), self.shelf)
 
-    def _answered(self, basis: TrainedBasis) -> Pair:
-        """A basis, and the same with the step's answers to what it leaves out of balance.
+    def _answered(self, basis: TrainedBasis, poor: ReducedModel) -> Pair:
+        """The model of a basis, and that with the step's answers to what it leaves out of balance.
 
         Raises
         ------
         NoReduction
             If there is no room for them, or steps on it do not converge.
         """
-        p, poor, ahead, left = self.problem, basis.model(), list[Chunk](), list[FloatArray]()
+        p, ahead, left = self.problem, list[Chunk](), list[FloatArray]()
         trace = Trace(p, poor, self._sampled)
         for run in comparing(p.times):
             if (chunk := trace.advance(run)) is None:

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import (
     InterfaceState,
@@ -94,10 +93,9 @@ class Coordinates:
         self.J, B = np.ascontiguousarray(m.Rt[:, :q].T), m.Rt[:, q:]
         self.C = np.diag(m.c) + (B * m.sense) @ B.T
         self.A = np.diag(n.mass * m.m + n.end * m.k) + n.damping * self.C
-        self._trial = new_trial((len(p.weights), d), q)
         places = (p.pairs[:, :, None] * d + np.arange(d)).reshape(len(p.pairs), -1)
-        k = places.shape[1]
-        self._at = np.repeat(places, k, axis=1).ravel(), np.tile(places, (1, k)).ravel()
+        self._trial, self._points = new_trial((len(p.weights), d), q), p.B @ self.J[places]
+        self._D, self._K = np.zeros((len(p.weights), d, d)), np.zeros_like(self.A)
 
     def run(self, x: Motion, factors: FloatArray, to: Recorder) -> Outcome:
         """Steps between the rows of `factors`; `x` and the rows hold coordinates."""
@@ -146,13 +144,13 @@ class Coordinates:
         return dz, -MOST_TURNS, float(size)
 
     def _tangent(self, trial: Trial) -> FloatArray:
-        """Tangent (r, r) of the joints."""
-        p, q = self.joints, len(self.J)
-        D = trial.D * p.weights[:, None, None]
-        blocks = np.einsum("pia,pij,pjb->pab", p.B, D, p.B, optimize=True)
-        K = sp.coo_array((blocks.ravel(), self._at), shape=(q, q)).tocsr()
-        found: FloatArray = self.J.T @ (K @ self.J)
-        return found
+        """Tangent (r, r) of the joints: that of before, and what has changed at some points."""
+        D = trial.D * self.joints.weights[:, None, None]
+        changed = np.flatnonzero((D != self._D).any(axis=(1, 2)))
+        G, gap = self._points[changed], D[changed] - self._D[changed]
+        self._K += G.reshape(-1, len(self._K)).T @ (gap @ G).reshape(-1, len(self._K))
+        self._D = D
+        return self._K
 
 
 KEPT = ("u", "v", "a", "w", "t", "state")
