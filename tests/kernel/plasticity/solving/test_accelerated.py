@@ -101,9 +101,15 @@ def test_runs_repeat_to_the_last_bit_and_go_on_to_it(tmp_path: Path) -> None:
     assert np.array_equal(resumed[2], whole[2])
 
 
-def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not() -> None:
+def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not(monkeypatch) -> None:
     assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop.startswith("kept factor")
     assert stepped("DRUCKER_PRAGER", steps=3)[0].loop.startswith("full Newton")
+    asked: list[np.ndarray] = []  # of the whole body, held: it is positive
+    monkeypatch.setattr(
+        accelerated, "factor_pays", lambda A, order, solves: asked.append(A.toarray()) or solves < 9
+    )
+    assert stepped(steps=3)[0].loop.startswith("full Newton")
+    assert np.linalg.eigvalsh(asked[0])[0] > 1e-6 * np.diag(asked[0]).min()
 
 
 def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:

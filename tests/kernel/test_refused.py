@@ -1,0 +1,255 @@
+"""What cannot be calculated or meshed is refused by its own code, at the limit of what can."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.mesh.changes.degree import quadratic
+from ssilang.kernel.mesh.changes.merge import cut_open
+from ssilang.kernel.mesh.combine import polygons
+from ssilang.kernel.mesh.families import FAMILIES, family_of
+from ssilang.kernel.mesh.generators import sweep
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh
+from ssilang.kernel.mesh.lines.lines import line_chain, shortest_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
+from ssilang.kernel.mesh.surfaces import analytic, charts, constrained, fill, grid, surface
+from ssilang.kernel.mesh.volumes.block import fill_block
+from ssilang.kernel.modal import explicit, links, oscillator
+from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
+from ssilang.kernel.records.soil_column import SoilColumn, free_field
+from ssilang.kernel.waves import layered_half_space as waves
+
+ONE, TWO = np.ones(1), np.array([1.0, 2.0])
+TABLE = NodeTable()
+TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1, 2)], float))
+LINE, SURE = (Mesh.of(TABLE, "SEG2", np.array(c)) for c in ([[0, 1], [1, 2]], [[3, 4], [4, 5]]))
+STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
+QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
+CURVED = Mesh.of(TABLE, "SEG3", np.array([[0, 1, 2]]))
+BRICK = Mesh.of(TABLE, "CUB8", np.array([[0, 1, 4, 3, 9, 10, 13, 12]]))
+FIVE = Mesh.of(TABLE, "POL5", np.array([[0, 1, 5, 7, 3]]))
+POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
+SOIL = SoilColumn(TWO, TWO, TWO, TWO * 0.1, 1.0, 2.0)
+FLOOR = floors.Storey(TWO, TWO * 0.1, TWO)
+SPACE = waves.HalfSpace(ONE, TWO, TWO, 2.0 * TWO, TWO * 0.1)
+WAVE = waves.PlaneWave("SH", 0.0, "INCIDENTE", 0.0, 0.1, np.arange(3.0))
+SIGNAL = modulated.ModulatedSignal(TWO, TWO, TWO, (TWO,), (TWO,))
+FLAT = (TWO, TWO)
+PLAN = explicit.ModalSteps(0.1, 4)
+MODE = SimpleNamespace(M=np.eye(2), C=np.eye(2), K=np.eye(2), links=None)
+RING = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+AXIS = np.array([[0.0, 0, 0], [0, 0, 1]])
+TIMES = np.linspace(0.0, 1.0, 11)
+LAW = {"law": np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 3.0]]), "numbers": {links.PLASTIC: 1.0}}
+
+
+def contact(**given):
+    return lambda: links._check(2, SimpleNamespace(kind=min(links.CONTACTS), **(LAW | given)))
+
+
+def law(*rows):
+    return contact(law=np.array(rows))
+
+
+def psrs(f=TWO, y=TWO, duration=1.0, periods=ONE, damping=0.1):
+    return lambda: power.response_spectrum(f, y, duration, periods, damping, "ACCE", "CRAM")
+
+
+def modulation(periods=ONE, damping=0.1, **given):
+    resolution = SimpleNamespace(**{"processes": 1, "instants": 1, "precision": 0.1} | given)
+    return lambda: modulated.modulated_response_spectrum(
+        SIGNAL, periods, damping, "ACCE", resolution
+    )
+
+
+def floor(damping=0.1, frequencies=ONE, envelope=FLAT, density=FLAT):
+    return lambda: floors.floor_spectrum(FLOOR, density, envelope, frequencies, damping)
+
+
+def yielding(frequencies=ONE, damping=0.1, limits=ONE, times=TIMES):
+    return lambda: inelastic.yielding_peaks(
+        times, times, frequencies, damping, "CINEMATIQUE", 0.1, limits
+    )
+
+
+def plane(step=None, **given):
+    return lambda: waves.plane_motion(SPACE, replace(WAVE, **given), ONE, ONE, step)
+
+
+def column(step=0.1, cutoff=5.0, acceleration=TWO, depths=ONE):
+    return lambda: free_field(SOIL, step, acceleration, depths, cutoff)
+
+
+def cut(line):
+    return lambda: cut_open(QUADS, line)
+
+
+def modes(M=MODE.M, **given):
+    return lambda: explicit.integrate_modes(
+        SimpleNamespace(**{**vars(MODE), "M": M}), None, replace(PLAN, **given)
+    )
+
+
+def changed(value, **given):
+    return lambda: replace(value, **given)
+
+
+REFUSED = {
+    "records": {
+        "soil-needs-many-thicknesses": [changed(SOIL, density=ONE), changed(SOIL, damping=ONE)],
+        "thickness-density-modulus-layer": [
+            *(changed(SOIL, **{n: TWO - 1.0}) for n in ("thickness", "density", "modulus")),
+            changed(SOIL, damping=np.array([0.0, -1e-9])),
+        ],
+        "frequencies-rayleigh-damping-must": [changed(SOIL, f1=0.0), changed(SOIL, f2=0.0)],
+        "acceleration-needs-two-points": [
+            column(step=0.0), column(cutoff=0.0), column(acceleration=ONE)
+        ],
+        "depth-outside-layers-end": [column(depths=-ONE), column(depths=3.1 * ONE)],
+        "mode-frequency-damping-participation": [changed(FLOOR, participations=ONE)],
+        "frequencies-modes-positive": [changed(FLOOR, frequencies=np.array([1.0, 0.0]))],
+        "damping-between-not": [
+            *(changed(FLOOR, dampings=np.array([0.1, x])) for x in (0.0, 1.0)),
+            *(f(damping=x) for f in (floor, psrs, modulation) for x in (0.0, 1.0)),
+            lambda: matching.matched(TIMES, TIMES, ONE, ONE, 1.0, 0.1),
+        ],
+        "frequencies-spectrum-duration-positive": [
+            floor(frequencies=0.0 * ONE), floor(envelope=(np.array([2.0, 2.0]), TWO))
+        ],
+        "power-spectrum-positive-over": [
+            floor(density=(TWO, 0.0 * TWO)), psrs(f=TWO[::-1]), psrs(y=0.0 * TWO),
+            psrs(y=TWO - 1.5), changed(SIGNAL, density=TWO - 1.5),
+            changed(SIGNAL, density=0.0 * TWO), changed(SIGNAL, frequencies=TWO[[0, 0]]),
+        ],
+        "duration-periods-must-positive": [
+            psrs(duration=0.0), psrs(periods=0.0 * ONE), modulation(periods=0.0 * ONE)
+        ],
+        "least-process-instant-needed": [
+            modulation(processes=0), modulation(instants=0), modulation(precision=0.0)
+        ],
+        "power-spectrum-not-negative": [lambda: modulated.sines(TWO, TWO - 1.2, 10)],
+        "elastic-limit-oscillator-must": [yielding(limits=0.0 * ONE)],
+        "signal-times-must-go": [yielding(times=ONE), yielding(times=TIMES**1.001)],
+        "frequency-oscillator-must-positive": [yielding(frequencies=0.0 * ONE)],
+        "damping-oscillator-cannot-negative": [yielding(damping=-1e-9)],
+        "baseline-degree": [lambda: filters.without_trend(TIMES, 0.1, 7)],
+        "baseline-points": [lambda: filters.without_trend(TIMES[:7], 0.1, 6)],
+    },
+    "waves": {
+        "layers-differ": [changed(SPACE, shear=ONE), changed(SPACE, damping=ONE)],
+        "last-layer-endless": [changed(SPACE, thickness=TWO)],
+        "layer-not-positive": [
+            changed(SPACE, thickness=0.0 * ONE), changed(SPACE, damping=TWO - 1.5),
+            *(changed(SPACE, **{n: TWO - 1.0}) for n in ("density", "shear", "primary")),
+        ],
+        "frequencies-not-positive": [changed(SPACE, f1=0.0), changed(SPACE, f2=0.0)],
+        "record-too-short": [plane(acceleration=ONE), plane(**{"step": 0.1}, acceleration=ONE)],
+        "step-not-positive": [plane(0.0)],
+    },
+    "modal": {
+        "step-numbers-steps-must": [modes(h=0.0), modes(count=0), modes(every=0)],
+        "mass-modes-singular": [modes(M=np.ones((2, 2))), modes(M=np.diag([1.0, np.inf]))],
+        "link-no-positive-stiffness": [contact(law=None, numbers={links.STIFF: 0.0})],
+        "law-link-wants-two": [law([0.0, 0.0]), law([0.0, 0.0], [0.0, 1.0])],
+        "law-link-not-elastic": [
+            law([0, 0], [1, 0], [2, 0]), law([0, 0], [1, 1], [2, 2]), law([0, 1], [1, 2], [2, 1.9])
+        ],
+        "damping-oscillator-cannot-negative": [lambda: oscillator.Oscillators(ONE, -1e-9)],
+        "frequency-oscillator-must-positive": [lambda: oscillator.Oscillators(0.0 * ONE, 0.1)],
+        "default-list-frequencies-too": [
+            lambda: oscillator.default_frequencies(np.linspace(0.0, 1.0, 40_100), 0.0)
+        ],
+    },
+    "mesh": {
+        "cells-type-no-quadratic": [lambda: quadratic(FIVE)],
+        "line-seg2-seg3-needed": [cut(QUADS)],
+        "line-branches-node": [cut(STAR)],
+        "line-not-separate-cells": [cut(LINE)],
+        "no-polygons-five-sides": [lambda: polygons(QUADS)],
+        "no-surface-made-elements": [FAMILIES["SEG2"].need_surface],
+        "no-mesh-made-elements": [lambda: family_of("QUA5")],
+        "facing-cells-paired-within": [lambda: joint_mesh(LINE, SURE, 0.0)],
+        "line-needed-sweep-surface": [
+            lambda: sweep.sweep_line(
+                QUADS, sweep.translation(AXIS[1]), subdivide(1.0, count=2), "QUA4"
+            )
+        ],
+        "list-layer-positions-needs": [
+            lambda: sweep.listed_cuts(ONE, 1.0), lambda: sweep.listed_cuts(TWO[[0, 1, 0]], 1.0)
+        ],
+        "two-lines-same-nothing": [lambda: sweep.stitch(LINE, LINE)],
+        "cells-type-cannot-joined": [lambda: sweep.cone(BRICK, 17)],
+        "no-volume-swept-cells": [
+            lambda: sweep.sweep_surface(
+                FIVE, sweep.translation(AXIS[1]), subdivide(1.0, count=2)
+            )
+        ],
+        "line-of-segments-needed": [
+            lambda: line_chain(QUADS), lambda: line_chain(Mesh(TABLE, ())),
+            lambda: shortest_line(QUADS, 0, 5),
+        ],
+        "path-zero-length-cannot": [lambda: subdivide(0.0, 0.1, 0.1)],
+        "mesh-sizes-ask-elements": [lambda: subdivide(1.0, 0.9e-7, 0.9e-7)],
+        "volume-inside-surface-asked": [lambda: enclosed_volume(LINE)],
+        "mesh-sizes-measured-edges": [lambda: node_sizes(POINTS)],
+        "point-opens-cone-lies": [
+            lambda: analytic.cone_shape(*AXIS, np.array([1.0, 1.0, 0.0])),
+        ],
+        "point-project-apex-projection": [
+            lambda: analytic.project(
+                analytic.sphere_shape(AXIS[0], AXIS[1]), RING, None, RING[2]
+            )
+        ],
+        "contour-encloses-no-area": [
+            lambda: charts.plane_chart(RING[[0, 2]], np.stack([RING[[0, 2]], RING[[2, 0]]], axis=1))
+        ],
+        "contour-goes-through-axis": [
+            lambda: charts.cylinder_chart(RING + RING[0], AXIS[0], AXIS[1])
+        ],
+        "contour-goes-round-axis": [lambda: charts.cylinder_chart(RING, AXIS[0], AXIS[1])],
+        "contour-both-sides-apex": [
+            lambda: charts.cone_chart(RING + 3.0 * RING[0], AXIS[0], AXIS[1]),
+            lambda: charts.cone_chart(RING[:, [2, 1, 0]] + 3.0 * RING[0], AXIS[0], AXIS[1]),
+        ],
+        "contour-goes-right-round": [lambda: charts.sphere_chart(RING, AXIS[0])],
+        "lines-seg2-needed-triangulate": [
+            lambda: constrained.triangulated_with_lines(CURVED, 3),
+        ],
+        "lines-not-plane-point": [
+            lambda: constrained.triangulated_with_lines(
+                Mesh.of(TABLE, "SEG2", np.array([[0, 2], [2, 8], [8, 15], [15, 0]])), 3
+            )
+        ],
+        "points-too-few-line": [lambda: constrained.delaunay_mesh(LINE, 2)],
+        "contour-not-line": [
+            lambda: fill.split_contour(
+                Mesh.of(TABLE, "SEG2", np.array([[0, 1], [3, 4]])), LINE, SURE
+            )
+        ],
+        "four-sides-must-same": [lambda: grid.grid_surface([LINE, SURE, LINE, CURVED], None)],
+        "side-surface-no-length": [lambda: grid._along(np.ones((3, 2)))],
+        "lines-contour-not-run": [
+            lambda: surface.contour_cells(
+                Mesh.of(TABLE, "SEG2", np.array([[0, 1], [1, 3], [0, 3], [1, 2], [2, 5], [5, 1]]))
+            )
+        ],
+        "six-faces-qua4-qua8": [lambda: fill_block([QUADS, LINE])],
+    },
+}  # fmt: skip
+CASES = [
+    (room, code, k) for room, codes in REFUSED.items() for code, ways in codes.items()
+    for k in range(len(ways))
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("room", "code", "way"), CASES)
+def test_what_cannot_be_is_refused_by_its_code(room, code, way):
+    with pytest.raises(KernelError) as caught:
+        REFUSED[room][code][way]()
+    assert caught.value.code == f"kernel.{room}.{code}"
