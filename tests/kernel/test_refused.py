@@ -7,6 +7,15 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS
+from ssilang.kernel.interface.laws.law import columns_of
+from ssilang.kernel.materials import behaviours
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.changes.merge import cut_open
 from ssilang.kernel.mesh.combine import polygons
@@ -15,7 +24,7 @@ from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh
 from ssilang.kernel.mesh.lines.lines import line_chain, shortest_line
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
 from ssilang.kernel.mesh.surfaces import analytic, charts, constrained, fill, grid, surface
@@ -24,7 +33,9 @@ from ssilang.kernel.modal import explicit, links, oscillator
 from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
 from ssilang.kernel.waves import layered_half_space as waves
+from tests.kernel.elements.samples import ELASTIC, material
 
+PLANE, ROUND, SPATIAL = Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL
 ONE, TWO = np.ones(1), np.array([1.0, 2.0])
 TABLE = NodeTable()
 TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1, 2)], float))
@@ -100,7 +111,94 @@ def changed(value, **given):
     return lambda: replace(value, **given)
 
 
+def zone(element, mode, *x):
+    """One cell on points (n, d)."""
+    table = NodeTable()
+    nodes = table.add(np.array(x, float))[None]
+    cells = CellBlock.make(table, ELEMENTS[element].cell_type, nodes)
+    return Zone(cells, "MECANIQUE", ELASTIC, element, mode)
+
+
+def stiff(element, mode, *x, **given):
+    """The stiffness of such a cell, of ordinary material."""
+    given = {"YOUN": 1.0, "NU": 0.2, "SECT": 1.0, "EPAI": 0.1, "INRY": 1.0, "INRZ": 1.0,
+             "TORS": 1.0} | given  # fmt: skip
+    at = zone(element, mode, *x)
+    return lambda: families.stiffness(at, material(at, **given))
+
+
+def words(family, *given):
+    return lambda: behaviours.normalised(list(given), family)
+
+
+def checked(law, **given):
+    curves = {n: ([v], np.zeros(1, int)) for n, v in given.items() if isinstance(v, Curve)}
+    arrays = {n: np.array([v, v]) for n, v in given.items() if n not in curves}
+    for values in arrays.values():
+        values[0] = 0.4  # admissible
+    return lambda: PLASTIC_LAWS[law].check(PointParameters(arrays, curves))
+
+
+def joint(check, value):
+    parameters = np.full((2, N_PARAMETERS), 0.1)
+    parameters[1, 0] = value
+    return lambda: check(parameters)
+
+
 REFUSED = {
+    "elements": {
+        "beam-cell-zero-length": [
+            stiff("POUT", SPATIAL, [1, 0, 0], [1, 0, 0]), stiff("TIMO", PLANE, [1, 2], [1, 2])
+        ],
+        "vect-along-beam-must": [stiff("POUT", SPATIAL, [0, 0, 0], [1, 2, 0], VX=-2.0, VY=-4.0)],
+        "line-cell-zero-length": [stiff("BARR", PLANE, [1, 2], [1, 2])],
+        "shell-cell-zero-length": [stiff("COQ2", ROUND, [1, 2], [1, 2])],
+        "shells-off-mesh-exce": [stiff("COQ2", ROUND, [1, 2], [2, 3], EXCE=0.1)],
+        "quadrangle-shell-no-area": [stiff("COQ4", SPATIAL, *RING[[0, 2, 0, 2]])],
+        "triangle-shell-no-area": [stiff("DKT", SPATIAL, [0, 0, 0], [1, 1, 1], [3, 3, 3])],
+        "middle-surface-shell-folds": [stiff("COQ6", SPATIAL, *RING[[0, 0, 0, 0, 0, 0]])],
+        "cell-axisymmetric-model-reaches": [
+            stiff("QUA4", ROUND, [-1, 0], [1, 0], [1, 1], [-1, 1]),
+            stiff("TRI3", ROUND, [-1, 0], [0.5, 0], [0.5, 1]),
+        ],
+        "hoop-on-axis": [stiff("CERC", ROUND, [0, 2])],
+        "generalised-plane-strain-needs": [
+            stiff("TRI3", Mode.GENERALISED_PLANE_STRAIN, [0, 0], [1, 0], [0, 1])
+        ],
+    },
+    "materials": {
+        "elements-family-no-elasticity": [words("bar", "ORTHOTROPE")],
+        "behaviour-joints-only": [words("solid", "JOINT_DILATANT")],
+        "plastic-law-bodies-not": [words("joint", "PLASTIQUE", "PARFAIT")],
+        "elements-family-no-law": [words("solid", "IMPEDANCE")],
+        "impedance-no-law": [
+            words("impedance", "IMPEDANCE", "VOIGT", "REUSS"),
+            words("impedance", "IMPEDANCE", "SOL"),
+            words("impedance", "IMPEDANCE", "MODAL", "STATIQUE"),
+        ],
+        "elements-family-not-creep": [words("joint", "FLUAGE", "NORTON")],
+        "law-creep": [words("solid", "FLUAGE"), words("solid", "FLUAGE", "NORTON", "NORTON")],
+        "creep-goes-elasticity-isotrope": [words("solid", "ORTHOTROPE", "FLUAGE", "NORTON")],
+        "beam-fibres-elastique-section": [words("fibre", "PLASTIQUE", "SECTION")],
+        "elements-family-no-plastic": [
+            words("solid", "PLASTIQUE", "BETON_BAEL"), words("fibre", "PLASTIQUE", "CAM_CLAY")
+        ],
+        "elements-family-no-plastic-law": [words("impedance", "PLASTIQUE", "PARFAIT")],
+        "sections-no-plastic": [words("beam", "PLASTIQUE", "CAM_CLAY")],
+        "plastic-laws-go-elasticity": [words("solid", "ORTHOTROPE", "PLASTIQUE", "PARFAIT")],
+        "drucker-prager-needs-beta": [
+            checked("DRUCKER_PRAGER", **dict.fromkeys(("ALFA", "BETA", "ETA", "MU", "DELT"), 0.4)
+                    | {wrong: value})
+            for wrong, value in (("BETA", 0.0), ("MU", 0.0), ("DELT", -1e-9))
+        ],
+        "rh-coulomb-needs-cohesion": [checked("RH_COULOMB", COHE=0.0, PHI=0.4)],
+        "rh-coulomb-phi": [checked("RH_COULOMB", COHE=1.0, PHI=x) for x in (0.0, np.pi / 2)],
+        "fc-concrete-needs-strength": [checked("BETON_BAEL", FC=0.0)],
+        "curve-strengths-not": [checked("ISOTROPE", ECRO=Curve((CurvePart(TWO, TWO - 1.0),)))],
+    },
+    "interface": {
+        "joint-parameter-not-finite": [joint(columns_of, np.nan), joint(columns_of, np.inf)],
+    },
     "records": {
         "soil-needs-many-thicknesses": [changed(SOIL, density=ONE), changed(SOIL, damping=ONE)],
         "thickness-density-modulus-layer": [
