@@ -172,6 +172,23 @@ def test_nothing_depends_on_how_a_body_is_turned(element, mode):
         near(a, b)
 
 
+@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE])
+def test_rigid_motions_strain_nothing_and_need_no_force(element, mode):
+    two = Two(element, mode, np.eye(3))
+    space = mode in SPACED
+    w, v = (np.array([0.3, -0.5, 0.8]) * [space, space, 1], np.array([1.1, 0.7, 0.9 * space]))
+    u = [v + np.cross(w, two.x), np.tile(w, (len(two.x), 1))]
+    K = families.stiffness(two.zone, two.material)
+    other = two.product(K, two.field(drawn(two, mode)))
+    pushed = two.product(K, two.field(u))
+    size = np.abs(other).max(axis=(1, 2)) / 1e-3
+    assert (np.abs(pushed).max(axis=(1, 2)) <= 1e-9 * size).all()
+    strain = families.strain(two.zone, two.field(u), two.material).components
+    usual = families.strain(two.zone, two.field(drawn(two, mode)), two.material).components
+    for name, values in strain.items():
+        assert np.abs(values).max() <= 1e-8 * np.abs(usual[name]).max()
+
+
 @pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE and e != "SHB8"])
 def test_stresses_that_turn_with_a_body_turn_its_forces(element, mode):
     """Geometric stiffness times a small turn is the turned forces, whatever the stresses.
