@@ -27,8 +27,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
-from ssilang.kernel.mesh.surfaces import analytic, charts, constrained, fill, grid, surface
-from ssilang.kernel.mesh.volumes.block import fill_block
+from ssilang.kernel.mesh.surfaces import charts, surface
 from ssilang.kernel.modal import explicit, links, oscillator
 from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
@@ -236,7 +235,6 @@ REFUSED = {
         "signal-times-must-go": [yielding(times=ONE), yielding(times=TIMES**1.001)],
         "frequency-oscillator-must-positive": [yielding(frequencies=0.0 * ONE)],
         "damping-oscillator-cannot-negative": [yielding(damping=-1e-9)],
-        "baseline-degree": [lambda: filters.without_trend(TIMES, 0.1, 7)],
         "baseline-points": [lambda: filters.without_trend(TIMES[:7], 0.1, 6)],
     },
     "waves": {
@@ -278,11 +276,6 @@ REFUSED = {
                 QUADS, sweep.translation(AXIS[1]), subdivide(1.0, count=2), "QUA4"
             )
         ],
-        "list-layer-positions-needs": [
-            lambda: sweep.listed_cuts(ONE, 1.0), lambda: sweep.listed_cuts(TWO[[0, 1, 0]], 1.0)
-        ],
-        "two-lines-same-nothing": [lambda: sweep.stitch(LINE, LINE)],
-        "cells-type-cannot-joined": [lambda: sweep.cone(BRICK, 17)],
         "no-volume-swept-cells": [
             lambda: sweep.sweep_surface(
                 FIVE, sweep.translation(AXIS[1]), subdivide(1.0, count=2)
@@ -292,18 +285,8 @@ REFUSED = {
             lambda: line_chain(QUADS), lambda: line_chain(Mesh(TABLE, ())),
             lambda: shortest_line(QUADS, 0, 5),
         ],
-        "path-zero-length-cannot": [lambda: subdivide(0.0, 0.1, 0.1)],
-        "mesh-sizes-ask-elements": [lambda: subdivide(1.0, 0.9e-7, 0.9e-7)],
         "volume-inside-surface-asked": [lambda: enclosed_volume(LINE)],
         "mesh-sizes-measured-edges": [lambda: node_sizes(POINTS)],
-        "point-opens-cone-lies": [
-            lambda: analytic.cone_shape(*AXIS, np.array([1.0, 1.0, 0.0])),
-        ],
-        "point-project-apex-projection": [
-            lambda: analytic.project(
-                analytic.sphere_shape(AXIS[0], AXIS[1]), RING, None, RING[2]
-            )
-        ],
         "contour-encloses-no-area": [
             lambda: charts.plane_chart(RING[[0, 2]], np.stack([RING[[0, 2]], RING[[2, 0]]], axis=1))
         ],
@@ -316,28 +299,11 @@ REFUSED = {
             lambda: charts.cone_chart(RING[:, [2, 1, 0]] + 3.0 * RING[0], AXIS[0], AXIS[1]),
         ],
         "contour-goes-right-round": [lambda: charts.sphere_chart(RING, AXIS[0])],
-        "lines-seg2-needed-triangulate": [
-            lambda: constrained.triangulated_with_lines(CURVED, 3),
-        ],
-        "lines-not-plane-point": [
-            lambda: constrained.triangulated_with_lines(
-                Mesh.of(TABLE, "SEG2", np.array([[0, 2], [2, 8], [8, 15], [15, 0]])), 3
-            )
-        ],
-        "points-too-few-line": [lambda: constrained.delaunay_mesh(LINE, 2)],
-        "contour-not-line": [
-            lambda: fill.split_contour(
-                Mesh.of(TABLE, "SEG2", np.array([[0, 1], [3, 4]])), LINE, SURE
-            )
-        ],
-        "four-sides-must-same": [lambda: grid.grid_surface([LINE, SURE, LINE, CURVED], None)],
-        "side-surface-no-length": [lambda: grid._along(np.ones((3, 2)))],
         "lines-contour-not-run": [
             lambda: surface.contour_cells(
                 Mesh.of(TABLE, "SEG2", np.array([[0, 1], [1, 3], [0, 3], [1, 2], [2, 5], [5, 1]]))
             )
         ],
-        "six-faces-qua4-qua8": [lambda: fill_block([QUADS, LINE])],
     },
 }  # fmt: skip
 CASES = [
