@@ -248,6 +248,28 @@ def test_mass_is_that_of_the_matter_in_each_direction(element, mode, lumped):
         near(M.values, M.values * np.eye(M.values.shape[1]), 1e-15)
 
 
+@pytest.mark.parametrize("element", ["POUT", "TIMO", "TUYA"])
+def test_a_line_that_turns_has_the_energy_of_its_sections_in_their_axes(element):
+    two, w = Two(element, Mode.THREE_DIMENSIONAL, np.eye(3)), np.array([0.3, -0.5, 0.8])
+    given = {k: v[:, 0] for k, v in two.material.blocks[0].components.items()}
+    if element == "TUYA":
+        outer, inner = given["RAYO"], given["RAYO"] - given["EPAI"]
+        given["INRY"] = given["INRZ"] = np.pi / 4 * (outer**4 - inner**4)
+        given["SECT"] = np.pi * (outer**2 - inner**2)
+    ends = two.zone.cells.coordinates
+    v = np.cross(w, ends)
+    along = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(along, axis=1)
+    third = np.cross(along, [0.2, 0.9, 0.4])
+    axes = [x / np.linalg.norm(x, axis=1)[:, None] for x in (along, np.cross(third, along), third)]
+    inertia = (given["INRY"] + given["INRZ"], given["INRY"], given["INRZ"])
+    exact = given["SECT"] * (np.vecdot(v[:, 0], v.sum(axis=1)) + np.vecdot(v[:, 1], v[:, 1])) / 3
+    exact += sum(moment * (e @ w) ** 2 for e, moment in zip(axes, inertia, strict=True))
+    M = families.mass(two.zone, two.material)
+    turn = two.vectors(M, two.field([np.cross(w, two.x), np.tile(w, (len(two.x), 1))]))
+    near(np.einsum("ci,cij,cj->c", turn, M.values, turn), given["RHO"] * length * exact, 1e-12)
+
+
 @pytest.mark.parametrize(("element", "mode"), ALL)
 def test_cells_one_by_one_give_what_all_at_once_do(element, mode, monkeypatch):
     two = Two(element, mode, np.eye(3))
