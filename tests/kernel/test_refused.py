@@ -54,6 +54,7 @@ FLAT = (TWO, TWO)
 PLAN = explicit.ModalSteps(0.1, 4)
 MODE = SimpleNamespace(M=np.eye(2), C=np.eye(2), K=np.eye(2), links=None)
 RING = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+SIDES = np.stack([RING, np.roll(RING, -1, axis=0)], axis=1)
 AXIS = np.array([[0.0, 0, 0], [0, 0, 1]])
 TIMES = np.linspace(0.0, 1.0, 11)
 LAW = {"law": np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 3.0]]), "numbers": {links.PLASTIC: 1.0}}
@@ -82,9 +83,9 @@ def floor(damping=0.1, frequencies=ONE, envelope=FLAT, density=FLAT):
     return lambda: floors.floor_spectrum(FLOOR, density, envelope, frequencies, damping)
 
 
-def yielding(frequencies=ONE, damping=0.1, limits=ONE, times=TIMES):
+def yielding(frequencies=ONE, damping=0.1, limits=ONE, times=TIMES, hardening=0.1):
     return lambda: inelastic.yielding_peaks(
-        times, times, frequencies, damping, "CINEMATIQUE", 0.1, limits
+        times, times, frequencies, damping, "CINE", hardening, limits
     )
 
 
@@ -235,6 +236,16 @@ REFUSED = {
         "signal-times-must-go": [yielding(times=ONE), yielding(times=TIMES**1.001)],
         "frequency-oscillator-must-positive": [yielding(frequencies=0.0 * ONE)],
         "damping-oscillator-cannot-negative": [yielding(damping=-1e-9)],
+        "hardening-ratio-lies-left": [yielding(hardening=1.0)],
+        "ductility-least": [
+            lambda: inelastic.limits_for_ductility(TIMES, TIMES, ONE, 0.0, "CINE", 0.0, 0.99, ONE)
+        ],
+        "modulations-need-increasing-limits": [
+            changed(SIGNAL, bands=np.arange(3.0)), changed(SIGNAL, bands=TWO[::-1])
+        ],
+        "modulations-not-go-instant": [
+            changed(SIGNAL, bands=np.arange(3.0), times=(TWO, TWO + 1.0), modulations=(TWO, TWO))
+        ],
         "baseline-points": [lambda: filters.without_trend(TIMES[:7], 0.1, 6)],
     },
     "waves": {
@@ -247,6 +258,7 @@ REFUSED = {
         "frequencies-not-positive": [changed(SPACE, f1=0.0), changed(SPACE, f2=0.0)],
         "record-too-short": [plane(acceleration=ONE), plane(**{"step": 0.1}, acceleration=ONE)],
         "step-not-positive": [plane(0.0)],
+        "angle-not-upwards": [plane(angle=np.pi / 2)],
     },
     "modal": {
         "step-numbers-steps-must": [modes(h=0.0), modes(count=0), modes(every=0)],
@@ -258,6 +270,9 @@ REFUSED = {
         ],
         "damping-oscillator-cannot-negative": [lambda: oscillator.Oscillators(ONE, -1e-9)],
         "frequency-oscillator-must-positive": [lambda: oscillator.Oscillators(0.0 * ONE, 0.1)],
+        "signal-times-must-increase": [
+            lambda: oscillator.response(0.0 * TWO, TWO, 1.0, 0.1),
+        ],
         "default-list-frequencies-too": [
             lambda: oscillator.default_frequencies(np.linspace(0.0, 1.0, 40_100), 0.0)
         ],
@@ -289,6 +304,9 @@ REFUSED = {
         "mesh-sizes-measured-edges": [lambda: node_sizes(POINTS)],
         "contour-encloses-no-area": [
             lambda: charts.plane_chart(RING[[0, 2]], np.stack([RING[[0, 2]], RING[[2, 0]]], axis=1))
+        ],
+        "contour-not-plane-point": [
+            lambda: charts.plane_chart(RING + 0.2 * AXIS[1] * RING[:, :1] ** 2, SIDES)
         ],
         "contour-goes-through-axis": [
             lambda: charts.cylinder_chart(RING + RING[0], AXIS[0], AXIS[1])
