@@ -60,41 +60,35 @@ TIMES = np.linspace(0.0, 1.0, 11)
 LAW = {"law": np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 3.0]]), "numbers": {links.PLASTIC: 1.0}}
 
 
-def contact(**given):
-    return lambda: links._check(2, SimpleNamespace(kind=min(links.CONTACTS), **(LAW | given)))
+def by(function, **usual):
+    """Calls of a function, later, with what is usual but for what is given."""
+    return lambda **given: lambda: function(**usual | given)
+
+
+contact = by(
+    lambda **link: links._check(2, SimpleNamespace(kind=min(links.CONTACTS), **link)), **LAW
+)
+psrs = by(power.response_spectrum, f=TWO, density=TWO, duration=1.0, periods=ONE, damping=0.1,
+          kind="ACCE", law="CRAM")  # fmt: skip
+modulation = by(
+    lambda periods, damping, **numbers: modulated.modulated_response_spectrum(
+        SIGNAL, periods, damping, "ACCE", SimpleNamespace(**numbers)
+    ), periods=ONE, damping=0.1, processes=1, instants=1, precision=0.1,
+)  # fmt: skip
+floor = by(
+    floors.floor_spectrum, storey=FLOOR, power=FLAT, envelope=FLAT, frequencies=ONE, damping=0.1
+)
+yielding = by(inelastic.yielding_peaks, times=TIMES, signal=TIMES, frequencies=ONE, damping=0.1,
+              law="CINE", hardening=0.1, limits=ONE)  # fmt: skip
+column = by(free_field, soil=SOIL, step=0.1, acceleration=TWO, depths=ONE, cutoff=5.0)
 
 
 def law(*rows):
     return contact(law=np.array(rows))
 
 
-def psrs(f=TWO, y=TWO, duration=1.0, periods=ONE, damping=0.1):
-    return lambda: power.response_spectrum(f, y, duration, periods, damping, "ACCE", "CRAM")
-
-
-def modulation(periods=ONE, damping=0.1, **given):
-    resolution = SimpleNamespace(**{"processes": 1, "instants": 1, "precision": 0.1} | given)
-    return lambda: modulated.modulated_response_spectrum(
-        SIGNAL, periods, damping, "ACCE", resolution
-    )
-
-
-def floor(damping=0.1, frequencies=ONE, envelope=FLAT, density=FLAT):
-    return lambda: floors.floor_spectrum(FLOOR, density, envelope, frequencies, damping)
-
-
-def yielding(frequencies=ONE, damping=0.1, limits=ONE, times=TIMES, hardening=0.1):
-    return lambda: inelastic.yielding_peaks(
-        times, times, frequencies, damping, "CINE", hardening, limits
-    )
-
-
 def plane(step=None, **given):
     return lambda: waves.plane_motion(SPACE, replace(WAVE, **given), ONE, ONE, step)
-
-
-def column(step=0.1, cutoff=5.0, acceleration=TWO, depths=ONE):
-    return lambda: free_field(SOIL, step, acceleration, depths, cutoff)
 
 
 def cut(line):
@@ -102,9 +96,8 @@ def cut(line):
 
 
 def modes(M=MODE.M, **given):
-    return lambda: explicit.integrate_modes(
-        SimpleNamespace(**{**vars(MODE), "M": M}), None, replace(PLAN, **given)
-    )
+    problem = SimpleNamespace(**{**vars(MODE), "M": M})
+    return lambda: explicit.integrate_modes(problem, None, replace(PLAN, **given))
 
 
 def changed(value, **given):
@@ -221,8 +214,8 @@ REFUSED = {
             floor(frequencies=0.0 * ONE), floor(envelope=(np.array([2.0, 2.0]), TWO))
         ],
         "power-spectrum-positive-over": [
-            floor(density=(TWO, 0.0 * TWO)), psrs(f=TWO[::-1]), psrs(y=0.0 * TWO),
-            psrs(y=TWO - 1.5), changed(SIGNAL, density=TWO - 1.5),
+            floor(power=(TWO, 0.0 * TWO)), psrs(f=TWO[::-1]), psrs(density=0.0 * TWO),
+            psrs(density=TWO - 1.5), changed(SIGNAL, density=TWO - 1.5),
             changed(SIGNAL, density=0.0 * TWO), changed(SIGNAL, frequencies=TWO[[0, 0]]),
         ],
         "duration-periods-must-positive": [
