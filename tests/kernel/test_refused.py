@@ -10,6 +10,8 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.results.supports import nodal_of_field, values_at_points
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS
 from ssilang.kernel.interface.laws.law import columns_of
 from ssilang.kernel.materials import behaviours
@@ -140,6 +142,7 @@ def joint(check, value):
 
 REFUSED = {
     "elements": {
+        "field-empty": [lambda of=of: of(CellField(())) for of in (values_at_points, nodal_of_field)],
         "beam-cell-zero-length": [
             stiff("POUT", SPATIAL, [1, 0, 0], [1, 0, 0]), stiff("TIMO", PLANE, [1, 2], [1, 2])
         ],

@@ -136,6 +136,13 @@ def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
     assert 0 < np.diff(made.runs).sum() < 0.3 * (len(panels.first) - 1)
 
 
+def test_cells_numbered_through_all_zones_are_those_of_each() -> None:
+    bulk = SimpleNamespace(places=(np.zeros((3, 8)), np.zeros((4, 6)), np.zeros((2, 8))))
+    found = part.by_zone(bulk, np.array([0, 2, 3, 6, 8]))  # type: ignore[arg-type]
+    assert [x.tolist() for x in found] == [[0, 2], [0, 3], [1]]
+    assert [len(x) for x in part.by_zone(bulk, np.array([4]))] == [0, 1, 0]  # type: ignore[arg-type]
+
+
 def test_acceleration_solves_a_linear_problem_in_as_many_turns_as_it_has_unknowns() -> None:
     rng = np.random.default_rng(3)
     A, b = 2.0 * rng.normal(size=(6, 6)), rng.normal(size=6)  # p -> A p + b grows without end
