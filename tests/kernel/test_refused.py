@@ -142,7 +142,7 @@ def joint(check, value):
 
 REFUSED = {
     "elements": {
-        "field-empty": [lambda of=of: of(CellField(())) for of in (values_at_points, nodal_of_field)],
+        "field-empty": [lambda f=f: f(CellField(())) for f in (values_at_points, nodal_of_field)],
         "beam-cell-zero-length": [
             stiff("POUT", SPATIAL, [1, 0, 0], [1, 0, 0]), stiff("TIMO", PLANE, [1, 2], [1, 2])
         ],
