@@ -41,7 +41,8 @@ def main(lines: int = 2000, keys: int = 40) -> None:
     names = server.library.standard_names
     spent: dict[str, list[float]] = {}
     sound = SoundStatements()
-    find_problems(Document.of(text, None, names).source, "en", sound=sound)
+    opened = Document.of(text, None, names)
+    find_problems(opened.source, "en", sound=sound)
     gc.freeze()  # as the server does
 
     def timed(label, action):  # type: ignore[no-untyped-def]
@@ -53,8 +54,7 @@ def main(lines: int = 2000, keys: int = 40) -> None:
     for i in range(keys):
         at = (2 * i + 1) * len(text) // (2 * keys)
         typed = text[:at] + "A" + text[at:]
-        document = Document.of(typed, None, names)
-        timed("cut the text", lambda d=document: d.names)
+        document = timed("cut", lambda t=typed: Document.of(t, None, names, opened))
         timed(
             "completion", lambda d=document, o=at: complete.candidates(d, o, server.library, "en")
         )

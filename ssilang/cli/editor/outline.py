@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ssilang.cli.editor.document import Document
-from ssilang.cli.editor.names import Kind
-from ssilang.cli.editor.tokens import Phrase
+from ssilang.cli.editor.tokens import BEGINS, Kind, Phrase
 from ssilang.language.registry import find_operator
-from ssilang.language.text.source import Source
 
-OPENS = {"DEBP": "FINP", "DEBM": "FINM", "SI": "FINS", "REPE": "FIN"}
+OPENS = {**BEGINS, "SI": "FINS", "REPE": "FIN"}
 CONTROL = frozenset({*OPENS, *OPENS.values(), "SINO", "QUIT", "ITER"})
 
 Colour = Literal[
@@ -77,11 +75,11 @@ def _blocks(document: Document) -> Iterator[Block]:
     """Procedures, loops and conditions that are closed."""
     stack: list[Phrase] = []
     for phrase in document.phrases:
-        word = phrase.first_word
+        word = phrase.cut.first_word
         if word in OPENS:
             stack.append(phrase)
-        elif word in OPENS.values() and (word != "FIN" or len(phrase.tokens) > 1):
-            while stack and OPENS[stack[-1].first_word] != word:
+        elif word in OPENS.values() and (word != "FIN" or len(phrase.cut.tokens) > 1):
+            while stack and OPENS[stack[-1].cut.first_word] != word:
                 stack.pop()
             if stack:
                 opened = stack.pop()
@@ -111,7 +109,7 @@ def folds(document: Document) -> Iterator[tuple[int, int, str]]:
 
 def colours_of_text(text: str) -> list[tuple[int, int, Colour]]:
     """The colours of a script's text."""
-    return colours(Document(Source("script", text)))
+    return colours(Document.of(text))
 
 
 def colours(document: Document) -> list[tuple[int, int, Colour]]:

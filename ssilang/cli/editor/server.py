@@ -112,7 +112,12 @@ class Server(LanguageServer):
         if held is not None and held.version == text.version:
             return held.document
         path = to_fs_path(uri)
-        made = Document.of(text.source, Path(path) if path else None, self.library.standard_names)
+        made = Document.of(
+            text.source,
+            Path(path) if path else None,
+            self.library.standard_names,
+            held.document if held is not None else None,
+        )
         if held is None:
             self.open[uri] = Open(made, text.version)
         else:
@@ -412,9 +417,11 @@ def _names(server: Server) -> None:
 def _renamable(new: str, document: Document) -> bool:
     """Whether a name may be given: a word that is free, and names no operator."""
     made = Document.of(f"{new} = 1 ;")
-    whole = len(made.tokens) == 4 and made.tokens[0].text == new and made.tokens[0].kind == "WORD"
-    taken = {o.name for o in document.names.found}
-    return whole and new.upper() not in taken and find_operator(new.upper()) is None
+    kinds = [[t.kind for t in phrase.cut.tokens] for phrase in made.phrases]
+    whole = kinds == [["WORD", "_EQUAL", "INTEGER"]] and made.phrases[0].cut.tokens[0].text == new
+    return (
+        whole and new.upper() not in document.names.defined and find_operator(new.upper()) is None
+    )
 
 
 # ---- layout ----------------------------------------------------------------------------------
