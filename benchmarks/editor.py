@@ -8,7 +8,6 @@ pipe to an editor adds is not counted. Problems are looked for when no key comes
 shown beside.
 """
 
-import gc
 import re
 import statistics
 import sys
@@ -20,7 +19,7 @@ from ssilang.cli.editor import complete, outline
 from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.information import Reader
 from ssilang.cli.editor.problems import Findings, find_problems
-from ssilang.cli.editor.server import make_server
+from ssilang.cli.editor.server import make_server, spare_collections
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -43,7 +42,7 @@ def main(lines: int = 2000, keys: int = 40) -> None:
     sound = SoundStatements()
     opened = Document.of(text, None, names)
     find_problems(opened.source, "en", sound=sound)
-    gc.freeze()  # as the server does
+    spare_collections()
 
     def timed(label, action):  # type: ignore[no-untyped-def]
         start = time.process_time()

@@ -79,6 +79,11 @@ class Document:
     def _starts(self) -> list[int]:
         return [p.start for p in self.phrases]
 
+    def within(self, start: int, end: int) -> Sequence[Phrase]:
+        """The statements of a part of the text, those too that only reach into it."""
+        first = max(0, bisect_right(self._starts, start) - 1)
+        return self.phrases[first : bisect_right(self._starts, end)]
+
     def phrase_at(self, offset: int) -> Phrase | None:
         """The statement that an offset stands in: from its first token to its semicolon."""
         i = bisect_right(self._starts, offset) - 1

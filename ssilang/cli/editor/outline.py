@@ -112,15 +112,19 @@ def colours_of_text(text: str) -> list[tuple[int, int, Colour]]:
     return colours(Document.of(text))
 
 
-def colours(document: Document) -> list[tuple[int, int, Colour]]:
-    """Start, end and colour of each word and comment, in the order of the text."""
+def colours(
+    document: Document, start: int = 0, end: int | None = None
+) -> list[tuple[int, int, Colour]]:
+    """Start, end and colour of each word and comment, in the order of the text or of its part."""
+    text, defined = document.source.text, document.names.defined
+    end = len(text) if end is None else end
     found: list[tuple[int, int, Colour]] = [
-        (m.start(), m.end(), "comment") for m in _COMMENT.finditer(document.source.text)
+        (m.start(), m.end(), "comment") for m in _COMMENT.finditer(text, start, end)
     ]
-    kinds = {o.start: o.kind for o in document.names.found}
-    for phrase in document.phrases:
-        for i, token in enumerate(phrase.tokens):
-            before = phrase.tokens[i - 1].kind if i else ""
+    for phrase in document.within(start, end):
+        at, before = phrase.start, ""
+        kinds = {n.start: n.kind for n in phrase.cut.names if n.name in defined}
+        for i, token in enumerate(phrase.cut.tokens):
             colour: Colour | None = None
             if token.kind == "STRING":
                 colour = "property" if before == "_DOT" else "string"
@@ -130,8 +134,9 @@ def colours(document: Document) -> list[tuple[int, int, Colour]]:
                 colour = "operator"
             elif token.kind == "WORD":
                 colour = _of_word(token.name, i, before, kinds.get(token.start), document)
-            if colour is not None:
-                found.append((token.start, token.end, colour))
+            if colour is not None and start <= at + token.start < end:
+                found.append((at + token.start, at + token.end, colour))
+            before = token.kind
     return sorted(found)
 
 
