@@ -4,6 +4,7 @@ import ast
 import re
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -83,23 +84,47 @@ def _files() -> dict[str, Path]:
     return found
 
 
-def _imports(text: str, known: frozenset[str]) -> set[str]:
-    """Modules that a text imports anywhere: at the top, in functions, for types alone."""
-    found = set()
-    for node in ast.walk(ast.parse(text)):
+@cache
+def _read(path: Path) -> tuple[frozenset[str], int]:
+    """Modules and what is named in them that a file imports; its lines in bodies."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return frozenset(_imported(tree)), _lines_in_bodies(tree)
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """All statements in one, and itself: most of a tree are the expressions in them."""
+    waiting = [node]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        for name in ("body", "orelse", "finalbody", "handlers", "cases"):
+            inner = getattr(node, name, None)
+            waiting += inner if isinstance(inner, list) else []
+
+
+def _imported(tree: ast.Module) -> Iterator[str]:
+    """Names of modules imported anywhere, at the top, in functions, for types, and names of these."""
+    for node in _statements(tree):
         if isinstance(node, ast.Import):
-            found |= {a.name for a in node.names}
+            yield from (a.name for a in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            for a in node.names:
-                inside = f"{node.module}.{a.name}"
-                found.add(inside if inside in known else node.module)
+            yield from (f"{node.module}:{a.name}" for a in node.names)
+
+
+def _imports(names: Iterable[str], known: frozenset[str]) -> set[str]:
+    """Modules of ours among names of imports."""
+    found = set()
+    for name in names:
+        module, _, inside = name.partition(":")
+        whole = f"{module}.{inside}"
+        found.add(whole if whole in known else module)
     return found & known
 
 
 @cache
 def _arrows() -> dict[str, set[str]]:
     known = frozenset(_files())
-    return {name: _imports(p.read_text(encoding="utf-8"), known) for name, p in _files().items()}
+    return {name: _imports(_read(p)[0], known) for name, p in _files().items()}
 
 
 def _in_circles(arrows: dict[str, set[str]]) -> set[str]:
@@ -118,7 +143,7 @@ def test_circles_are_found_where_there_are_some():
     assert _in_circles({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == set()
     known = frozenset({"ssilang.a", "ssilang.b", "ssilang.b.c"})
     text = "if TYPE_CHECKING:\n    import ssilang.a\ndef f():\n    from ssilang.b import c, d\n"
-    assert _imports(text, known) == {"ssilang.a", "ssilang.b.c", "ssilang.b"}
+    assert _imports(_imported(ast.parse(text)), known) == {"ssilang.a", "ssilang.b.c", "ssilang.b"}
 
 
 def test_files_import_each_other_in_no_circle():
@@ -157,12 +182,12 @@ def test_rooms_have_at_most_twenty_doors():
     assert {r: n for r, n in counts.items() if n > DOORS} == {}
 
 
-def _lines_in_bodies(path: Path) -> int:
+def _lines_in_bodies(tree: ast.Module) -> int:
     """Lines of statements in functions, of compound ones the first; no docstrings, no comments."""
     rows: set[int] = set()
-    for function in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for function in _statements(tree):
         if isinstance(function, ast.FunctionDef):
-            for node in ast.walk(function):
+            for node in _statements(function):
                 said = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
                 if isinstance(node, ast.stmt) and node is not function and not said:
                     inner = hasattr(node, "body") or hasattr(node, "cases")
@@ -174,7 +199,7 @@ def _lines_in_bodies(path: Path) -> int:
 def test_rooms_stay_below_their_caps():
     found = dict.fromkeys(CAPS, 0)
     for path in _PACKAGE.rglob("*.py"):
-        place, lines = f"{path.relative_to(_PACKAGE).as_posix()}", _lines_in_bodies(path)
+        place, lines = f"{path.relative_to(_PACKAGE).as_posix()}", _read(path)[1]
         for room in CAPS:
             found[room] += lines * (not room or place.startswith(f"{room}/"))
     assert found[""] > 10_000

@@ -44,12 +44,15 @@ NAMES = frozenset(
     SIGPIPE SIGQUIT SIGCHLD setitimer alarm PROT_READ MAP_SHARED MAP_PRIVATE
     """.split()  # noqa: SIM905  # a list would take a screen
 )
+WORDS = re.compile(rf"\b({'|'.join(MODULES | NAMES)})\b")  # most modules have none of them
 
 
 def used(path: Path) -> set[str]:
     """The names of POSIX alone that a module uses."""
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    text, found = path.read_text(encoding="utf-8"), set[str]()
+    if not WORDS.search(text):
+        return found
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Attribute):
             found.add(node.attr)
         elif isinstance(node, ast.ImportFrom):
@@ -58,13 +61,9 @@ def used(path: Path) -> set[str]:
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("getattr", "hasattr"):
             found |= {a.value for a in node.args if isinstance(a, ast.Constant)}
-    return found & (MODULES - {"resource"} | NAMES) | _resource(path)
-
-
-def _resource(path: Path) -> set[str]:
-    """The module of that name: a function of ours is called so, too."""
-    said = re.search(r"^\s*import resource\b", path.read_text(encoding="utf-8"), re.MULTILINE)
-    return {"resource"} if said else set()
+    # a function of ours is called as the module of resources is
+    said = {"resource"} if re.search(r"^\s*import resource\b", text, re.MULTILINE) else set()
+    return found & (MODULES - {"resource"} | NAMES) | said
 
 
 def test_what_posix_alone_has_stands_in_one_module() -> None:
@@ -97,14 +96,21 @@ def imported(path: Path) -> set[str]:
     return found
 
 
+@cache
+def dependent() -> tuple[str, ...]:
+    """Files of the package that use a module whose types are not the same on all systems."""
+    said = re.compile(rf"^\s*(from|import)\s.*\b({'|'.join(dependent_modules())})\b", re.MULTILINE)
+    near = [p for p in sorted(_ROOT.rglob("*.py")) if said.search(p.read_text(encoding="utf-8"))]
+    return tuple(str(p) for p in near if imported(p) & dependent_modules())
+
+
 def type_errors(platform: str, bad: Path) -> list[str]:
     """What mypy finds on a system in modules that use what differs, each by itself alone."""
-    files = [str(p) for p in sorted(_ROOT.rglob("*.py")) if imported(p) & dependent_modules()]
     done = subprocess.run(
         [sys.executable, "-m", "mypy", "--config-file", str(bad.with_name("mypy.ini")),
          "--platform", platform, "--follow-imports", "skip", "--ignore-missing-imports",
          "--check-untyped-defs", "--python-version", "3.11", "--cache-dir", os.devnull,
-         "--no-error-summary", *files, str(bad)],
+         "--no-error-summary", *dependent(), str(bad)],
         cwd=_ROOT.parent, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode in (0, 1), done.stderr
