@@ -5,9 +5,7 @@ import gc
 import importlib.util
 import os
 import sys
-import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,13 +13,12 @@ import pytest
 from hypothesis import HealthCheck, settings
 from not_tested import pytest_terminal_summary  # noqa: F401
 
-from ssilang import late_imports, system
+from ssilang import late_imports
 from ssilang.cli.main import SELDOM
 from ssilang.cli.sweeping import trunk, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
 from ssilang.io.plots import figure
 from ssilang.kernel.base import compiled
-from ssilang.kernel.base.compiled import beside, cache
 from ssilang.kernel.solvers.backends import keep_factors
 
 # processes that tests start keep their byte code, as a person's do: half of a start otherwise
@@ -64,35 +61,6 @@ class _Nothing(set[str]):
 
 
 compiled.ALLOWED = _Nothing()
-
-
-@pytest.fixture(scope="session", autouse=True)
-def compiled_by_one(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """A function that several processes of tests need is compiled by the first: others load it."""
-    place, held = tmp_path_factory.getbasetemp().parent, set[str]()
-
-    @contextmanager
-    def taking(name: str) -> Iterator[bool]:
-        if name in held:
-            yield True
-            return
-        with (place / f"compiling-{cache.digest(name)}").open("w") as claim:
-            for _ in range(30_000):  # who waits is called by nothing that he holds up
-                try:
-                    system.lock(claim.fileno())
-                    break
-                except BlockingIOError:
-                    time.sleep(0.01)
-            held.add(name)
-            try:
-                yield True
-            finally:
-                held.discard(name)
-
-    with pytest.MonkeyPatch.context() as patch:
-        if "PYTEST_XDIST_WORKER" in os.environ:
-            patch.setattr(beside.BESIDE, "taking", taking)
-        yield
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -103,7 +103,7 @@ def _statements(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def _imported(tree: ast.Module) -> Iterator[str]:
-    """Names of modules imported anywhere, at the top, in functions, for types, and names of these."""
+    """Names of modules imported anywhere, for types alone too, and of what is named in them."""
     for node in _statements(tree):
         if isinstance(node, ast.Import):
             yield from (a.name for a in node.names)

@@ -1,6 +1,7 @@
 """Plastic laws at points: consistent tangents, admissible stresses, closed forms."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -95,6 +96,19 @@ def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...
 def test_every_law_of_solids_and_of_fibres_is_tested() -> None:
     elsewhere = {"CAM_CLAY"}  # has a test of its own: its elasticity is not that of YOUN and NU
     assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*PLASTIC_LAWS}
+
+
+@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
+def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) -> None:
+    """Plane stress: what is left of a stress that returned from far is rounding of where it was."""
+    p, turns = parameters("PARFAIT"), []
+    law = replace(PLASTIC_LAWS["PARFAIT"], respond=lambda *a: turns.append(1) or perfect(*a))
+    perfect, strain = PLASTIC_LAWS["PARFAIT"].respond, size * steps(3)[1]
+    found, taken = respond_held(law, p, np.zeros((M, 6)), strain, np.zeros((M, 1)), (2,))
+    assert len(turns) <= 16
+    q = mises(found.stress)[0]
+    # rounding of the elastic stress from which a point returns, in moduli of 1000
+    assert np.abs(q[q > 0.9] - 1.0).max() <= 1e-12 * max(1.0, 1e3 * np.abs(taken).max())
 
 
 @pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
