@@ -32,7 +32,7 @@ T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = {steps} ;
 T2 = DYNAMIC T ;
 """
 SHORT = MODEL.format(dt=1e-3, end=0.1, every=10, steps=20)
-LONG = MODEL.format(dt=1e-3, end=4.0, every=400, steps=200)
+LONG = MODEL.format(dt=1e-3, end=3.0, every=300, steps=200)
 
 
 @pytest.fixture
