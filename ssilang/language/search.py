@@ -121,6 +121,7 @@ class Item:
     text: str = ""
 
 
+@lru_cache(10_000)  # a search asks for each text once a word
 def fold(text: str) -> str:
     """Lower case without accents."""
     parts = unicodedata.normalize("NFKD", text.replace("œ", "oe"))

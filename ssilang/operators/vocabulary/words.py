@@ -48,6 +48,7 @@ _LINES = 12  # of meanings in a hint
 # ---- zones that stand for a law or an element ---------------------------------------------------
 
 
+@cache
 def sample(
     element: str, mode: Mode, behaviour: tuple[str, ...] = (), formulation: str = "MECANIQUE"
 ) -> Zone:
