@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.materials.plastic import cone
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
@@ -109,6 +110,19 @@ def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) 
     q = mises(found.stress)[0]
     # rounding of the elastic stress from which a point returns, in moduli of 1000
     assert np.abs(q[q > 0.9] - 1.0).max() <= 1e-12 * max(1.0, 1e3 * np.abs(taken).max())
+
+
+@pytest.mark.parametrize("name", ["ISOTROPE", "J2", "DRUCKER_PRAGER"])
+def test_flow_is_found_in_few_turns_however_little_it_is(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    law, p, turns = PLASTIC_LAWS[name], parameters(name), []
+    stiffness = cone._Flow._stiffness
+    monkeypatch.setattr(cone._Flow, "_stiffness", lambda *a: turns.append(1) or stiffness(*a))
+    for seed in range(40):
+        before, blank = len(turns), np.zeros((M, len(law.variables)))
+        law.respond(p, np.zeros((M, 6)), 0.1 * steps(seed)[1], blank)
+        assert len(turns) - before <= 12
 
 
 @pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
