@@ -4,7 +4,7 @@ import ast
 import re
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -84,13 +84,6 @@ def _files() -> dict[str, Path]:
     return found
 
 
-@cache
-def _read(path: Path) -> tuple[frozenset[str], int]:
-    """Modules and what is named in them that a file imports; its lines in bodies."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    return frozenset(_imported(tree)), _lines_in_bodies(tree)
-
-
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
     """All statements in one, and itself: most of a tree are the expressions in them."""
     waiting = [node]
@@ -102,29 +95,23 @@ def _statements(node: ast.AST) -> Iterator[ast.AST]:
             waiting += inner if isinstance(inner, list) else []
 
 
-def _imported(tree: ast.Module) -> Iterator[str]:
-    """Names of modules imported anywhere, for types alone too, and of what is named in them."""
-    for node in _statements(tree):
-        if isinstance(node, ast.Import):
-            yield from (a.name for a in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            yield from (f"{node.module}:{a.name}" for a in node.names)
-
-
-def _imports(names: Iterable[str], known: frozenset[str]) -> set[str]:
-    """Modules of ours among names of imports."""
+def _imports(text: str, known: frozenset[str]) -> set[str]:
+    """Modules that a text imports anywhere: at the top, in functions, for types alone."""
     found = set()
-    for name in names:
-        module, _, inside = name.partition(":")
-        whole = f"{module}.{inside}"
-        found.add(whole if whole in known else module)
+    for node in _statements(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found |= {a.name for a in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            for a in node.names:
+                inside = f"{node.module}.{a.name}"
+                found.add(inside if inside in known else node.module)
     return found & known
 
 
 @cache
 def _arrows() -> dict[str, set[str]]:
     known = frozenset(_files())
-    return {name: _imports(_read(p)[0], known) for name, p in _files().items()}
+    return {name: _imports(p.read_text(encoding="utf-8"), known) for name, p in _files().items()}
 
 
 def _in_circles(arrows: dict[str, set[str]]) -> set[str]:
@@ -143,7 +130,7 @@ def test_circles_are_found_where_there_are_some():
     assert _in_circles({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == set()
     known = frozenset({"ssilang.a", "ssilang.b", "ssilang.b.c"})
     text = "if TYPE_CHECKING:\n    import ssilang.a\ndef f():\n    from ssilang.b import c, d\n"
-    assert _imports(_imported(ast.parse(text)), known) == {"ssilang.a", "ssilang.b.c", "ssilang.b"}
+    assert _imports(text, known) == {"ssilang.a", "ssilang.b.c", "ssilang.b"}
 
 
 def test_files_import_each_other_in_no_circle():
@@ -182,10 +169,10 @@ def test_rooms_have_at_most_twenty_doors():
     assert {r: n for r, n in counts.items() if n > DOORS} == {}
 
 
-def _lines_in_bodies(tree: ast.Module) -> int:
+def _lines_in_bodies(path: Path) -> int:
     """Lines of statements in functions, of compound ones the first; no docstrings, no comments."""
     rows: set[int] = set()
-    for function in _statements(tree):
+    for function in _statements(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(function, ast.FunctionDef):
             for node in _statements(function):
                 said = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
@@ -199,7 +186,7 @@ def _lines_in_bodies(tree: ast.Module) -> int:
 def test_rooms_stay_below_their_caps():
     found = dict.fromkeys(CAPS, 0)
     for path in _PACKAGE.rglob("*.py"):
-        place, lines = f"{path.relative_to(_PACKAGE).as_posix()}", _read(path)[1]
+        place, lines = f"{path.relative_to(_PACKAGE).as_posix()}", _lines_in_bodies(path)
         for room in CAPS:
             found[room] += lines * (not room or place.startswith(f"{room}/"))
     assert found[""] > 10_000

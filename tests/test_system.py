@@ -18,6 +18,7 @@ from pathlib import Path
 
 import mypy
 import pytest
+from script_runs import HOPPING
 
 import ssilang
 from ssilang import system
@@ -222,22 +223,8 @@ def ran(bare: dict[str, str], folder: Path, *arguments: str, code: int = 0) -> s
     return out + err
 
 
-MODEL = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ; LIN1 = PROG 0. PAS 1.E-3 {end} ;
-PS = 0. -1. ; PM = 0. 0. ; JOI = MANU 'SEG2' PS PM ;
-MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
-T . 'RIGI' = (BLOQ 'UX' 'UY' PS) ET (BLOQ 'UX' PM) ; T . 'MASS' = MASS 'DEPL' 1.E3 PM ;
-T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E7 'KS' 0. ;
-T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E4) PM)) ET
-  (CHAR 'MECA' (FORC (0. 3.E4) PM) (EVOL 'MANU' LIN1 (SIN (LIN1 * 500.)))) ;
-T . 'TEMPS_CALCULES' = LIN1 ; T . 'PAS_SAUVES' = {every} ;
-T . 'PAS_SAUVES_VTK' = {every} ; T . 'MAILLAGE_VTK' = JOI ;
-T . 'PAS_SAUVES_CSV' = 1 ; T . 'MAILLAGE_CSV' = PM ;
-T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = {steps} ;
-T2 = DYNAMIC T ;
-"""
-SHORT = MODEL.format(end=0.1, every=1, steps=20)
-LONG = MODEL.format(end=10.0, every=100, steps=200)
+SHORT = HOPPING.format(dt=1e-3, end=0.1, every=1, steps=20)
+LONG = HOPPING.format(dt=1e-3, end=10.0, every=100, steps=200)
 
 
 def state(folder: Path) -> dict[str, bytes]:

@@ -54,7 +54,9 @@ def test_noisy_weighted_values_give_what_scipy_finds():
     true = (2.0, -0.7, 0.9, 4.1)
     measured = shape(true) + NOISE
     peer, plain = (
-        least_squares(lambda z: w * (shape(z) - measured), true, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        least_squares(
+            lambda z, w=w: w * (shape(z) - measured), true, xtol=1e-15, ftol=1e-15, gtol=1e-15
+        )
         for w in (np.sqrt(WEIGHTS), 1.0)
     )
     found = fitted(measured, BOUNDS + f"T . 'POIDS' = {prog(WEIGHTS)} ;")

@@ -38,8 +38,7 @@ def respond_held(
     for turn in range(TURNS):
         rest = found.stress[:, h]
         block = (moduli if turn == 0 else found.tangent)[:, h[:, None], h[None, :]]
-        # what flows far comes from a stress whose rounding is all that is left
-        rounding = 0.03 * np.abs(moduli @ whole[..., None])[..., 0]
+        rounding = 0.03 * np.abs(moduli @ whole[..., None])[..., 0]  # of where it returned from
         size = np.maximum(np.abs(found.stress), rounding).max(axis=1)
         if (np.abs(rest).max(axis=1) <= 1e-13 * size + 1e-300).all():
             break
