@@ -223,7 +223,6 @@ def ran(bare: dict[str, str], folder: Path, *arguments: str, code: int = 0) -> s
     return out + err
 
 
-SHORT = HOPPING.format(dt=1e-3, end=0.1, every=1, steps=20)
 LONG = HOPPING.format(dt=1e-3, end=10.0, every=100, steps=200)
 
 
@@ -234,20 +233,8 @@ def state(folder: Path) -> dict[str, bytes]:
     return found
 
 
-def test_steps_and_series_are_the_same_without_posix(bare: dict[str, str], tmp_path: Path) -> None:
-    (tmp_path / "case.ssi").write_text(SHORT)
-    ran(bare, tmp_path, "case.ssi")
-    ran(dict(os.environ), tmp_path, "case.ssi", "--out", "truth")
-    there = tmp_path / "results" / "case"
-    assert state(there) == state(tmp_path / "truth")
-    assert sorted(p.name for p in there.iterdir()) == sorted(
-        p.name for p in (tmp_path / "truth").iterdir()
-    )
-    assert '"peak_memory_mb": null' in (there / "summary.json").read_text()
-
-
 def test_a_killed_run_goes_on_without_posix(bare: dict[str, str], tmp_path: Path) -> None:
-    """And its folder is held as long as it lives, and let go of when it is killed."""
+    """To the files of a run that has all; its folder is held as long as it lives."""
     (tmp_path / "case.ssi").write_text(LONG)
     process = started(bare, tmp_path, "case.ssi")
     there = tmp_path / "results" / "case"
@@ -266,6 +253,9 @@ def test_a_killed_run_goes_on_without_posix(bare: dict[str, str], tmp_path: Path
     assert not (there / ".running").exists()
     ran(dict(os.environ), tmp_path, "case.ssi", "--out", "truth")
     assert state(there) == state(tmp_path / "truth")
+    names = [sorted(p.name for p in f.iterdir()) for f in (there, tmp_path / "truth")]
+    assert names[0] == names[1]
+    assert '"peak_memory_mb": null' in (there / "summary.json").read_text()
 
 
 def test_a_sweep_needs_no_forks(bare: dict[str, str], tmp_path: Path) -> None:
