@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from script_runs import found
 
-from ssilang.cli.run import run_text
-
 RING = (
     "OPTI DIME 2 MODE AXIS ; P = {r} 0. ;"
     "M = MODE (MANU POI1 P) 'MECANIQUE' 'ELASTIQUE' {law} 'CERC' ;"
@@ -49,9 +47,3 @@ def test_a_ring_yields_as_a_wire():
     force = found(script, "N")
     slope = 2e11 * 2e10 / (2e11 + 2e10)
     assert force == pytest.approx(1e-4 * (2e8 + slope * 1e-3), rel=1e-9)
-
-
-def test_a_ring_on_the_axis_is_refused():
-    result = run_text(RING.format(r=0.0, law="", values="") + "K = RIGI M A ;")
-    assert result.exit_code != 0
-    assert "has a radius" in result.message

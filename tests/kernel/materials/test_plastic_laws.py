@@ -328,7 +328,16 @@ def test_points_have_each_their_own_answer(name: str) -> None:
     stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
     alone = [(np.zeros((1, 6)), variables[:1])] * m
     for step in (*steps(7), *steps(8)):
-        found = law.respond(p, stress, step[:m], variables)
+        given = (stress, step[:m], variables)
+        kept = [x.copy() for x in given]
+        found = law.respond(p, *given)
+        for x, before in zip(given, kept, strict=True):
+            np.testing.assert_array_equal(x, before)
+        if name in FIBRES:  # elastic shear beside them, nothing else
+            sheared = stress[:, 3:5] + p.values["YOUN"][:, None] / 2.0 / (
+                1.0 + p.values["NU"][:, None]) * step[:m, 3:5]  # fmt: skip
+            np.testing.assert_allclose(found.stress[:, 3:5], sheared, rtol=1e-12)
+            assert not found.stress[:, [1, 2, 5]].any()
         for i in range(m):
             one = p.at(np.array([i]))
             alike = law_at(PLASTIC_LAWS[name], one)
