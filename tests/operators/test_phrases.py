@@ -37,7 +37,9 @@ def oscillator(frequency, damping, values, times, start=(0.0, 0.0)):
 KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
 KNOWN |= {"sig": signal, "osc": oscillator, "T8": np.arange(8) / 2}
 KNOWN |= {"G8": np.array([0, 2, -1, 3, 0.5, -4, 1, 2])}
-ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
+ROWS = [
+    pytest.param(g, p, id=f"{g}-{p}") for g, group in GROUPS.items() for p in group if p != "before"
+]
 
 
 @pytest.fixture(scope="module")
