@@ -261,8 +261,9 @@ S2 = R ET Q ET (MANU 'TRI3' E F C) ; M = (MODE Q 'MECANIQUE') ET (MODE R 'MECANI
 U = (MANU 'CHPO' (E ET B) 1 'UX' (PROG 3. 5.)) ET (MANU 'CHPO' (B ET C) 1 'UY' (PROG -1. 2.)) ;
 K = (NOMC 'A' (CHAN 'CHAM' (COOR 1 S) M)) ET (MANU 'CHML' (MODE R 'MECANIQUE') 'B' 6. 'NOEUD') ;
 G = TABL ; G . 'TEMPS' = TABL ; G . 'DEPLACEMENTS' = TABL ; G . 'VITESSES' = TABL ; T = TABL ;
-G . 'TEMPS' . 1 = 2. ; G . 'TEMPS' . 0 = 0.5 ; G . 'DEPLACEMENTS' . 1 = 4. * U ; G . 'VITESSES' . 0 = U ;
-G . 'DEPLACEMENTS' . 0 = EXCO 'UX' U 'UX' ; G . 'VITESSES' . 1 = U - 1. ; REPE W 20 ; T . &W = &W * &W ; FIN W ;
+G . 'TEMPS' . 1 = 2. ; G . 'TEMPS' . 0 = 0.5 ; G . 'DEPLACEMENTS' . 1 = 4. * U ;
+G . 'VITESSES' . 0 = U ; G . 'DEPLACEMENTS' . 0 = EXCO 'UX' U 'UX' ; G . 'VITESSES' . 1 = U - 1. ;
+REPE W 20 ; T . &W = &W * &W ; FIN W ;
 """
 
 

@@ -24,15 +24,6 @@ def test_removing_an_index_leaves_the_first_table(found):
     assert (a, b) == (1, 0)
 
 
-def test_vectors_add_and_scale(found):
-    made = found(
-        "T = TABL 'VECTEUR' ; T . 'X' = 2. ; U = TABL 'VECTEUR' ; U . 'X' = 3. ; U . 'Y' = 1. ; "
-        "V = (T + U) * 2. ;",
-        "V",
-    )
-    assert (made.get("X"), made.get("Y")) == (10.0, 2.0)
-
-
 def test_sum_and_union_of_a_table(found):
     total, joined = found(
         "T = TABL 'ESCLAVE' ; T . 1 = PROG 1. ; T . 2 = PROG 5. ; S = + T ; L = ET T ;", "S", "L"
