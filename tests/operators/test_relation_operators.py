@@ -112,16 +112,6 @@ def test_symmetry_without_a_distance_says_what_to_give():
     assert "OPTI DENS" in result.message
 
 
-def test_spring_along_a_direction_resists_only_along_it():
-    script = PLANE + (
-        "K = (APPU 'DIRE' (1. 1.) 8. P1) ET (APPU 'UX' 'UY' 2. P1) ;U = RESO K (FORC 'FX' 1. P1) ;"
-    )
-    u = objects(script, "U")
-    # springs 10 along (1, 1), 2 across
-    expected = [0.5 / 10.0 + 0.5 / 2.0, 0.5 / 10.0 - 0.5 / 2.0]
-    np.testing.assert_allclose([u.values_at(c, [1])[0] for c in ("UX", "UY")], expected)
-
-
 def test_rigid_body_keeps_its_shape_under_a_couple():
     script = PLANE + (
         "L1 = DROI 3 (0. 1.) (3. 1.) ; R = RELA 'CORI' 'DEPL' (P0 ET P2 ET L1) ;"

@@ -26,7 +26,7 @@ from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
 from ssilang.operators.models.mode import LAW_WORDS
 from ssilang.operators.session.options import READERS
-from ssilang.operators.vocabulary import words
+from ssilang.operators.vocabulary import pages, words
 from ssilang.operators.vocabulary.law_tables import law_tables
 from ssilang.operators.vocabulary.pages import exact_pages, help_text, near_name, vocabulary_text
 
@@ -312,3 +312,34 @@ def test_the_tables_of_mate_hold_what_the_kernel_asks_for():
     )  # fmt: skip
     assert "YOUN" not in rows  # of isotropic elasticity
     assert [row[0] for row in tables["PLASTIQUE IWAN_PRESSION"].rows] == ["PREF"]
+
+
+@pytest.mark.parametrize(
+    ("name", "own", "other"),
+    [
+        ("CONTACT", "UNILATERAL FROTTANT COULOMB", "PARFAIT POINT_PLAN PRESSION JOINT_SDM"),
+        ("LIAISON", "POINT_PLAN POINT_CERCLE", "PARFAIT UNILATERAL PRESSION JOINT_SDM"),
+        ("MECANIQUE", "PARFAIT JOINT_SDM ORTHOTROPE NORTON", "UNILATERAL POINT_PLAN PRESSION"),
+        ("CHARGEMENT", "PRESSION", "PARFAIT UNILATERAL POINT_PLAN"),
+    ],
+)  # fmt: skip
+def test_a_formulation_lists_its_own_laws(name, own, other):
+    (told,) = pages._formulation(vocabulary.find("formulation", name), "en")
+    found = set(" ".join(told).replace(",", " ").split())
+    assert set(own.split()) <= found
+    assert found.isdisjoint(other.split())
+
+
+@pytest.mark.parametrize("law", vocabulary.words("law"), ids=lambda w: w.name)
+def test_the_zone_that_shows_a_law_has_it(law):
+    zone = words.sample_of_law(law)
+    if zone is None:
+        assert law.name not in {*PLASTIC_LAWS, *CREEP_LAWS, *JOINT_LAWS} - {"SECTION", "ELASTIQUE"}
+        return
+    assert law.name in zone.behaviour
+    if law.kind == "joint":
+        alone = JOINT_LAWS[law.name].macro or JOINT_LAWS[law.name].two_points
+        assert zone.element == ("JOI1" if alone else "JOI2")
+    elif law.kind in ("plastic", "creep"):
+        assert zone.behaviour[-2:] == ("PLASTIQUE" if law.kind == "plastic" else "FLUAGE", law.name)
+    assert zone.element in words.elements_of_law(law)
