@@ -118,7 +118,7 @@ _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
 _VALUE = arg("value", *OPERANDS, en="argument", range=CARRIED)
-_ANGLE = arg("value", *OPERANDS, en="angle", unit="deg", range=CARRIED)
+_ANGLE = arg("value", *OPERANDS, en="angle", unit="deg", range=CARRIED, usual=CARRIED)
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
