@@ -108,8 +108,7 @@ class _Flow:
     def _stiffness(self, slope: FloatArray) -> FloatArray:
         """Decrease of the yield function per unit of the multiplier."""
         shear = self.beta * self.delta * (3 * self.G + self.kinematic)
-        found: FloatArray = shear + 9 * self.B * self.alpha * self.gamma + slope * self.growth
-        return found
+        return shear + 9 * self.B * self.alpha * self.gamma + slope * self.growth
 
     def multiplier(self, p: FloatArray) -> FloatArray:
         """Plastic multiplier (m,) by Newton on a function without kinks but the curve's own."""
