@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from script_runs import found as objects
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.node_algebra import applied
@@ -19,12 +20,6 @@ M1 = MANU 'RIGI' 'TYPE' 'MASSE' (P1 ET P2) (MOTS 'UX') (PROG 0.5) ;
 """
 K = np.array([[5.0, -3.0], [-3.0, 3.0]])
 FREQUENCIES = np.sqrt(np.linalg.eigvalsh(K) / 0.5) / (2.0 * np.pi)
-
-
-def objects(script, *names):
-    result = ran(script)
-    found = [result.session.root.find(n) for n in names]
-    return found[0] if len(found) == 1 else found
 
 
 def mode(table, i):

@@ -3,17 +3,12 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from script_runs import found as objects
 
 from ssilang.kernel.matrices.assembly import constraint_matrix, numbering_of
 
 PLANE = "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P0 = 0. 0. ; P1 = 1. 0. ; P2 = 2. 0. ;\n"
 SPACE = "OPTI DIME 3 MODE TRID ELEM SEG2 ; P0 = 0. 0. 0. ; P1 = 1. 0. 0. ; P2 = 0. 1. 0. ;\n"
-
-
-def objects(script, *names):
-    result = ran(script)
-    found = [result.session.root.find(n) for n in names]
-    return found[0] if len(found) == 1 else found
 
 
 def rows(matrix):

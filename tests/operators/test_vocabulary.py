@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 
 import pytest
 from script_runs import failed, ran
@@ -28,6 +29,8 @@ from ssilang.operators.session.options import READERS
 from ssilang.operators.vocabulary import pages, words
 from ssilang.operators.vocabulary.law_tables import law_tables
 from ssilang.operators.vocabulary.pages import exact_pages, help_text, near_name, vocabulary_text
+
+_ROOT = Path(__file__).parents[2]
 
 load_operators()
 
@@ -191,6 +194,14 @@ def test_a_word_with_several_meanings_lists_them_all():
 @pytest.mark.parametrize("language", ["en", "fr"])
 def test_help_searches_both_languages(query, name, language):
     assert f"  {name} " in help_text(query, language)
+
+
+def test_pages_of_the_manual_that_name_a_word_stand_below_it():
+    pages = {f"docs/{p.name}": p.read_text("utf-8") for p in (_ROOT / "docs").glob("*.md")}
+    for name in ("JOINT_SDM", "MACRO_SEMELLE", "IWAN"):
+        naming = {path for path, text in pages.items() if name in re.findall(r"\w+", text)}
+        assert 0 < len(naming) < len(pages)
+        assert set(re.findall(r"docs/\w+\.md", help_text(name, "en"))) == naming
 
 
 def test_nothing_found_gives_a_near_name():
