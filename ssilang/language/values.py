@@ -457,9 +457,10 @@ def like_radians(value: Any) -> float:
 
     Degrees are never such numbers by chance: they were meant in radians.
     """
-    if type_of(value) not in ("FLOTTANT", "LISTREEL"):
+    if not isinstance(value, float | ListReel):
         return 0.0
-    turns = np.abs(np.atleast_1d(getattr(value, "values", value))) * (1000.0 / np.pi)
+    numbers = value.values if isinstance(value, ListReel) else np.array([value])
+    turns = np.abs(numbers) * (1000.0 / np.pi)
     whole = turns.size and np.all(np.abs(turns - np.round(turns)) < 1e-7)
     return float(turns.max()) * np.pi / 1000.0 if whole and turns.max() < 1e6 else 0.0
 

@@ -138,6 +138,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "OPTION DIMENSION 3 ; P = 0. -1.E6 0. ; MESS (TYPE P) ;",
         "NOMM 'ABC' 3 ; X = ABC + 1 ; MESS X ;",
         "T = TEXT '1 + 2' ; X = T * 3 ; MESS X ;",
+        "T = TEXT 'A = 3 + 4' ; T ; MESS (A + 1) ;",
         "M = MOT 'PROG' ; X = M 1. 2. ; MESS X ;",
         "OPTI DIME 2 ; P = 1. 2. ; Q = P PLUS (1. 0.) ; MESS (COOR 1 Q) ;",
         "T = TABL ; T . 1 = MOT 'X' ; Y = T . 1 3 ; MESS Y ;",

@@ -246,6 +246,8 @@ class Checker:
             i.text.upper()[:4] if isinstance(i, tree.Name | tree.Quoted) else ""
             for i in statement.items
         ]
+        if len(words) == 1 and scope.values.get(statement.first_word) is UNKNOWN:
+            scope.open = True  # a TEXTE runs, which may give names to results
         if word in _OPENING or (word == "OPTI" and "DONN" in words):
             scope.open = True
             scope.dimension = None
