@@ -8,7 +8,6 @@ pipe to an editor adds is not counted. Problems are looked for when no key comes
 shown beside.
 """
 
-import gc
 import re
 import statistics
 import sys
@@ -20,7 +19,7 @@ from ssilang.cli.editor import complete, outline
 from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.information import Reader
 from ssilang.cli.editor.problems import Findings, find_problems
-from ssilang.cli.editor.server import make_server
+from ssilang.cli.editor.server import make_server, spare_collections
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -41,8 +40,9 @@ def main(lines: int = 2000, keys: int = 40) -> None:
     names = server.library.standard_names
     spent: dict[str, list[float]] = {}
     sound = SoundStatements()
-    find_problems(Document.of(text, None, names).source, "en", sound=sound)
-    gc.freeze()  # as the server does
+    opened = Document.of(text, None, names)
+    find_problems(opened.source, "en", sound=sound)
+    spare_collections()
 
     def timed(label, action):  # type: ignore[no-untyped-def]
         start = time.process_time()
@@ -53,8 +53,7 @@ def main(lines: int = 2000, keys: int = 40) -> None:
     for i in range(keys):
         at = (2 * i + 1) * len(text) // (2 * keys)
         typed = text[:at] + "A" + text[at:]
-        document = Document.of(typed, None, names)
-        timed("cut the text", lambda d=document: d.names)
+        document = timed("cut", lambda t=typed: Document.of(t, None, names, opened))
         timed(
             "completion", lambda d=document, o=at: complete.candidates(d, o, server.library, "en")
         )

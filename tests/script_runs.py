@@ -18,6 +18,22 @@ def ran(
     return result
 
 
+HOPPING = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; T = TABL ; LIN1 = PROG 0. PAS {dt} {end} ;
+PS = 0. -1. ; PM = 0. 0. ; JOI = MANU 'SEG2' PS PM ;
+MOJ = MODE JOI 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+T . 'RIGI' = (BLOQ 'UX' 'UY' PS) ET (BLOQ 'UX' PM) ; T . 'MASS' = MASS 'DEPL' 1.E3 PM ;
+T . 'MODELE' = MOJ ; T . 'CARACTERISTIQUES' = MATE MOJ 'KN' 1.E7 'KS' 0. ;
+T . 'CHAR' = (CHAR 'MECA' (FORC (0. -1.E4) PM)) ET
+  (CHAR 'MECA' (FORC (0. 3.E4) PM) (EVOL 'MANU' LIN1 (SIN (LIN1 * 500.)))) ;
+T . 'TEMPS_CALCULES' = LIN1 ; T . 'PAS_SAUVES' = {every} ;
+T . 'PAS_SAUVES_VTK' = {every} ; T . 'MAILLAGE_VTK' = JOI ;
+T . 'PAS_SAUVES_CSV' = 1 ; T . 'MAILLAGE_CSV' = PM ;
+T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = {steps} ;
+T2 = DYNAMIC T ;
+"""
+"""A mass that leaves a joint again and again: files of all kinds, checkpoints."""
+
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 
 

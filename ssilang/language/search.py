@@ -121,10 +121,12 @@ class Item:
     text: str = ""
 
 
+@lru_cache(10_000)  # a search asks for each text once a word
 def fold(text: str) -> str:
     """Lower case without accents."""
     parts = unicodedata.normalize("NFKD", text.replace("œ", "oe"))
-    return "".join(c for c in parts if not unicodedata.combining(c)).lower()
+    kept = parts if parts.isascii() else "".join(c for c in parts if not unicodedata.combining(c))
+    return kept.lower()
 
 
 def _match(word: str, said: str) -> float:

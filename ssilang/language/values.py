@@ -25,12 +25,15 @@ class Mot(str):
 
 
 class Texte:
-    """A macro (TEXTE): items that are put where its name stands and evaluated there."""
+    """A macro (TEXTE): items that are put where its name stands and evaluated there.
 
-    __slots__ = ("items",)
+    `targets` are the names in front of its `=`: such a text is run where it stands alone.
+    """
 
-    def __init__(self, items: tuple[Item, ...]) -> None:
-        self.items = items
+    __slots__ = ("items", "targets")
+
+    def __init__(self, items: tuple[Item, ...], targets: tuple[Item, ...] = ()) -> None:
+        self.items, self.targets = items, targets
 
 
 class Annule:
@@ -447,6 +450,18 @@ MAY_BE_EMPTY = frozenset(
 )  # fmt: skip
 """Types of objects that scripts build up from nothing."""
 _HOLDERS = ("blocks", "relations", "components", "zones", "parts", "categories", "tags")
+
+
+def like_radians(value: Any) -> float:
+    """The largest of numbers in degrees that are all multiples of pi/1000, 0 if they are not.
+
+    Degrees are never such numbers by chance: they were meant in radians.
+    """
+    if type_of(value) not in ("FLOTTANT", "LISTREEL"):
+        return 0.0
+    turns = np.abs(np.atleast_1d(getattr(value, "values", value))) * (1000.0 / np.pi)
+    whole = turns.size and np.all(np.abs(turns - np.round(turns)) < 1e-7)
+    return float(turns.max()) * np.pi / 1000.0 if whole and turns.max() < 1e6 else 0.0
 
 
 def is_of_noughts(value: Any) -> bool:

@@ -295,8 +295,7 @@ def _edges_of(surface: Any) -> IntArray:
     if not pairs:
         return np.zeros(0, np.int64)
     every = np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
-    found: IntArray = every.ravel().astype(np.int64)
-    return found
+    return every.ravel().astype(np.int64)
 
 
 def _pairs(lines: IntArray) -> IntArray:

@@ -252,3 +252,73 @@ def test_views_give_numbers_in_their_own_order():
         r["C"].values("Q", 2)
     assert r["R"].tolist() == [3.0, -1.25]
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
+
+
+MIXED = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; Z = 9. 9. ; A = 0. 0. ; B = 4. 0. ; C = 4. 2. ; D = 0. 2. ;
+E = 7. 0. ; F = 7. 2. ; Q = MANU 'QUA4' A B C D ; R = MANU 'TRI3' B E C ; S = Q ET R ;
+S2 = R ET Q ET (MANU 'TRI3' E F C) ; M = (MODE Q 'MECANIQUE') ET (MODE R 'MECANIQUE') ;
+U = (MANU 'CHPO' (E ET B) 1 'UX' (PROG 3. 5.)) ET (MANU 'CHPO' (B ET C) 1 'UY' (PROG -1. 2.)) ;
+K = (NOMC 'A' (CHAN 'CHAM' (COOR 1 S) M)) ET (MANU 'CHML' (MODE R 'MECANIQUE') 'B' 6. 'NOEUD') ;
+G = TABL ; G . 'TEMPS' = TABL ; G . 'DEPLACEMENTS' = TABL ; G . 'VITESSES' = TABL ; T = TABL ;
+G . 'TEMPS' . 1 = 2. ; G . 'TEMPS' . 0 = 0.5 ; G . 'DEPLACEMENTS' . 1 = 4. * U ;
+G . 'VITESSES' . 0 = U ; G . 'DEPLACEMENTS' . 0 = EXCO 'UX' U 'UX' ; G . 'VITESSES' . 1 = U - 1. ;
+REPE W 20 ; T . &W = &W * &W ; FIN W ;
+"""
+
+
+def test_views_of_mixed_data_keep_what_belongs_together():
+    r = ssilang.run(MIXED)
+    u, k, mesh = r["u"], r["K"], r["S2"]
+    assert u.nodes.tolist() == [3, 4, 6]
+    np.testing.assert_equal(np.asarray(u), [[5, -1], [np.nan, 2], [3, np.nan]])
+    assert u.points[:, 0].tolist() == u.frame()["x"].tolist() == [4, 4, 7]
+    assert u.frame().loc[4].tolist()[1:] == pytest.approx([2, 0, np.nan, 2], nan_ok=True)
+    assert (u.xarray().sel(node=6).UX, u.xarray().sel(node=6).y) == (3, 0)
+    assert mesh.nodes.tolist() == [2, 3, 4, 5, 6, 7]
+    assert mesh.points[:, 0].tolist() == [0, 4, 4, 0, 7, 7]
+    assert mesh.cells["QUA4"].tolist() == [[0, 1, 2, 3]]
+    assert sorted(mesh.cells["TRI3"].tolist()) == [[1, 4, 2], [4, 5, 2]]
+    assert k.values("A", 2).tolist() == [[4, 7, 4]]
+    assert k.points(2)[0, :, 0].tolist() == [4, 7, 4]
+    assert set(k["B"].ravel()) == {6}
+    assert k.frame().loc[(2, 1, 2), "A"] == 7
+    assert k.frame()["A"].max() == 7
+    with pytest.raises(ssilang.Error, match="zone"):
+        k["A"]
+    assert "u" in r
+    assert "NONE" not in r
+    two = r.evaluate("ORDO (PROG 3. 1.) (LECT 7 8)")
+    assert [v.tolist() for v in two] == [[1, 3], [8, 7]]
+    html = r["T"]._repr_html_()
+    assert re.findall("<td>(.*?)</td>", html)[14:18] == ["8", "64", "13", "169"]
+    assert "... 4 ..." in html
+
+
+def test_results_by_hand_are_in_the_order_of_time():
+    r = ssilang.run(MIXED)
+    found = r["G"].xarray("DEPL")
+    assert found.time.values.tolist() == [0.5, 2]
+    assert found.sel(component="UX", node=6).values.tolist() == [3, 12]
+    assert found.sel(component="UY", node=4).values.tolist() == pytest.approx(
+        [np.nan, 8], nan_ok=True
+    )
+    assert found.x.values.tolist() == [4, 4, 7]
+    for point in ("E", 6, (7.0, 0.0), r["E"]):
+        assert r.history("VITE", "UX", point).y.tolist() == [3, 2]
+    assert [c.names for c in r.history("VITE", "UX", r.evaluate("E ET B"))] == [
+        ("UX E",), ("UX B",)
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "values"),
+    [
+        (np.arange(3), [0, 1, 2]), ((0.5, "a", True), [0.5, "a", True]), ("ab", ["ab"]),
+        (Path("a") / "b", ["a/b"]), ([Path("c"), np.float64(2.5)], ["c", 2.5]), (7, [7]),
+        (np.bool_(False), [False]), (range(2), [0, 1]),
+    ],
+)  # fmt: skip
+def test_values_of_a_sweep_are_plain(given, values):
+    found = ssilang.api.sweeps._axis("X", given, "en")
+    assert [(type(v), v) for v in found] == [(type(v), v) for v in values]

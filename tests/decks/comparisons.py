@@ -133,12 +133,13 @@ def macro_element(result: RunResult) -> None:
 def block_on_soil(result: RunResult) -> None:
     """The VTK series: 51 instants of three parts, the joint as open as the deck's history says."""
     import pyvista
-    import vtk
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkIOHDF import vtkHDFReader
 
-    reader = vtk.vtkHDFReader()
+    reader = vtkHDFReader()
     reader.SetFileName(str(result.session.output_directory / "block.vtkhdf"))
     reader.UpdateInformation()
-    steps = vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    steps = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     times = reader.GetOutputInformation(0).Get(steps)
     assert len(times) == 51
     step = next(i for i, t in enumerate(times) if t > 0.6)

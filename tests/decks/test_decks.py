@@ -99,7 +99,7 @@ SHORTER = {
     "seismic/tower_quake.ssi": [
         ("DUREE = 3. ;", "DUREE = 2.4 ;"),
         ("'TAILLE' 0.75 1.5", "'TAILLE' 1.5 1.5"),
-        ("TFIN = SEISME 1. (DT0 / 2.) 32 'JOINT' ; LFIN = SOMMET TFIN", "LFIN = LTOP"),
+        ("TFIN = SEISME 1. (DT0 / 2.) 16 'JOINT' ; LFIN = SOMMET TFIN", "LFIN = LTOP"),
     ],
 }
 

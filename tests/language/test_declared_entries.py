@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,7 @@ def stands_in(index: str, quoted: set[str]) -> bool:
     return index in quoted or any(a in quoted and (b in quoted or b.isdigit()) for a, b in parts)
 
 
+@cache
 def python_indices() -> dict[str, set[str]]:
     """Words that Python modules ask tables for, and all their words, by name of the check."""
     asked: set[str] = set()
@@ -80,7 +82,6 @@ def _asks_entries(node: ast.Call) -> bool:
     return name in _HOLDERS
 
 
-PYTHON = python_indices()
 EVERY = {e.index for d in DECLARED.values() for e in d.entries}
 
 
@@ -136,7 +137,7 @@ def test_procedures_read_what_is_declared_and_declare_what_they_read(name):
         known = {e.index for e in declared.of(argument.name)}
         lost = {w for w in read if w not in known and w != "SOUSTYPE"}
         assert not lost or ANYTHING in known
-    quoted = set(re.findall(r"'([^']+)'", all_code_of(name))) | PYTHON["said"]
+    quoted = set(re.findall(r"'([^']+)'", all_code_of(name))) | python_indices()["said"]
     own = [e for e in declared.entries if not e.taken_over and e.role not in (UNUSED, REFUSED)]
     for entry in own:
         if entry.index not in (NUMBER, ANYTHING) and len(entry.values) != 1:
@@ -144,8 +145,8 @@ def test_procedures_read_what_is_declared_and_declare_what_they_read(name):
 
 
 def test_python_asks_only_for_what_is_declared():
-    assert len(PYTHON["asked"]) > 50
-    assert PYTHON["asked"] <= EVERY
+    assert len(python_indices()["asked"]) > 50
+    assert python_indices()["asked"] <= EVERY
 
 
 @pytest.mark.parametrize("name", ["DYNE", "DYNC", "ZCOL", "PREC", "DESS", "BLOQ"])
@@ -153,7 +154,9 @@ def test_operators_read_what_is_declared(name):
     own = [e for e in DECLARED[name].entries if e.role not in (UNUSED, REFUSED, WRITTEN)]
     words = {e.index for e in own} - {NUMBER, ANYTHING}
     kernel = "\n".join(p.read_text() for p in (OPERATORS.parent / "kernel" / "modal").glob("*.py"))
-    assert {w for w in words if w not in PYTHON["said"] and f'"{w}"' not in kernel} == set()
+    assert {
+        w for w in words if w not in python_indices()["said"] and f'"{w}"' not in kernel
+    } == set()
 
 
 @pytest.mark.parametrize("name", NAMES)

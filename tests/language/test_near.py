@@ -2,6 +2,7 @@
 
 import pytest
 
+from ssilang.language.cast3m import find_cast3m_word
 from ssilang.language.search import likeness, nearest, nearest_names, slips
 
 
@@ -30,3 +31,13 @@ def test_of_names_as_near_the_one_that_begins_alike_comes_first():
 
 def test_a_word_unlike_all_has_no_near_name():
     assert nearest("ZZZZ", ["RESO", "DROI"]) == ""
+
+
+@pytest.mark.parametrize(
+    ("said", "name"),
+    [("EXTRAIRE", "EXTR"), ("extr", "EXTR"), ("CTOD", "CTOD"), ("CTODX", None),
+     ("@CARENE", "@CARENE"),
+     ("@CAR", None), ("NOWORD", None)],
+)  # fmt: skip
+def test_an_operator_is_named_by_four_letters_and_a_procedure_in_full(said, name):
+    assert getattr(find_cast3m_word(said), "name", None) == name

@@ -16,6 +16,7 @@ def _found(query):
 
 def test_accents_and_capitals_count_for_nothing():
     assert fold("Décollement") == "decollement"
+    assert fold("M²") == "m2"
     assert _found("DECOLLEMENT") == _found("décollement") == ["JOINT_SDM"]
 
 

@@ -117,27 +117,6 @@ def test_lists_curves_and_points_in_cells_combine(found, refused):
     assert "points add up" in refused(script + "Q = P «*» P ;")
 
 
-def test_largest_value_of_the_components_of_a_list(found):
-    values = found(
-        LINE + "X1 = MAXI C (MOTS 'A') ; X2 = MINI (MOTS 'B') C ; X3 = MAXI 'SANS' (MOTS 'B') C ;",
-        "X1", "X2", "X3",
-    )  # fmt: skip
-    assert values == (2.0, 5.0, 2.0)
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("MAXI C 'SANS' 'ABS' (MOTS 'A')", 5.0),
-        ("MAXI C 'AVEC' 'ABS' (MOTS 'A')", 2.0),
-        ("MAXI (-1. * C) 'SANS' (MOTS 'A') 'ABS'", 5.0),
-        ("MINI 'ABS' C (MOTS 'B') 'SANS'", 2.0),
-    ],
-)
-def test_the_word_before_a_list_of_components_and_its_list_may_be_apart(found, text, expected):
-    assert found(LINE + f"X = {text} ;", "X") == expected
-
-
 def test_a_field_is_dealt_out_over_a_table_of_models_and_joined_again(found):
     script = (
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "

@@ -17,22 +17,6 @@ def test_both_ways_to_write_a_cloud_give_the_same(found):
     assert a.columns == b.columns
 
 
-def test_rows_are_taken_by_value(found):
-    values = found(
-        CLOUD + "A = EXTR (EXTR N 'MAXI' 'Y') 'X' ; B = EXTR (EXTR N 'MINI' 'Y') 'X' ; "
-        "C = EXTR (EXTR N 'INFE' 'X' 1.5) 'Y' ; D = EXTR (EXTR N 'SUPE' 'X' 1.5) 'Y' ; "
-        "E = DIME (EXTR N 'ENTR' 'X' 0.5 3.) 'UPLE' ; F = EXIS N 'Z' ; "
-        "G = DIME (REDU N 'X') 'COMP' ;",
-        "A", "B", "C", "D", "E", "F", "G",
-    )  # fmt: skip
-    assert values == (1.0, 0.0, 9.0, 6.0, 2, False, 1)
-
-
-def test_cloud_of_a_field_has_a_row_a_node(found):
-    cloud = found("OPTI DIME 2 ; P = 0. 0. ; N = NUAG (MANU 'CHPO' P 'UX' 10. 'UY' 20.) ;", "N")
-    assert cloud.columns == {"UX": (10.0,), "UY": (20.0,)}
-
-
 @pytest.mark.parametrize(("x", "y"), [(0.5, 1.0), (2.0, 0.5), (3.0, 2.0), (9.0, -1.0)])
 def test_grid_reproduces_a_bilinear_function(x, y, found):
     field = f"C = MANU 'CHPO' P 'X' {x} 'Y' {y} ; "

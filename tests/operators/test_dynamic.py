@@ -123,12 +123,12 @@ def test_more_than_50_instants_are_one_file_unless_said(every, asked, one_file, 
 
 def test_both_kinds_of_series_have_the_same_fields_and_names(tmp_path):
     import pyvista
-    import vtk
+    from vtkmodules.vtkIOHDF import vtkHDFReader
 
     series = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'MAILLAGE_VTK' = J ;"
     for name in ("VTU", "VTKHDF"):
         run(series + f"T1 . 'FORMAT_VTK' = '{name}' ; T2 = DYNAMIC T1 ;", tmp_path)
-    reader = vtk.vtkHDFReader()
+    reader = vtkHDFReader()
     reader.SetFileName(str(tmp_path / "dynamic.vtkhdf"))
     reader.UpdateInformation()
     for step, path in enumerate(sorted(tmp_path.glob("dynamic.*.vtu"))):

@@ -100,20 +100,6 @@ def test_table_of_fields_is_reduced_to_a_model(found, refused):
 # --- lists and loadings by lists ----------------------------------------------------------------
 
 
-def test_a_loading_by_lists_is_that_by_tables(found):
-    """3 N half way from 0 to 6 N, whichever way the instants are given."""
-    script = (
-        "OPTI DIME 2 ; P = 0. 0. ; L = ENUM (FORC (0. 0.) P) (FORC (0. -6.) P) ;"
-        "C = CHAR 'MECA' (PROG 1. 3.) L ; F = EXTR (TIRE C 2.) 'FY' P ; T = EXTR C 'LREE' ;"
-        "O = EXTR C 'LOBJ' 1 ; G = EXTR (EXTR O 2) 'FY' P ; S = CHAR 'MECA' (PROG 1. 3.) (SUIT "
-        "(EXTR L 1) (EXTR L 2)) ; H = EXTR (TIRE S 2.) 'FY' P ; A = EXIS C 'MECA' 'LISTOBJE' ;"
-        "B = EXIS C 'MECA' 'CHPOINT' ;"
-    )
-    half, times, last, other, yes, no = found(script, *"FTGHAB")
-    assert (half, last, other, yes, no) == (-3.0, -6.0, -3.0, True, False)
-    np.testing.assert_array_equal(times.values, [1.0, 3.0])
-
-
 # --- what there is ------------------------------------------------------------------------------
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from script_runs import found as objects
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.node_algebra import applied
@@ -19,12 +20,6 @@ M1 = MANU 'RIGI' 'TYPE' 'MASSE' (P1 ET P2) (MOTS 'UX') (PROG 0.5) ;
 """
 K = np.array([[5.0, -3.0], [-3.0, 3.0]])
 FREQUENCIES = np.sqrt(np.linalg.eigvalsh(K) / 0.5) / (2.0 * np.pi)
-
-
-def objects(script, *names):
-    result = ran(script)
-    found = [result.session.root.find(n) for n in names]
-    return found[0] if len(found) == 1 else found
 
 
 def mode(table, i):
@@ -45,15 +40,6 @@ def test_every_method_finds_both_modes(words):
     np.testing.assert_allclose(found, FREQUENCIES, rtol=1e-12)
     assert [modes.get(i).get("NUMERO_MODE") for i in (1, 2)] == [1, 2]
     assert modes.get(1).get("POINT_REPERE").node != modes.get(2).get("POINT_REPERE").node
-
-
-def test_matrices_may_come_in_any_order_and_ends_of_an_interval_be_kept():
-    script = TWO_MASSES + (
-        "T1 = VIBR 'SIMU' 0. 1 M1 K1 ; T2 = VIBR 'INTE' 0. 10. 'HAUTE' 1 K1 M1 ;"
-    )
-    low, high = objects(script, "T1", "T2")
-    assert mode(low, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[0])
-    assert mode(high, 1).get("FREQUENCE") == pytest.approx(FREQUENCIES[1])
 
 
 @pytest.mark.parametrize(("ends", "told"), [("3. 10.", True), ("0. 10.", False), ("-1. 0.", True)])
@@ -109,33 +95,6 @@ def test_projection_diagonalises_and_recombination_gives_the_solution_back():
         np.testing.assert_allclose(u.values_at(name, nodes), w.values_at(name, nodes), atol=1e-12)
 
 
-def test_modes_and_pseudo_mode_add_up_to_the_static_solution():
-    script = TWO_MASSES + (
-        "T = VIBR 'SIMU' 0. 1 K1 M1 ; F = FORC 'FX' 1.5 P2 ; P = PSMO K1 (T . 'MODES') F ;"
-        "S = P . 1 . 'DEPLACEMENT' ; W = RESO K1 F ; FA = P . 1 . 'CHAMP_BASE_A' ;"
-    )
-    table, rest, w, force = objects(script, "T", "S", "W", "FA")
-    entry = mode(table, 1)
-    shape = entry.get("DEFORMEE_MODALE").values_at("UX", np.array([0, 1]))
-    push = force.values_at("FALF", np.array([entry.get("POINT_REPERE").node]))[0]
-    assert push == pytest.approx(1.5 * shape[1])
-    stiffness = entry.get("MASSE_GENERALISEE") * (2.0 * np.pi * entry.get("FREQUENCE")) ** 2
-    total = rest.values_at("UX", np.array([0, 1])) + push / stiffness * shape
-    np.testing.assert_allclose(total, w.values_at("UX", np.array([0, 1])), rtol=1e-12)
-
-
-def test_pseudo_mode_of_an_earthquake_carries_the_missing_mass():
-    script = TWO_MASSES + (
-        "T = VIBR 'SIMU' 0. 1 K1 M1 ; P = PSMO K1 M1 (T . 'MODES') 'SEISME' 'UX' ;"
-        "S = P . 1 . 'DEPLACEMENT' ; G = K1 * S ;"
-    )
-    table, forces = objects(script, "T", "G")
-    entry = mode(table, 1)
-    kept = entry.get("DEPLACEMENTS_GENERALISES").get(1) ** 2 / entry.get("MASSE_GENERALISEE")
-    total = forces.values_at("FX", np.array([0, 1])).sum()
-    assert total == pytest.approx(-(1.0 - kept), rel=1e-9)
-
-
 def test_pseudo_mode_of_a_moved_support():
     script = TWO_MASSES + (
         "BL = BLOQ 'UX' P1 ; KB = K1 ET BL ; T = VIBR 'SIMU' 0. 1 KB M1 ;"
@@ -157,26 +116,6 @@ def test_gap_of_two_points_is_closed_not_crossed():
     pressed, apart = objects(script, "U1", "U2")
     assert pressed.values_at("UY", np.array([1]))[0] == pytest.approx(-0.3)
     assert apart.values_at("UY", np.array([1]))[0] == pytest.approx(-0.2)
-
-
-def test_oscillator_and_spectrum_of_a_script():
-    script = (
-        "T1 = PROG 0. PAS 0.01 1. ; G1 = EVOL 'MANU' 'TEMP' T1 'ACCE' (0. * T1) ;"
-        "X1 = OSCI G1 'AMOR' 0. 'FREQ' 2. 'DEPL' 1. ;"
-        "G2 = EVOL 'MANU' 'TEMP' (PROG 0. 10.) 'ACCE' (PROG 2. 2.) ;"
-        "S1 = SPO G2 'AMOR' (PROG 0. 0.05) 'FREQ' (PROG 4.) 'TEMP' (PROG 0. PAS 0.005 1.) 'ACCE' ;"
-    )
-    free, spectra = objects(script, "X1", "S1")
-    t = free.parts[0].abscissas
-    np.testing.assert_allclose(free.parts[0].ordinates, np.cos(4.0 * np.pi * t), atol=1e-10)
-    # a step: w^2 x peaks at twice the step, at 1 + exp(- pi xi) times with damping
-    peaks = [p.ordinates[0] for p in spectra.parts]
-    np.testing.assert_allclose(peaks, [4.0, 2.0 * (1.0 + np.exp(-0.05 * np.pi))], rtol=3e-3)
-
-
-def test_eigenvalues_of_a_tridiagonal():
-    found = objects("L = VALP (PROG 2. 2. 2.) (PROG 1. 1.) ;", "L")
-    np.testing.assert_allclose(found.values, 2.0 - np.sqrt(2.0) * np.array([1.0, 0.0, -1.0]))
 
 
 def test_harmonic_response_on_real_and_imaginary_parts():

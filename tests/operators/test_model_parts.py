@@ -9,21 +9,6 @@ MODELS = (
 )
 
 
-def test_zones_are_removed_and_chosen_by_words(found):
-    whole, none, beams = found(
-        MODELS + "A = NBEL (EXTR (ENLE MO 'COMP' 'PLASTIQUE') 'MAIL') ; "
-        "B = VIDE (ENLE MO 'FORM' 'MECANIQUE') ; "
-        "C = NBEL (EXTR (EXTR MO 'COMP' 'ELASTIQUE') 'MAIL') ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert (whole, none, beams) == (6, True, 6)
-
-
-def test_constituent_of_a_model_changes(found):
-    model = found(MODELS + "M3 = CHAN 'CONS' MO 'SOIL' ;", "M3")
-    assert {z.constituent for z in model.zones} == {"SOIL"}
-
-
 def test_internal_variables_of_a_model_are_named(found):
     """Those of a law once, in the order of its field; none of an elastic body."""
     script = (
@@ -38,16 +23,6 @@ def test_internal_variables_of_a_model_are_named(found):
     assert [str(n).rstrip() for n in both] == ["EPSE", *axes]
     assert [str(n).rstrip() for n in one] == ["EPSE"]
     assert none == []
-
-
-def test_gradients_of_a_bar_are_named(found):
-    names = found(MODELS + "X = EXTR M1 'GRAD' ;", "X")
-    assert [str(n).rstrip() for n in names.values] == ["UX,X", "UY,X"]
-
-
-def test_number_of_unknowns_of_a_bar(found):
-    count = found(MODELS + "N = DIME (RIGI M1 (MATE M1 'YOUN' 1. 'NU' 0. 'SECT' 1.)) ;", "N")
-    assert count == 10
 
 
 def test_single_value_stands_where_it_is_put(found, refused):

@@ -66,11 +66,6 @@ def test_random_values_follow_their_law_and_repeat():
     assert value("BRUI 'BLAN' 'GAUS' 2. 0.5 20000").values.tolist() == gauss.tolist()
 
 
-def test_successive_draws_differ(found):
-    a, b = found("A = BRUI 'BLAN' 'GAUS' 0. 1. 5 ; B = BRUI 'BLAN' 'GAUS' 0. 1. 5 ;", "A", "B")
-    assert a.values.tolist() != b.values.tolist()
-
-
 @pytest.mark.parametrize("base", ["-8.", "(PROG -8. 8.)"])
 def test_other_roots_of_negative_values_are_refused(base: str) -> None:
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (-8. 0.) (8. 0.) ; "
@@ -122,27 +117,6 @@ def test_what_a_list_of_integers_cannot_hold_is_refused(phrase, says):
 
 
 _POINT = "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; C = MANU 'CHPO' P {} ; "
-
-
-@pytest.mark.parametrize(
-    ("field", "phrase", "kept"),
-    [
-        ("1 'UX' 5.", "BORN C 'MAXI' 2.", {"UX": 2.0}),
-        ("1 'UX' 5.", "BORN C 'MINI' 2.", {"UX": 5.0}),
-        ("2 'UX' 5. 'UY' 7.", "BORN C 'UY' 'MAXI' 2.", {"UY": 2.0}),
-        ("2 'UX' 5. 'UY' 7.", "BORN C 'MAXI' 2.", None),
-    ],
-)
-def test_bounds_of_a_field_name_the_component_where_there_are_several(field, phrase, kept):
-    names = "UY" if kept is None else " ".join(kept)
-    text = _POINT.format(field) + f"D = {phrase} ; "
-    text += "".join(f"D{n} = EXTR D '{n}' P ; " for n in names.split())
-    result = run_text(text)
-    if kept is None:
-        assert [e.code for e in result.errors] == ["operators.numbers.which-component"]
-        return
-    assert result.exit_code == 0, result.message
-    assert {n: result.session.root.find(f"D{n}") for n in kept} == kept
 
 
 @pytest.mark.parametrize(("mean", "count"), [(7, 400), (0, 3), (3, 0)])

@@ -4,8 +4,6 @@ import itertools
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.special import gamma, jv, yv
 
 from ssilang.kernel.records.filters import displacement_integral, integrated
 from ssilang.kernel.records.modulated import Band, motion, sines
@@ -23,13 +21,6 @@ def parts(curve):
 
 
 # ---- integration and correction
-
-
-def test_linear_rule_is_exact_for_a_ramp(found):
-    d, v = found("T = PROG 0. PAS 0.5 3. ; D V = INSI (EVOL 'MANU' T (6. * T)) 'LINE' ;", "D", "V")
-    t = np.arange(7) * 0.5
-    np.testing.assert_allclose(parts(v)[0][1], 3 * t**2)
-    np.testing.assert_allclose(parts(d)[0][1], t**3)
 
 
 @pytest.mark.parametrize("rule", ["SIMP", "LINE"])
@@ -56,17 +47,6 @@ def test_corrected_record_ends_at_rest_and_is_the_nearest_such(found, rule):
 
 
 # ---- spectra
-
-
-def test_spectra_change_unit_and_back(found):
-    script = (
-        "S = EVOL 'MANU' (PROG 1. 2. 5.) (PROG 3. 1. 2.) ; "
-        "A = CHSP S 'ENTR' 'DEPL' 'SORT' 'ACCE' ; B = CHSP A 'ENTR' 'ACCE' 'SORT' 'DEPL' ; "
-    )
-    a, b = found(script, "A", "B")
-    w = 2 * np.pi * np.array([1, 2, 5])
-    np.testing.assert_allclose(parts(a)[0][1], w**2 * [3, 1, 2])
-    np.testing.assert_allclose(parts(b)[0][1], [3, 1, 2])
 
 
 def test_power_density_sums_to_the_mean_square(found):
@@ -229,50 +209,6 @@ def test_energy_envelope_keeps_the_squares_of_each_interval():
     assert (level >= 0).all()
 
 
-def test_a_signal_of_constant_size_gives_a_level(found):
-    e = found("E = LSQF (EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 9 * -2.)) 2 ;", "E")
-    np.testing.assert_allclose(parts(e)[0], ([0, 4, 8], [2, 2, 2]))
-
-
-def test_curves_are_continued_by_value_or_line(found):
-    script = (
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 4.) ; A = PROL E 3. -1. ; "
-        "B = PROL 'LINE' 4. E 3. ; C = PROL E 1.5 ; "
-    )
-    a, b, c = found(script, "A", "B", "C")
-    np.testing.assert_allclose(parts(a)[0], ([-1, 0, 1, 2, 3], [0, 0, 1, 4, 4]))
-    np.testing.assert_allclose(parts(b)[0], ([0, 1, 2, 3, 4], [0, 1, 4, 7, 10]))
-    assert len(parts(c)[0][0]) == 3
-
-
-def test_curves_are_joined_in_order(found):
-    e = found(
-        "E = CONC (EVOL 'MANU' (PROG 3. 4.) (PROG 5. 6.)) "
-        "(EVOL 'MANU' (PROG 1. 2.) (PROG 7. 8.)) ;",
-        "E",
-    )
-    np.testing.assert_allclose(parts(e)[0], ([1, 2, 3, 4], [7, 8, 5, 6]))
-
-
-def test_poincare_map_takes_the_beginnings_of_shocks(found):
-    script = (
-        "T = PROG 0. PAS 1. 5. ; F = EVOL 'MANU' T (PROG 0. 0. -5. -1. 0. 7.) ; "
-        "M = MAPP 'ROUG' F (EVOL 'MANU' T T) (EVOL 'MANU' T (T * T)) ;"
-    )
-    np.testing.assert_allclose(parts(found(script, "M"))[0], ([2, 5], [4, 25]))
-
-
-def test_mean_shock_averages_the_recorded_ones(found):
-    script = (
-        "E = EVOL 'MANU' (PROG 0. PAS 1. 9.) (PROG 0. 3. 1. 0. 5. 3. 0. 0. 0. 9.) ; "
-        "M = CMOY E 'ACQU' 1. ; N = CMOY E 'ACQU' 1. 'NCHO' 1 ; P = CMOY E 'ACQU' 1. 'DECL' 50. ;"
-    )
-    m, n, p = found(script, "M", "N", "P")
-    np.testing.assert_allclose(parts(m)[0], ([0, 1], [4, 2]))
-    np.testing.assert_allclose(parts(n)[0][1], [3, 1])
-    np.testing.assert_allclose(parts(p)[0][1], [5, 3])
-
-
 def test_inverse_laplace_of_a_sine(found):
     script = (
         "W = PROG 0. PAS 0.25 NPAS 8191 ; A = 0.3 ; B = 2. ; "
@@ -287,71 +223,6 @@ def test_inverse_laplace_of_a_sine(found):
 
 
 # ---- sampled lists
-
-
-def test_dyadic_lists(found):
-    a, b, c, d = found(
-        "L = PROG 1. 3. 7. 9. ; A = DIAD L ; B = DIAD 'INVE' L ; C = DIAD L 'IVIN' ; "
-        "D = DIAD 'INVE' (PROG 1. 2. 3.) ;",
-        "A", "B", "C", "D",
-    )  # fmt: skip
-    assert a.values.tolist() == [1, 7]
-    assert b.values.tolist() == [1, 0, 3, 0, 7, 0, 9, 0]
-    assert c.values.tolist() == [1, 2, 3, 5, 7, 8, 9, 9]
-    assert d.values.tolist() == [1, 0, 2, 0, 3]
-
-
-def test_dot_products(found):
-    x = found(
-        "L = PROG 1. 2. ; X = LTL L ; Y = LTL L (PROG 3. 4.) ; Z = LTL L (PROG 3. 4.) 2. 5. ;",
-        "X", "Y", "Z",
-    )  # fmt: skip
-    assert x == (5.0, 11.0, 110.0)
-
-
-def test_convolution_with_symmetric_and_full_responses(found):
-    a, b, c = found(
-        "S = PROG 1. 2. 4. 8. ; A = CVOL S (PROG 2. 1.) ; B = CVOL S (PROG 2. 1.) 'PADD' ; "
-        "C = CVOL S (PROG 1. 2. 1.) 'NPNE' 1 ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert a.values.tolist() == [2 + 4, 1 + 4 + 4, 2 + 8 + 8, 16 + 8]
-    assert b.values.tolist() == [2 + 2, 1 + 4 + 4, 2 + 8 + 8, 16 + 4]
-    assert c.values.tolist() == a.values.tolist()
-
-
-def test_convolution_with_a_response_that_is_not_symmetric(found):
-    """A response at abscissa 1 delays; in general the sums are those of polynomials' product."""
-    late, general, mirrored = found(
-        "S = PROG 1. 2. 4. 8. ; A = CVOL S (PROG 0. 1.) 'NPNE' 0 'PADD' ; "
-        "B = CVOL S (PROG 3. 5. 7. 11.) 'NPNE' 1 'PADD' ; C = CVOL S (PROG 0. 0. 1.) 'NPNE' 0 ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert late.values.tolist() == [0.0, 1.0, 2.0, 4.0]
-    product = np.polynomial.polynomial.polymul([1.0, 2.0, 4.0, 8.0], [3.0, 5.0, 7.0, 11.0])
-    assert general.values.tolist() == product[1:5].tolist()
-    assert mirrored.values.tolist() == [4.0, 2.0, 1.0, 2.0]
-
-
-def test_special_functions(found, refused):
-    x = np.array([0.5, 2.0, 9.0])
-    names = ("J0", "J1", "Y0", "Y1")
-    script = "L = PROG 0.5 2. 9. ; " + " ".join(f"{n}X = FONC 'BESSEL' '{n}' L ;" for n in names)
-    seen = found(script + " C = FONC 'FRESNEL' 'CX' L ; G = FONC 'GAMMA' L ;",
-                 *(f"{n}X" for n in names), "C", "G")  # fmt: skip
-    for made, (law, order) in zip(seen, [(jv, 0), (jv, 1), (yv, 0), (yv, 1)], strict=False):
-        np.testing.assert_allclose(made.values, law(order, x), rtol=1e-12)
-    integral = [quad(lambda u: 2 * np.cos(u * u) / np.sqrt(2 * np.pi), 0, np.sqrt(v))[0] for v in x]
-    np.testing.assert_allclose(seen[4].values, integral, rtol=1e-9)
-    np.testing.assert_allclose(seen[5].values, gamma(x))
-    assert "not defined at 0" in refused("L = «FONC» 'BESSEL' 'Y0' (PROG 0.) ;")
-
-
-def test_lobatto_points_integrate_high_degrees(found):
-    x, w = found("X W = ZLEG 4 ;", "X", "W")
-    for degree in range(8):
-        exact = 2 / (degree + 1) if degree % 2 == 0 else 0
-        assert w.values @ x.values**degree == pytest.approx(exact, abs=1e-14)
 
 
 # ---- two components together

@@ -3,17 +3,12 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from script_runs import found as objects
 
 from ssilang.kernel.matrices.assembly import constraint_matrix, numbering_of
 
 PLANE = "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P0 = 0. 0. ; P1 = 1. 0. ; P2 = 2. 0. ;\n"
 SPACE = "OPTI DIME 3 MODE TRID ELEM SEG2 ; P0 = 0. 0. 0. ; P1 = 1. 0. 0. ; P2 = 0. 1. 0. ;\n"
-
-
-def objects(script, *names):
-    result = ran(script)
-    found = [result.session.root.find(n) for n in names]
-    return found[0] if len(found) == 1 else found
 
 
 def rows(matrix):
@@ -115,16 +110,6 @@ def test_symmetry_holds_across_and_antisymmetry_within():
 def test_symmetry_without_a_distance_says_what_to_give():
     result = failed(PLANE + "L1 = DROI 2 P0 P1 ; S = SYMT 'DEPL' P0 P1 L1 ;")
     assert "OPTI DENS" in result.message
-
-
-def test_spring_along_a_direction_resists_only_along_it():
-    script = PLANE + (
-        "K = (APPU 'DIRE' (1. 1.) 8. P1) ET (APPU 'UX' 'UY' 2. P1) ;U = RESO K (FORC 'FX' 1. P1) ;"
-    )
-    u = objects(script, "U")
-    # springs 10 along (1, 1), 2 across
-    expected = [0.5 / 10.0 + 0.5 / 2.0, 0.5 / 10.0 - 0.5 / 2.0]
-    np.testing.assert_allclose([u.values_at(c, [1])[0] for c in ("UX", "UY")], expected)
 
 
 def test_rigid_body_keeps_its_shape_under_a_couple():

@@ -8,8 +8,6 @@ from ssilang.kernel.records.signals import (
     constant_step,
     fourier,
     inverse_fourier,
-    shocks,
-    time_above,
 )
 
 
@@ -39,30 +37,6 @@ def test_power_of_the_circular_frequency_differentiates(found):
         "X",
     )
     assert error < 1e-12
-
-
-def test_hanning_keeps_a_straight_line_inside(found):
-    y = found(
-        "Y = EXTR (HANN (EVOL 'MANU' (PROG 1. PAS 1. 6.) (PROG 2. PAS 2. 12.)) 1) 'ORDO' ;", "Y"
-    )
-    np.testing.assert_allclose(y.values[1:-1], [4, 6, 8, 10])
-
-
-def test_shocks_are_counted_with_their_peaks_and_places():
-    peaks, begins, ends = shocks(np.array([0, 0, 3, 5, 0, -2, 0, 0, 1.0]), 10)
-    assert peaks.tolist() == [5, -2, 1]
-    assert begins.tolist() == [2, 5, 8]
-    assert ends.tolist() == [4, 6]
-
-
-def test_time_above_a_level_counts_both_sides():
-    shocks_up_and_down = np.array([0.0, 2, 0, -2, 0]), 0.5
-    assert time_above(np.arange(5.0), *shocks_up_and_down) == pytest.approx(3.0)
-    assert time_above(np.array([0.0, 1, 2]), np.array([0.0, -2, 0]), 0.5) == pytest.approx(1.5)
-
-
-def test_time_above_a_level_of_a_triangle():
-    assert time_above(np.array([0.0, 1, 2]), np.array([0.0, 2, 0]), 0.5) == pytest.approx(1.5)
 
 
 def test_inverse_needs_two_frequencies():

@@ -15,28 +15,6 @@ def run(script, tmp_path):
     return ran(script, output_directory=tmp_path).session.root
 
 
-def test_modes_by_hand_are_read_by_place_and_number(tmp_path):
-    root = run(
-        MODES
-        + """
-        N = DIME S ; F1 = TIRE S 'FREQ' ; F2 = TIRE S 'FREQ' 'NUME' 7 ; F3 = TIRE S 'FREQ' 'CAS' 2 ;
-        M1 = TIRE S 'MGEN' 'RANG' 1 ; Q = TIRE S 'QY' 'RANG' 1 ; Z = TIRE S 'QZ' 'RANG' 1 ;
-        X = MAXI (TIRE S 'DEPL' 'RANG' 1) ; E0 = EXIS S 'CONT' ;
-        P = TIRE S 'POIN' 'RANG' 1 ; W = TIRE S 'POIN' 'RANG' 2 ; D = EGA (NOEU P) (NOEU W) ;
-        T = SIGS M A S ; E1 = EXIS T 'CONT' ; G1 = MAXI (TIRE T 'CONT' 'RANG' 1) ;
-        G2 = MAXI (TIRE T 'CONT') ; R = EXTR (RIGI S) 'DIAG' ; R1 = EXTR R P 'ALFA' ;
-        """,
-        tmp_path,
-    )
-    assert [root.find(n) for n in ("N", "F1", "F2", "F3", "M1", "Q", "Z", "X")] == [
-        2, 3.0, 1.5, 3.0, 2.0, 0.2, 0.0, 1.0,
-    ]  # fmt: skip
-    assert (root.find("E0"), root.find("E1"), root.find("D")) == (False, True, False)
-    assert root.find("G1") == pytest.approx(1.5)
-    assert root.find("G2") == pytest.approx(6.0)
-    assert root.find("R1") == pytest.approx(2.0 * (2.0 * 3.141592653589793 * 1.5) ** 2)
-
-
 def test_a_solution_of_vibr_is_the_table_of_vibr(tmp_path):
     root = run(
         MODES

@@ -5,32 +5,9 @@ import pytest
 from ssilang.language.values import Table
 
 
-def test_table_is_shared_by_its_names_and_copied_by_copi(found):
-    sizes = found(
-        "T = TABL ; U = T ; V = COPI T ; W = TABL T ; T . 1 = 5 ; "
-        "A = DIME U ; B = DIME V ; C = DIME W ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert sizes == (1, 0, 1)
-
-
 def test_indices_come_in_order_of_creation(found):
     made = found("T = TABL 'S' ; T . 2. = 1 ; T . 'B' = 2 ; I = INDE T ;", "I")
     assert [made.get(i) for i in (1, 2, 3)] == ["SOUSTYPE", 2.0, "B"]
-
-
-def test_removing_an_index_leaves_the_first_table(found):
-    a, b = found("T = TABL ; T . 1 = 5 ; U = ENLE T 1 ; A = DIME T ; B = DIME U ;", "A", "B")
-    assert (a, b) == (1, 0)
-
-
-def test_vectors_add_and_scale(found):
-    made = found(
-        "T = TABL 'VECTEUR' ; T . 'X' = 2. ; U = TABL 'VECTEUR' ; U . 'X' = 3. ; U . 'Y' = 1. ; "
-        "V = (T + U) * 2. ;",
-        "V",
-    )
-    assert (made.get("X"), made.get("Y")) == (10.0, 2.0)
 
 
 def test_sum_and_union_of_a_table(found):

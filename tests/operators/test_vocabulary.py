@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 
 import pytest
 from script_runs import failed, ran
@@ -25,9 +26,11 @@ from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
 from ssilang.operators.models.mode import LAW_WORDS
 from ssilang.operators.session.options import READERS
-from ssilang.operators.vocabulary import words
+from ssilang.operators.vocabulary import pages, words
 from ssilang.operators.vocabulary.law_tables import law_tables
 from ssilang.operators.vocabulary.pages import exact_pages, help_text, near_name, vocabulary_text
+
+_ROOT = Path(__file__).parents[2]
 
 load_operators()
 
@@ -193,6 +196,14 @@ def test_help_searches_both_languages(query, name, language):
     assert f"  {name} " in help_text(query, language)
 
 
+def test_pages_of_the_manual_that_name_a_word_stand_below_it():
+    pages = {f"docs/{p.name}": p.read_text("utf-8") for p in (_ROOT / "docs").glob("*.md")}
+    for name in ("JOINT_SDM", "MACRO_SEMELLE", "IWAN"):
+        naming = {path for path, text in pages.items() if name in re.findall(r"\w+", text)}
+        assert 0 < len(naming) < len(pages)
+        assert set(re.findall(r"docs/\w+\.md", help_text(name, "en"))) == naming
+
+
 def test_nothing_found_gives_a_near_name():
     assert help_text("JOINT_SMD", "en") == ""
     assert near_name("JOINT_SMD") == "JOINT_SDM"
@@ -301,3 +312,34 @@ def test_the_tables_of_mate_hold_what_the_kernel_asks_for():
     )  # fmt: skip
     assert "YOUN" not in rows  # of isotropic elasticity
     assert [row[0] for row in tables["PLASTIQUE IWAN_PRESSION"].rows] == ["PREF"]
+
+
+@pytest.mark.parametrize(
+    ("name", "own", "other"),
+    [
+        ("CONTACT", "UNILATERAL FROTTANT COULOMB", "PARFAIT POINT_PLAN PRESSION JOINT_SDM"),
+        ("LIAISON", "POINT_PLAN POINT_CERCLE", "PARFAIT UNILATERAL PRESSION JOINT_SDM"),
+        ("MECANIQUE", "PARFAIT JOINT_SDM ORTHOTROPE NORTON", "UNILATERAL POINT_PLAN PRESSION"),
+        ("CHARGEMENT", "PRESSION", "PARFAIT UNILATERAL POINT_PLAN"),
+    ],
+)  # fmt: skip
+def test_a_formulation_lists_its_own_laws(name, own, other):
+    (told,) = pages._formulation(vocabulary.find("formulation", name), "en")
+    found = set(" ".join(told).replace(",", " ").split())
+    assert set(own.split()) <= found
+    assert found.isdisjoint(other.split())
+
+
+@pytest.mark.parametrize("law", vocabulary.words("law"), ids=lambda w: w.name)
+def test_the_zone_that_shows_a_law_has_it(law):
+    zone = words.sample_of_law(law)
+    if zone is None:
+        assert law.name not in {*PLASTIC_LAWS, *CREEP_LAWS, *JOINT_LAWS} - {"SECTION", "ELASTIQUE"}
+        return
+    assert law.name in zone.behaviour
+    if law.kind == "joint":
+        alone = JOINT_LAWS[law.name].macro or JOINT_LAWS[law.name].two_points
+        assert zone.element == ("JOI1" if alone else "JOI2")
+    elif law.kind in ("plastic", "creep"):
+        assert zone.behaviour[-2:] == ("PLASTIQUE" if law.kind == "plastic" else "FLUAGE", law.name)
+    assert zone.element in words.elements_of_law(law)

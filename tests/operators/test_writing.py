@@ -161,9 +161,9 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
 def steps_of(path: Path) -> list[object]:
     """What VTK reads of each step of a .vtkhdf."""
     import pyvista
-    import vtk
+    from vtkmodules.vtkIOHDF import vtkHDFReader
 
-    reader = vtk.vtkHDFReader()
+    reader = vtkHDFReader()
     reader.SetFileName(str(path))
     reader.UpdateInformation()
     found = []

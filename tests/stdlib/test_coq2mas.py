@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found
 
 # two layers 0.1 and 0.2 thick on a plate 2 x 1, a common middle at z = 0
 LAYERS = (
@@ -21,12 +21,6 @@ LOADED = (
     "T . 'CONTRAINTES' = TABL ; T . 'CONTRAINTES' . 5 = SIGM M A U ; "
 )
 CALL = "V = COQ2MAS M A T ; X = MESU V ; "
-
-
-def found(script, *names):
-    result = ran(script)
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
 
 
 def heights(mesh):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -27,11 +27,6 @@ RUN = (
     "LA = LA ET (EXTR (TR . &B1 . 'ACCE') PA COMP1) ; "
     "LB = LB ET (EXTR (TR . &B1 . 'ACCE') PB COMP1) ; FIN B1 ; "
 )
-
-
-def found(script, *names):
-    result = ran(script)
-    return tuple(result.session.root.find(n) for n in names)
 
 
 PLANE = (

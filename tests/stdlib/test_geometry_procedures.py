@@ -6,18 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from script_runs import ran, refused
+from script_runs import found, refused
 
 _TRIANGLE = (
     "OPTI DIME 2 MODE PLAN CONT ELEM TRI3 ; PA = 0. 0. ; PB = 3. 0. ; PC = 0. 6. ; "
     "S1 = MANU 'TRI3' PA PB PC ; M1 = MODE S1 MECANIQUE ELASTIQUE ; "
 )
 _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
-
-
-def found(script, *names):
-    result = ran(script)
-    return tuple(result.session.root.find(n) for n in names)
 
 
 def test_centre_of_a_triangle_is_the_mean_of_its_corners():
@@ -47,7 +42,7 @@ def test_centre_in_space_has_three_coordinates():
 
 
 def test_resultant_counts_the_nodes_of_the_mesh_only():
-    (total,) = found(
+    total = found(
         "OPTI DIME 2 ELEM SEG2 ; L1 = (0. 0.) DROI 4 (1. 0.) ; L2 = L1 ELEM (LECT 1 2) ; "
         "C = MANU 'CHPO' L1 2 'FX' 2. 'FY' 5. ; X = @TOTAL C L2 'FY' ;",
         "X",
@@ -72,7 +67,7 @@ def test_helix_of_a_line_is_a_surface_and_of_a_surface_a_volume():
     line = _HELIX.format(element="QUA4") + (
         "L1 = PA DROI 2 (2. 0. 0.) ; L2 S2 = @HELICE L1 'LIGN' P0 VZ 0.5 90. 8 ; N = NBEL S2 ;"
     )
-    assert found(line, "N") == (16,)
+    assert found(line, "N") == 16
     solid = _HELIX.format(element="CUB8") + (
         "S1 = (PA DROI 1 (2. 0. 0.)) TRAN 1 (0. 0. 0.1) ; "
         "S2 V2 = @HELICE S1 'SURF' P0 VZ 0. 90. 60 ; N = NBEL V2 ; X = MESU V2 ; "
@@ -84,9 +79,9 @@ def test_helix_of_a_line_is_a_surface_and_of_a_surface_a_volume():
 
 def test_box_holds_the_mesh():
     script = "OPTI DIME {0} ELEM SEG2 ; L = DROI 3 {1} {2} ; B = BOITE L ; X = MESU B ;"
-    assert found(script.format(2, "(1. 2.)", "(3. 7.)"), "X")[0] == pytest.approx(10.0)
+    assert found(script.format(2, "(1. 2.)", "(3. 7.)"), "X") == pytest.approx(10.0)
     space = script.format(3, "(1. 2. 0.)", "(3. 7. 4.)")
-    assert found(space, "X")[0] == pytest.approx(40.0)
+    assert found(space, "X") == pytest.approx(40.0)
 
 
 @settings(max_examples=25, deadline=None)
@@ -97,7 +92,7 @@ def test_inside_of_a_folded_contour_agrees_with_its_formula(x, y):
     if near:
         return
     inside = (0 < x < 1 and 0 < y < 1) and not (x > 0.5 and y > 0.5)
-    (answer,) = found(
+    answer = found(
         "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; C = PA DROI 2 (1. 0.) DROI 2 (1. 0.5) DROI 2 "
         f"(0.5 0.5) DROI 1 (0.5 1.) DROI 1 (0. 1.) DROI 1 PA ; R = DEDANS ({x:.9f} {y:.9f}) C ;",
         "R",
@@ -115,9 +110,7 @@ def test_points_near_the_contour_count_as_inside_when_told():
 
 def test_mean_of_a_curve_cuts_its_ends():
     """A hat of height 2 on [0, 2]: over [0.5, 1.5] its mean is 1.5."""
-    (mean,) = found(
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; X = MOYESPEC E 0.5 1.5 ;", "X"
-    )
+    mean = found("E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; X = MOYESPEC E 0.5 1.5 ;", "X")
     assert mean == pytest.approx(1.5, rel=1e-12)
     assert "must exceed" in refused(
         "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 2.) ; MOYESPEC E 1. 1. ;"

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found
 
 BEAM = (
     "OPTI DIME 3 ELEM SEG2 ; L = DROI 4 (1. 0. 0.) (1. 2. 0.) ; "
@@ -11,12 +11,6 @@ BEAM = (
     "T . 'POUTRE' . 'NCIRC' = 32 ; T . 'POUTRE' . 'NY' = 2 ; T . 'POUTRE' . 'NZ' = 3 ; "
 )
 RECTANGLE = "'SECT' 0.06 'INRY' 4.5E-4 'INRZ' 2.E-4 'TORS' 1.E-3 'VECT' (0. 0. 1.)"
-
-
-def found(script, *names):
-    result = ran(script)
-    values = tuple(result.session.root.find(n) for n in names)
-    return values[0] if len(values) == 1 else values
 
 
 def test_rectangle_has_the_inertias_of_the_beam():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found
 
 MODULATION = (
     "M1 = EVOL 'MANU' 'TEMP' (PROG 0. 2. 8. 10.) 'MODU' (PROG 0. 1. 1. 0.) ;"
@@ -10,11 +10,6 @@ MODULATION = (
     "LB = PROG 0.2 3. 25. ; LT = PROG 0.08 0.15 0.3 0.6 1.2 2.5 ;"
     "S0 = EVOL 'MANU' 'FREQ' (PROG 0.2 1. 5. 25.) 'DSP' (PROG 0.1 1. 0.8 0.05) ;"
 )
-
-
-def found(script, *names):
-    result = ran(script)
-    return [result.session.root.find(n) for n in names]
 
 
 def test_the_power_found_gives_the_spectrum_back():

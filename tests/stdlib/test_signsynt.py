@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found
 
 TABLE = (
     "SP0 = EVOL 'MANU' 'FREQ' (PROG 0.1 0.5 1. 2.5 5. 33. 50.) 'ACCE' "
@@ -11,11 +11,6 @@ TABLE = (
     "T . 'SEISME' . 'TYPSP' = 'ACCE' ; T . 'SIGNAL' = TABL ; T . 'SIGNAL' . 'NP' = 9 ; "
     "T . 'SIGNAL' . 'DUREE' = 5.12 ; T . 'NALEAT' = 3 ; T . 'FRCOUP' = 40. ; T . 'NBITER' = 6 ; "
 )
-
-
-def found(script, *names):
-    result = ran(script)
-    return tuple(result.session.root.find(n) for n in names)
 
 
 def test_spectrum_of_the_signal_comes_near_the_reference():

@@ -5,15 +5,10 @@ LeGall's 5/3 filters, and Daubechies' four (low-pass sums to 1, as in Mallat 198
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, found
 
 _APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 2"
 _TOGETHER = "(PROG 0.5 0.25) -1 (PROG -0.0625 -0.125 0.375 -0.125 -0.0625) 1"
-
-
-def found(script, *names):
-    result = ran(script)
-    return tuple(result.session.root.find(n) for n in names)
 
 
 def signal(values):

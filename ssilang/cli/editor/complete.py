@@ -152,11 +152,11 @@ def _model_words(place: Place, document: Document) -> list[str]:
     given: list[str] = []
     names = {t.name for t in place.before if t.kind == "WORD"}
     for phrase in document.phrases:
-        equal = phrase.equal
+        equal = phrase.cut.equal
         if equal is None or phrase is place.phrase:
             continue
-        if names & {t.name for t in phrase.tokens[:equal] if t.kind == "WORD"}:
-            behind = phrase.tokens[equal:]
+        if names & {t.name for t in phrase.cut.tokens[:equal] if t.kind == "WORD"}:
+            behind = phrase.cut.tokens[equal:]
             if any(t.is_word and t.name[:4] == "MODE" for t in behind):
                 given += [t.name for t in behind if t.is_word]
     return given

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from ssilang.cli.editor.names import Names, names_of
-from ssilang.cli.editor.tokens import CLOSES, OPENS, Phrase, Token, phrases_of, tokens_of
+from ssilang.cli.editor.names import Names
+from ssilang.cli.editor.tokens import BEGINS, CLOSES, OPENS, Phrase, Token, phrases_of
 from ssilang.language.registry import Operator, find_operator, keywords_of
 from ssilang.language.text.source import Source
 from ssilang.language.vocabulary import words_of
@@ -43,18 +44,26 @@ class Place:
 
 @dataclass(frozen=True)
 class Document:
-    """A text and what was found in it; made anew at each change."""
+    """A text and its statements; made anew at each change."""
 
     source: Source
+    phrases: Sequence[Phrase] = field(repr=False)
     procedures: frozenset[str] = field(default=frozenset(), repr=False)
 
     @classmethod
     def of(
-        cls, text: str, path: Path | None = None, procedures: frozenset[str] = frozenset()
+        cls,
+        text: str,
+        path: Path | None = None,
+        procedures: frozenset[str] = frozenset(),
+        before: Document | None = None,
     ) -> Document:
-        """The document of a text with any kind of line ends."""
+        """The document of a text with any kind of line ends; `before`: it as it was."""
         plain = text.replace("\r\n", "\n").replace("\r", "\n")
-        return cls(Source(str(path) if path else "script", plain, path), procedures)
+        source = Source(str(path) if path else "script", plain, path)
+        known = (before.phrases, before.source.code) if before is not None else ()
+        with without_collections():
+            return cls(source, phrases_of(source.code, *known), procedures)
 
     @cached_property
     def lines(self) -> list[str]:
@@ -62,24 +71,18 @@ class Document:
         return self.source.text.split("\n")
 
     @cached_property
-    def tokens(self) -> list[Token]:
-        """All tokens."""
-        return tokens_of(self.source.code)
-
-    @cached_property
-    def phrases(self) -> list[Phrase]:
-        """All statements."""
-        return list(phrases_of(self.tokens))
-
-    @cached_property
     def names(self) -> Names:
         """The names of the script."""
-        with without_collections():
-            return names_of(self.phrases)
+        return Names(self.phrases)
 
     @cached_property
     def _starts(self) -> list[int]:
         return [p.start for p in self.phrases]
+
+    def within(self, start: int, end: int) -> Sequence[Phrase]:
+        """The statements of a part of the text, those too that only reach into it."""
+        first = max(0, bisect_right(self._starts, start) - 1)
+        return self.phrases[first : bisect_right(self._starts, end)]
 
     def phrase_at(self, offset: int) -> Phrase | None:
         """The statement that an offset stands in: from its first token to its semicolon."""
@@ -87,7 +90,7 @@ class Document:
         if i < 0:
             return None
         phrase = self.phrases[i]
-        return None if phrase.closed and offset >= phrase.end else phrase
+        return None if phrase.cut.closed and offset >= phrase.end else phrase
 
     def place(self, offset: int) -> Place:
         """What stands at an offset."""
@@ -103,7 +106,7 @@ class Document:
     def _owner(self, before: tuple[Token, ...], phrase: Phrase) -> tuple[Operator | None, str]:
         """Operator and procedure that the word behind these tokens belongs to."""
         stack: list[tuple[Operator | None, str]] = [(None, "")]
-        equal = phrase.equal
+        equal = phrase.cut.equal
         for i, token in enumerate(before):
             if token.kind == OPENS:
                 stack.append((None, ""))
@@ -120,14 +123,10 @@ class Document:
             return None, token.name
         if owner[0] is not None and knows(owner[0], token.name):
             return owner
-        defined = self.names.found and token.name in self._defined
-        found = None if token.kind == "WORD" and defined else find_operator(token.name)
+        defined = token.kind == "WORD" and token.name in self.names.defined
+        found = None if defined else find_operator(token.name)
         named = found is not None and (token.kind == "WORD" or len(token.name) > 1)
         return (found, "") if named and found is not None and token.name[0].isalpha() else owner
-
-    @cached_property
-    def _defined(self) -> frozenset[str]:
-        return frozenset(o.name for o in self.names.found if o.defines)
 
     def scope_at(self, offset: int) -> int:
         """Which procedure of the script an offset stands in, 0 if none."""
@@ -135,10 +134,10 @@ class Document:
         for phrase in self.phrases:
             if phrase.start > offset:
                 break
-            if phrase.first_word in ("DEBP", "DEBM"):
-                count += 1
-                scope = count
-            elif phrase.first_word in ("FINP", "FINM") and phrase.end <= offset:
+            word = phrase.cut.first_word
+            if word in BEGINS:
+                scope = count = count + 1
+            elif word in BEGINS.values() and phrase.end <= offset:
                 scope = 0
         return scope
 

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
-from ssilang.cli.editor.tokens import CLOSES, OPENS, Phrase, Token
-
-Kind = Literal["variable", "parameter", "procedure", "loop"]
-
-_BEGINS = {"DEBP": "FINP", "DEBM": "FINM"}
-_READERS = frozenset({"ACQU", "ARGU", "LIRE", "NOMM", "OBTE"})
-"""Operators that give values to the names behind them."""
+from ssilang.cli.editor.tokens import BEGINS, Kind, Name, Phrase
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,18 +32,46 @@ class Occurrence:
 
 @dataclass(frozen=True)
 class Names:
-    """All occurrences, in the order of the text."""
+    """The names of a script: those that get a value somewhere, procedures, loops."""
 
-    found: tuple[Occurrence, ...]
+    phrases: Sequence[Phrase]
+
+    @cached_property
+    def found(self) -> tuple[Occurrence, ...]:
+        """All occurrences, in the order of the text."""
+        defined = self.defined
+        return tuple(
+            _occurrence(name, scope, phrase)
+            for phrase, scope in self._scopes
+            for name in phrase.cut.names
+            if name.name in defined
+        )
+
+    @cached_property
+    def defined(self) -> frozenset[str]:
+        """What gets a value anywhere."""
+        return frozenset(name for _, name in self._first)
 
     def at(self, offset: int) -> Occurrence | None:
         """The name under the cursor."""
-        return next((o for o in self.found if o.start <= offset <= o.end), None)
+        for phrase, scope in self._scopes:
+            if phrase.end < offset or phrase.start > offset:
+                continue
+            for name in phrase.cut.names:
+                if name.start <= offset - phrase.start <= name.end and name.name in self.defined:
+                    return _occurrence(name, scope, phrase)
+        return None
 
     def alike(self, of: Occurrence) -> list[Occurrence]:
         """All occurrences of what a name means: of a procedure's own name within it only."""
         owner = self._owner(of)
-        return [o for o in self.found if o.name == of.name and self._owner(o) == owner]
+        found = [
+            _occurrence(name, scope, phrase)
+            for phrase, scope in self._scopes
+            for name in phrase.cut.names
+            if name.name == of.name
+        ]
+        return [o for o in found if self._owner(o) == owner]
 
     def definitions(self, of: Occurrence) -> list[Occurrence]:
         """Where the thing gets values."""
@@ -59,73 +80,42 @@ class Names:
     def visible(self, scope: int) -> dict[str, Occurrence]:
         """First definitions of the names that can be read in a scope, its own before others."""
         seen: dict[str, Occurrence] = {}
-        for o in sorted(self.found, key=lambda o: self._owner(o) != scope):
-            if o.defines and self._owner(o) in (0, scope):
-                seen.setdefault(o.name, o)
+        for own in (True, False):
+            for (owner, name), place in self._first.items():
+                if name not in seen and (owner == scope if own else owner == 0):
+                    seen[name] = _occurrence(*place)
         return seen
 
     @cached_property
-    def _own(self) -> frozenset[tuple[int, str]]:
-        """Names that get values in a scope."""
-        return frozenset((o.scope, o.name) for o in self.found if o.defines)
+    def _first(self) -> dict[tuple[int, str], tuple[Name, int, Phrase]]:
+        """Where each name that something owns gets its first value."""
+        first: dict[tuple[int, str], tuple[Name, int, Phrase]] = {}
+        for phrase, scope in self._scopes:
+            for name in phrase.cut.defined:
+                owner = 0 if name.heading else scope
+                if (owner, name.name) not in first:
+                    first[owner, name.name] = name, scope, phrase
+        return first
 
     def _owner(self, o: Occurrence) -> int:
         """The procedure that a name belongs to, 0 for the script's own."""
-        return o.scope if (o.scope, o.name) in self._own and o.kind != "procedure" else 0
+        return o.scope if (o.scope, o.name) in self._first and o.kind != "procedure" else 0
+
+    @cached_property
+    def _scopes(self) -> list[tuple[Phrase, int]]:
+        """Each statement, and the procedure that it stands in."""
+        found, scope, count = [], 0, 0
+        for phrase in self.phrases:
+            word = phrase.cut.first_word
+            if word in BEGINS:
+                scope = count = count + 1
+            found.append((phrase, scope))
+            if word in BEGINS.values():
+                scope = 0
+        return found
 
 
-def names_of(phrases: Sequence[Phrase]) -> Names:
-    """The names of a script: those that get a value somewhere, procedures, loops."""
-    found: list[Occurrence] = []
-    scope = count = 0
-    for phrase in phrases:
-        word = phrase.first_word
-        if word in _BEGINS:
-            count += 1
-            scope = count
-            found += _heading(phrase, scope)
-        else:
-            found += _statement(phrase, word, scope)
-        if word in _BEGINS.values():
-            scope = 0
-    defined = {o.name for o in found if o.defines}
-    return Names(tuple(o for o in found if o.name in defined))
-
-
-def _heading(phrase: Phrase, scope: int) -> Iterator[Occurrence]:
-    """A procedure's own name, and those of its arguments: `NAME*TYPE*SUBTYPE`, `NAME/TYPE`."""
-    before = ""
-    for i, token in enumerate(phrase.tokens[1:]):
-        if token.is_word and (i == 0 or before not in ("*", "/")):
-            kind: Kind = "parameter" if i else "procedure"
-            yield _occurrence(token, scope if i else 0, kind, True, phrase)
-        before = token.text
-
-
-def _statement(phrase: Phrase, word: str, scope: int) -> Iterator[Occurrence]:
-    equal, depth = phrase.equal, 0
-    for i, token in enumerate(phrase.tokens):
-        depth += (token.kind == OPENS) - (token.kind == CLOSES)
-        before = phrase.tokens[i - 1].kind if i else ""
-        if token.kind != "WORD" or before == "PERCENT":
-            continue
-        behind = phrase.tokens[i + 1].kind if i + 1 < len(phrase.tokens) else ""
-        whole = before != "_DOT" and behind not in ("_DOT", "PERCENT")
-        if word == "REPE" and i == 1:
-            yield _occurrence(token, scope, "loop", True, phrase, "&" + token.name)
-        elif word == "FIN" and i == 1:
-            yield _occurrence(token, scope, "loop", False, phrase, "&" + token.name)
-        elif token.name.startswith("&"):
-            yield _occurrence(token, scope, "loop", False, phrase)
-        else:
-            target = equal is not None and i < equal and not depth and whole
-            read = word in _READERS and i > 0 and whole
-            yield _occurrence(token, scope, "variable", target or read, phrase)
-
-
-def _occurrence(
-    token: Token, scope: int, kind: Kind, defines: bool, phrase: Phrase, name: str = ""
-) -> Occurrence:
-    start = token.start + (token.kind == "STRING" or (kind == "loop" and token.text[0] == "&"))
-    end = token.end - (token.kind == "STRING")
-    return Occurrence(name or token.name, start, end, scope, kind, defines, phrase)
+def _occurrence(name: Name, scope: int, phrase: Phrase) -> Occurrence:
+    at, scope = phrase.start, 0 if name.heading else scope
+    start, end = at + name.start, at + name.end
+    return Occurrence(name.name, start, end, scope, name.kind, name.defines, phrase)

@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ssilang.cli.editor.document import Document
-from ssilang.cli.editor.names import Kind
-from ssilang.cli.editor.tokens import Phrase
+from ssilang.cli.editor.tokens import BEGINS, Kind, Phrase
 from ssilang.language.registry import find_operator
-from ssilang.language.text.source import Source
 
-OPENS = {"DEBP": "FINP", "DEBM": "FINM", "SI": "FINS", "REPE": "FIN"}
+OPENS = {**BEGINS, "SI": "FINS", "REPE": "FIN"}
 CONTROL = frozenset({*OPENS, *OPENS.values(), "SINO", "QUIT", "ITER"})
 
 Colour = Literal[
@@ -77,11 +75,11 @@ def _blocks(document: Document) -> Iterator[Block]:
     """Procedures, loops and conditions that are closed."""
     stack: list[Phrase] = []
     for phrase in document.phrases:
-        word = phrase.first_word
+        word = phrase.cut.first_word
         if word in OPENS:
             stack.append(phrase)
-        elif word in OPENS.values() and (word != "FIN" or len(phrase.tokens) > 1):
-            while stack and OPENS[stack[-1].first_word] != word:
+        elif word in OPENS.values() and (word != "FIN" or len(phrase.cut.tokens) > 1):
+            while stack and OPENS[stack[-1].cut.first_word] != word:
                 stack.pop()
             if stack:
                 opened = stack.pop()
@@ -111,18 +109,22 @@ def folds(document: Document) -> Iterator[tuple[int, int, str]]:
 
 def colours_of_text(text: str) -> list[tuple[int, int, Colour]]:
     """The colours of a script's text."""
-    return colours(Document(Source("script", text)))
+    return colours(Document.of(text))
 
 
-def colours(document: Document) -> list[tuple[int, int, Colour]]:
-    """Start, end and colour of each word and comment, in the order of the text."""
+def colours(
+    document: Document, start: int = 0, end: int | None = None
+) -> list[tuple[int, int, Colour]]:
+    """Start, end and colour of each word and comment, in the order of the text or of its part."""
+    text, defined = document.source.text, document.names.defined
+    end = len(text) if end is None else end
     found: list[tuple[int, int, Colour]] = [
-        (m.start(), m.end(), "comment") for m in _COMMENT.finditer(document.source.text)
+        (m.start(), m.end(), "comment") for m in _COMMENT.finditer(text, start, end)
     ]
-    kinds = {o.start: o.kind for o in document.names.found}
-    for phrase in document.phrases:
-        for i, token in enumerate(phrase.tokens):
-            before = phrase.tokens[i - 1].kind if i else ""
+    for phrase in document.within(start, end):
+        at, before = phrase.start, ""
+        kinds = {n.start: n.kind for n in phrase.cut.names if n.name in defined}
+        for i, token in enumerate(phrase.cut.tokens):
             colour: Colour | None = None
             if token.kind == "STRING":
                 colour = "property" if before == "_DOT" else "string"
@@ -132,8 +134,9 @@ def colours(document: Document) -> list[tuple[int, int, Colour]]:
                 colour = "operator"
             elif token.kind == "WORD":
                 colour = _of_word(token.name, i, before, kinds.get(token.start), document)
-            if colour is not None:
-                found.append((token.start, token.end, colour))
+            if colour is not None and start <= at + token.start < end:
+                found.append((at + token.start, at + token.end, colour))
+            before = token.kind
     return sorted(found)
 
 

@@ -112,7 +112,12 @@ class Server(LanguageServer):
         if held is not None and held.version == text.version:
             return held.document
         path = to_fs_path(uri)
-        made = Document.of(text.source, Path(path) if path else None, self.library.standard_names)
+        made = Document.of(
+            text.source,
+            Path(path) if path else None,
+            self.library.standard_names,
+            held.document if held is not None else None,
+        )
         if held is None:
             self.open[uri] = Open(made, text.version)
         else:
@@ -214,8 +219,14 @@ def start(language: str) -> None:
     with os.fdopen(os.dup(0), "rb") as reads, os.fdopen(os.dup(1), "wb") as writes:
         os.dup2(2, 1)
         server = make_server(language)
-        gc.freeze()  # the operators stay: no key waits until all of them are searched for garbage
+        spare_collections()
         server.start_io(reads, writes)
+
+
+def spare_collections() -> None:
+    """No key waits for a search for garbage among operators and statements, which all stay."""
+    gc.freeze()
+    gc.set_threshold(200_000, 20, 100)
 
 
 def make_server(language: str = "en") -> Server:
@@ -412,9 +423,11 @@ def _names(server: Server) -> None:
 def _renamable(new: str, document: Document) -> bool:
     """Whether a name may be given: a word that is free, and names no operator."""
     made = Document.of(f"{new} = 1 ;")
-    whole = len(made.tokens) == 4 and made.tokens[0].text == new and made.tokens[0].kind == "WORD"
-    taken = {o.name for o in document.names.found}
-    return whole and new.upper() not in taken and find_operator(new.upper()) is None
+    kinds = [[t.kind for t in phrase.cut.tokens] for phrase in made.phrases]
+    whole = kinds == [["WORD", "_EQUAL", "INTEGER"]] and made.phrases[0].cut.tokens[0].text == new
+    return (
+        whole and new.upper() not in document.names.defined and find_operator(new.upper()) is None
+    )
 
 
 # ---- layout ----------------------------------------------------------------------------------
@@ -442,6 +455,13 @@ def _layout(server: Server) -> None:
         uri = params.text_document.uri
         return lsp.SemanticTokens(_encoded(server, uri))
 
+    @server.feature(lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, legend)
+    def colours_within(params: lsp.SemanticTokensRangeParams) -> lsp.SemanticTokens:
+        uri, part = params.text_document.uri, params.range
+        lines = part.start.line, part.end.line + 1
+        first, last = (server.offset(uri, lsp.Position(line, 0)) for line in lines)
+        return lsp.SemanticTokens(_encoded(server, uri, first, last))
+
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
     def layout(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
         uri = params.text_document.uri
@@ -465,17 +485,21 @@ def _symbol(server: Server, uri: str, part: outline.Part) -> lsp.DocumentSymbol:
     )
 
 
-def _encoded(server: Server, uri: str) -> list[int]:
+def _encoded(server: Server, uri: str, first: int = 0, last: int | None = None) -> list[int]:
     """Colours as the protocol wants them: line and column from the one before, length, which."""
     data: list[int] = []
     line = column = 0
     document, codec = server.document(uri), server.codec
-    for start_, end_, colour in outline.colours(document):
-        for a, b in _by_line(document.source.text, start_, end_):
-            row, place = (n - 1 for n in document.source.position(a))
-            units = codec.client_num_units(document.source.text[a:b])
-            before = codec.client_num_units(document.source.text[a - place : a])
-            data += [row - line, before - column if row == line else before, units]
+    text, position = document.source.text, document.source.position
+
+    def units(part: str) -> int:
+        return len(part) if part.isascii() else codec.client_num_units(part)
+
+    for start_, end_, colour in outline.colours(document, first, last):
+        for a, b in _by_line(text, start_, end_):
+            row, place = (n - 1 for n in position(a))
+            before = units(text[a - place : a])
+            data += [row - line, before - column if row == line else before, units(text[a:b])]
             data += [outline.COLOURS.index(colour), 0]
             line, column = row, before
     return data

@@ -35,7 +35,7 @@ def _called(table: str, document: Document, library: Library) -> Iterator[Holder
     declared = set(library.declared_names)
     given = _given(document)
     for phrase in document.phrases:
-        names = [t for t in phrase.tokens if t.kind == "WORD"]
+        names = [t for t in phrase.cut.tokens if t.kind == "WORD"]
         for i, token in enumerate(names):
             if token.name not in declared or token.name in given:
                 continue
@@ -52,8 +52,8 @@ def _given(document: Document) -> dict[str, set[str]]:
     """Indices of each table that the script makes or gives values to."""
     found: dict[str, set[str]] = {}
     for phrase in document.phrases:
-        equal = phrase.equal or 0
-        tokens, value = phrase.tokens[:equal], phrase.tokens[equal + 1 : equal + 2]
+        cut, equal = phrase.cut, phrase.cut.equal or 0
+        tokens, value = cut.tokens[:equal], cut.tokens[equal + 1 : equal + 2]
         if len(tokens) >= 3 and tokens[1].kind == "_DOT":
             found.setdefault(tokens[0].name, set()).add(tokens[2].name)
         elif len(tokens) == 1 and value and value[0].name in ("TABL", "TABLE"):

@@ -204,8 +204,7 @@ class ConservingSolver:
         """dh/dy at the last response."""
         assert self.interface is not None
         interface_stiffness(self.interface.points, self._trial.D, self._K)
-        found: FloatArray = self._condensed.c * self._K - self.effective.R
-        return found
+        return self._condensed.c * self._K - self.effective.R
 
 
 def mean_penalty(

@@ -90,13 +90,11 @@ class ContactRows:
 
     def gaps(self, u: FloatArray, factors: FloatArray) -> FloatArray:
         """Gaps (..., m) at displacement u (n,) and load factors (..., k)."""
-        found: FloatArray = self.G @ u - factors @ self.imposed.T
-        return found
+        return self.G @ u - factors @ self.imposed.T
 
     def closed(self, forces: FloatArray) -> BoolArray:
         """Rows (m,) that push."""
-        found: BoolArray = forces[: len(self)] > 0.0
-        return found
+        return forces[: len(self)] > 0.0
 
     def work(self, forces: FloatArray, du: FloatArray, dc: FloatArray) -> float:
         """Work of moving stops and of dual rows for mean forces in a step (frictions: see rubbed).

@@ -56,8 +56,7 @@ def check_increasing(x: FloatArray) -> None:
 def sampled(part: CurvePart, x: FloatArray) -> FloatArray:
     """Ordinates at `x`, linear between the points of the curve, constant outside."""
     check_increasing(part.abscissas)
-    found: FloatArray = np.interp(x, part.abscissas, part.ordinates)
-    return found
+    return np.interp(x, part.abscissas, part.ordinates)
 
 
 def _same_abscissas(a: CurvePart, b: CurvePart) -> bool:
@@ -167,8 +166,7 @@ def spline(
     ends: Any = ((2, 0.0) if left is None else (1, left), (2, 0.0) if right is None else (1, right))
     if np.any(np.diff(x[order]) <= 0):
         raise FieldError("kernel.curves.abscissas-spline-must-increase")
-    found: FloatArray = CubicSpline(x[order], y[order], bc_type=ends)(at)
-    return found
+    return CubicSpline(x[order], y[order], bc_type=ends)(at)
 
 
 def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:
@@ -188,8 +186,7 @@ def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:
         x, y = x[::-1], y[::-1]
     elif np.any(steps < 0):
         raise FieldError("kernel.curves.abscissas-must-increase-decrease")
-    found: FloatArray = np.interp(at, x, y)
-    return found
+    return np.interp(at, x, y)
 
 
 def crossings(x: FloatArray, y: FloatArray, at: float) -> FloatArray:

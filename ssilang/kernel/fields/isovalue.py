@@ -112,8 +112,7 @@ class _Cuts:
         _, which = np.unique(np.concatenate([self.places, places]), axis=0, return_inverse=True)
         number = np.empty(len(which), dtype=np.int64)
         number[which.ravel()[: len(self.made)]] = self.made
-        found: IntArray = number[which.ravel()[len(self.made) :]]
-        return found
+        return number[which.ravel()[len(self.made) :]]
 
 
 def _places(pieces: _Pieces, rows: IntArray, first: IntArray, second: IntArray) -> FloatArray:

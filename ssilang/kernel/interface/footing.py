@@ -162,8 +162,7 @@ class Footing:
     def _at_ends(self, values: FloatArray) -> FloatArray:
         """Values (k, g) of the points at both ends of each cell, (k, n_cells, 2)."""
         assert self.ends is not None
-        found: FloatArray = (self.ends @ values.T).T.reshape(len(values), -1, 2)
-        return found
+        return (self.ends @ values.T).T.reshape(len(values), -1, 2)
 
     def _share(self, jumps: FloatArray) -> FloatArray:
         """Share (k,) of the area where normal jumps (k, n_cells, 2) leave no gap."""

@@ -283,11 +283,9 @@ def user_axis(given: ZoneField | None, name: str, n_cells: int, d: int) -> Float
 
 def _positions(zone: Zone, raw: IntArray, d: int) -> FloatArray:
     nodes = zone.cells.nodes
-    found: FloatArray = nodes.coordinates[nodes.resolve(raw)][..., :d]
-    return found
+    return nodes.coordinates[nodes.resolve(raw)][..., :d]
 
 
 def _unit(v: FloatArray) -> FloatArray:
     size = np.linalg.norm(v, axis=-1, keepdims=True)
-    found: FloatArray = v / np.where(size > 0, size, 1.0)
-    return found
+    return v / np.where(size > 0, size, 1.0)

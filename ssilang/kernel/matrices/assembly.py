@@ -79,8 +79,7 @@ class Numbering:
             listed: IntArray = places[np.clip(wanted, -1, keys[-1] + 1)]
             return listed
         place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        found: IntArray = np.where(keys[place] == wanted, place, -1)
-        return found
+        return np.where(keys[place] == wanted, place, -1)
 
     def index_of(self, node: int, name: str) -> int:
         """Index of one unknown, -1 if there is none."""

@@ -100,8 +100,7 @@ def matched(
 
 
 def _misfit(answers: _Answers, target: FloatArray) -> FloatArray:
-    found: FloatArray = np.abs(np.abs(answers.values) / target - 1.0)
-    return found
+    return np.abs(np.abs(answers.values) / target - 1.0)
 
 
 def _answers(

@@ -169,8 +169,7 @@ def _slipped(
     last = float(h[-1])
     if gone(last) <= slip:  # all of it slips back: T' = c exp(h)
         c = (float((T * flexible).sum()) - slip) / float((np.exp(h) * flexible).sum())
-        found: FloatArray = np.maximum(c * np.exp(h), 0.0)
-        return found
+        return np.maximum(c * np.exp(h), 0.0)
     from scipy.optimize import brentq
 
     H = brentq(lambda v: gone(v) - slip, 0.0, last, xtol=1e-14)

@@ -158,8 +158,7 @@ def _imbalance(problem: Problem, motion: Motion, factors: FloatArray) -> FloatAr
     rest = problem.K @ motion.u - problem.loading.forces @ factors
     if problem.interface is not None:
         rest = rest + problem.interface.J.T @ motion.f
-    found: FloatArray = rest
-    return found
+    return rest
 
 
 def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> StepOutcome:

@@ -127,7 +127,8 @@ def changed(problem: Problem, start: Additions, end: Additions) -> Problem:
     KernelError
         For unknowns that the problem lacks, and for unilateral relations.
     """
-    added = [_added(problem, m) for m in end.matrices]
+    K = _plus(problem, problem.K, end.stiffness, end.operator)
+    C = _plus(problem, problem.C, end.damping)
     problem = _with_relations(problem, end.operator)
     loading = problem.loading
     multipliers = problem.multipliers
@@ -139,19 +140,19 @@ def changed(problem: Problem, start: Additions, end: Additions) -> Problem:
     if contact is not None:
         values = [contact.sense * _imposed(a, contact.multipliers) for a in (start, end)]
         contact = replace(contact, imposed=np.column_stack([contact.imposed, *values]))
-    return replace(
-        problem,
-        K=sp.csr_array(problem.K + added[0] + added[2]),
-        C=sp.csr_array(problem.C + added[1]),
-        loading=Loading(forces, imposed, loading.curves),
-        contact=contact,
-    )
+    loading = Loading(forces, imposed, loading.curves)
+    return replace(problem, K=K, C=C, loading=loading, contact=contact)
 
 
-def _added(problem: Problem, matrix: Matrix | None) -> sp.csr_array:
-    n = problem.numbering.size
-    if matrix is None or not matrix.blocks:
-        return sp.csr_array((n, n))
+def _plus(problem: Problem, own: sp.csr_array, *more: Matrix | None) -> sp.csr_array:
+    """A matrix of the problem with those that are added; itself where none is."""
+    for matrix in more:
+        if matrix is not None and matrix.blocks:
+            own = sp.csr_array(own + _added(problem, matrix))
+    return own
+
+
+def _added(problem: Problem, matrix: Matrix) -> sp.csr_array:
     bare = replace(matrix, relations=(), cache={})
     own = numbering_of(bare)
     keys = set(zip(problem.numbering.nodes.tolist(), _names(problem.numbering), strict=True))

@@ -351,5 +351,4 @@ def along_columns(heights: FloatArray, column: FloatArray) -> sp.csr_array:
     n = np.arange(len(heights))
     places = (np.concatenate([n, n]), np.concatenate([order[above - 1], order[above]]))
     weights = np.concatenate([1 - share, share])
-    made: sp.csr_array = sp.coo_array((weights, places), (len(n), len(column))).tocsr()
-    return made
+    return sp.coo_array((weights, places), (len(n), len(column))).tocsr()

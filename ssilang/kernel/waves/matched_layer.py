@@ -224,8 +224,7 @@ def _on_outer_edges(
 ) -> BoolArray:
     """Which nodes lie where the layer ends: on those sides that have one."""
     at = np.concatenate([nodes < low + size, nodes > high - size], axis=1)
-    found: BoolArray = np.asarray((at & (thick > 0)).any(axis=1), dtype=bool)
-    return found
+    return np.asarray((at & (thick > 0)).any(axis=1), dtype=bool)
 
 
 def _blocks(

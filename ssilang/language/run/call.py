@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.language.registry import ANY, Argument, When
 from ssilang.language.say.errors import SsiError
-from ssilang.language.values import Mot, Procedure, Texte, is_of_noughts, type_of
+from ssilang.language.values import Mot, Procedure, Texte, is_of_noughts, like_radians, type_of
 from ssilang.language.vocabulary.unit_systems import usual_of
 
 if TYPE_CHECKING:
@@ -151,6 +151,8 @@ class Call:
         self._expansions += 1
         if self._expansions > _MAX_EXPANSIONS:
             raise SsiError("endless-text", operand.span, name=operand.name or operand.span.text)
+        if operand.value.targets:
+            raise SsiError("text-with-names", operand.span, name=operand.span.text)
         inserted = self.session.evaluator.operands_of(operand.value.items)
         self.operands[i : i + 1] = inserted
 
@@ -218,6 +220,8 @@ class Call:
         usual = usual_of(a.usual, "", a.unit, self.session.units())
         if odd := usual.flaw(operand.value, a.name):
             self.session.report(self.flaw(_ODD.get(odd[0], "unusual"), a, operand, odd[1]))
+        if a.unit == "deg" and (angle := like_radians(operand.value)):
+            self.session.report(self.flaw("like-radians", a, operand, {"value": angle}))
         over = getattr(operand.value, "over", "") if a.over else ""
         if a.over and is_of_noughts(operand.value):
             self.session.report(self.flaw("of-noughts", a, operand, {}))

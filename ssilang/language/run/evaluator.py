@@ -203,7 +203,7 @@ class Evaluator(PhraseRunner):
             if value is not None:
                 self.store(statement.targets[0], value)
                 return
-        if not statement.targets:
+        if not statement.targets and not (statement := self._spelled_out(statement)).targets:
             self._unnamed(statement)
             return
         one = len(statement.targets) == 1
@@ -219,6 +219,14 @@ class Evaluator(PhraseRunner):
                 raise
             left = [word]
         self._assign(statement, left)
+
+    def _spelled_out(self, statement: tree.Statement) -> tree.Statement:
+        """The statement, or what a TEXTE alone runs whose text gives names to results."""
+        first = statement.items[0] if len(statement.items) == 1 else None
+        text = self.session.frame.find(first.text.upper()) if isinstance(first, tree.Name) else None
+        if not isinstance(text, Texte) or not text.targets:
+            return statement
+        return tree.Statement(text.targets, text.items, statement.span, assigns=True)
 
     def word_of_entry(self, statement: tree.Statement, error: SsiError) -> Operand | None:
         """The word that a table's entry is given, where it also names an operator.

@@ -158,15 +158,18 @@ class PhraseRunner(OperandReader):
 
     def _texte(self, items: Sequence[tree.Item]) -> Texte:
         parts: list[tree.Item] = []
+        targets: list[tree.Item] = []
         for item in items:
             value = self._spelled(item)
             if isinstance(value, Mot):
-                parts.extend(_words_of(tree.Quoted(str(value), item.span)))
+                words, names = _words_of(tree.Quoted(str(value), item.span))
+                parts.extend(words)
+                targets.extend(names)
             elif value is not None:
                 parts.append(tree.Number(value, item.span))
             else:
                 parts.append(item)
-        return Texte(tuple(parts))
+        return Texte(tuple(parts), tuple(targets))
 
     def _spelled(self, item: tree.Item) -> Any:
         """What a part of a TEXTE says now: a quoted word, the value of a word or a number."""
@@ -350,13 +353,13 @@ def _empty_ones(operands: Iterable[Operand]) -> Iterator[Operand]:
             yield operand
 
 
-def _words_of(item: tree.Quoted) -> list[tree.Item]:
-    """Items of the text of a quoted part of a TEXTE."""
+def _words_of(item: tree.Quoted) -> list[list[tree.Item]]:
+    """Items of the text of a quoted part of a TEXTE, and the names in front of its `=`."""
     from ssilang.language.text.parser import parse_statements
     from ssilang.language.text.source import Source
 
     if not item.text.strip():
-        return []
+        return [[], []]
     # behind a blank: a sign * in the first column would begin a comment
     source = Source(item.span.source.name, " " + item.text + ";")
     try:
@@ -365,4 +368,5 @@ def _words_of(item: tree.Quoted) -> list[tree.Item]:
         for error in several.errors:
             error.span = item.span
         raise
-    return [tree.placed(i, item.span) for s in statements for i in s.items]
+    parts = ([s.items for s in statements], [s.targets for s in statements])
+    return [[tree.placed(i, item.span) for items in part for i in items] for part in parts]

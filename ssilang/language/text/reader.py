@@ -225,13 +225,12 @@ class Reader:
             raise Unsound
         return assembly.statements
 
-    def tokens(self, text: str) -> Iterator[tuple[str, int, int]]:
-        """Kind, start and end of each token, in a text that may be unsound.
+    def tokens(self, text: str, at: int = 0) -> Iterator[tuple[str, int, int]]:
+        """Kind, start and end of each token from a place on, in a text that may be unsound.
 
         Characters that begin no token are passed over; a quote that nothing closes, or nothing
         before the end of a statement and of its line, opens a string up to the end of the line.
         """
-        at = 0
         while at < len(text):
             m = self._token.match(text, at)
             if m is None:

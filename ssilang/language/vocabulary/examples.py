@@ -162,6 +162,7 @@ EXAMPLES: dict[str, str] = {
     "structure": "I = 4 ;\nSI (I > 3) ; MESS 'more' ; SINON ; MESS 'less' ; FINSI ;",
     "structure REPETER": "REPE BL 3 ; MESS &BL ; FIN BL ;",
     "structure DEBPROC": _DOUBLE, "structure FINPROC": _DOUBLE,
+    "structure TEXTE": "T = TEXT 'A = 3 + 4' ;\nT ;\nLIST A ;",
     "structure DEBMETH": _CLASS, "structure FINMETH": _CLASS,
 }  # fmt: skip
 

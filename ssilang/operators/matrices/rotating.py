@@ -41,8 +41,7 @@ def _rotation(call: Call, model: Model, given: Point | None) -> FloatArray:
         raise call.missing(("POINT",))
     if len(given.coordinates) == 2:
         raise call.error("operators.matrices.rotation-vector-in-space")
-    found: FloatArray = np.array(given.coordinates, dtype=float)
-    return found
+    return np.array(given.coordinates, dtype=float)
 
 
 @operator("CORI", family="matrix", full_name="CORIOLIS")

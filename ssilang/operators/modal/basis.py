@@ -356,7 +356,9 @@ def join_bases(first: Table, second: Table) -> Table:
     for index, value in first.items():
         if not isinstance(index, int):
             table.set(index, value)
-    entries = [v for t in (first, second) for i, v in t.items() if isinstance(i, int)]
-    for number, entry in enumerate(entries, start=1):
+    pairs = [
+        (k, i, v) for k, t in enumerate((first, second)) for i, v in t.items() if type(i) is int
+    ]
+    for number, (*_, entry) in enumerate(sorted(pairs), start=1):
         table.set(number, entry)
     return table

@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.matrices.assembly import (
     assemble,
+    field_to_vector,
     is_symmetric,
     negative_mass,
     numbering_of,
@@ -89,6 +90,11 @@ def _modes(
         modes = modes_near(stiffness, mass, wanted, solver_of(call.session))
         if len(wanted) == 1 and len(modes) < wanted[0][1]:
             call.warn("operators.modal.fewer-modes", asked=wanted[0][1], found=len(modes))
+        unknowns = numbering_of(mass)
+        shapes = [field_to_vector(m.shape, unknowns, dual=False) for m in modes]
+        twice = [m for m, u, v in zip(modes, shapes, shapes[1:], strict=False) if np.allclose(u, v)]
+        if twice:
+            call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
 
 

@@ -118,6 +118,7 @@ _INTEGERS_STAY = frozenset({"ABS", "SIGN"})
 
 
 _VALUE = arg("value", *OPERANDS, en="argument", range=CARRIED)
+_ANGLE = arg("value", *OPERANDS, en="angle", unit="deg", range=CARRIED, usual=CARRIED)
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
@@ -130,7 +131,7 @@ def _run(name: str, function: Function, value: Any) -> Any:
 for _name, _function in _FUNCTIONS.items():
     operator(
         _name,
-        _VALUE,
+        _ANGLE if _name in ("SIN", "COS", "TAN") else _VALUE,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
     )(partial(_run, _name, _function))

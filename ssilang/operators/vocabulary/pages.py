@@ -205,7 +205,7 @@ def _see_also(kind: str, word: Word) -> list[str]:
         alike = [w.name for w in vocabulary.words(kind) if w.kind == word.kind and w is not word]
         found = [*found, *dict.fromkeys(alike[:8])]
     pattern = re.compile(rf"\b{re.escape(word.name)}\b")
-    return [*found, *(name for name, text in _manual() if pattern.search(text))]
+    return [*found, *(n for n, text in _manual() if word.name in text and pattern.search(text))]
 
 
 # ---- everything that help knows --------------------------------------------------------------

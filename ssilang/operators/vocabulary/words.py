@@ -48,6 +48,7 @@ _LINES = 12  # of meanings in a hint
 # ---- zones that stand for a law or an element ---------------------------------------------------
 
 
+@cache
 def sample(
     element: str, mode: Mode, behaviour: tuple[str, ...] = (), formulation: str = "MECANIQUE"
 ) -> Zone:
@@ -170,10 +171,8 @@ def owners(name: str) -> tuple[tuple[Word, Quantity], ...]:
         found += [(law, word) for word in dict.fromkeys(meant)]
     for element in vocabulary.words("element"):
         for zone in samples_of_element(element.name) if element.name in ELEMENTS else ():
-            own = ELEMENTS[element.name].family in (
-                "joint",
-                "link",
-            )  # its laws have many parameters alike
+            # laws of joints and links have many parameters alike
+            own = ELEMENTS[element.name].family in ("joint", "link")
             if name in (*geometric_names(zone).all, *(law_names(zone).all if own else ())):
                 found.append((element, parameter(name, zone)))
                 break

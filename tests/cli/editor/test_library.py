@@ -69,7 +69,7 @@ def test_a_name_of_a_procedure_is_renamed_wherever_it_is_meant(path):
         alike = names.alike(first)
         assert {o.name for o in alike} == {first.name}
         assert {o.scope for o in alike} == {first.scope}
-        assert all(names.at(o.start) is o is names.at(o.end) for o in alike)
+        assert all(names.at(o.start) == o == names.at(o.end) for o in alike)
         assert first in names.definitions(first)
         assert first.name in names.visible(first.scope)
         assert first.name not in names.visible(0)

@@ -60,3 +60,13 @@ def test_the_colour_of_each_word():
                 ("TABL", "function"), ("ZP", "function"), ("FINSI", "keyword"),
                 ("2.5", "number"), ("* alone", "comment"), ("A1", "variable")):  # fmt: skip
         assert one in told
+
+
+def test_the_colours_of_a_part_are_those_of_the_whole_that_begin_there():
+    document = Document.of(TEXT)
+    whole, lines = colours(document), TEXT.splitlines(keepends=True)
+    starts = [sum(map(len, lines[:i])) for i in range(len(lines) + 1)]
+    for first in range(len(lines)):
+        for last in range(first + 1, len(lines) + 1):
+            start, end = starts[first], starts[last]
+            assert colours(document, start, end) == [c for c in whole if start <= c[0] < end]

@@ -226,6 +226,13 @@ async def test_outline_folds_and_colours(client):
         ("SIDE", "variable"),
         ("DROI", "function"),
     ]
+    lines = lsp.Range(lsp.Position(2, 5), lsp.Position(4, 1))
+    part = await client.text_document_semantic_tokens_range_async(
+        lsp.SemanticTokensRangeParams(named, lines)
+    )
+    seen = colours_of(DECK, part.data, client)
+    assert [word for word, _ in seen[:2]] == ["SIDE", "DROI"]
+    assert [word for word, _ in seen[-3:]] == ["1.E-6", "SIDE", "LOW"]
 
 
 def colours_of(text: str, data: list[int], client: LanguageClient) -> list[tuple[str, str]]:

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-import vtk
-from vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkFieldData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Part, SeriesWriter
@@ -27,21 +29,21 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
-def opened(path: Path) -> vtk.vtkHDFReader:
-    reader = vtk.vtkHDFReader()
+def opened(path: Path) -> vtkHDFReader:
+    reader = vtkHDFReader()
     assert reader.CanReadFile(str(path))
     reader.SetFileName(str(path))
     reader.UpdateInformation()
     return reader
 
 
-def times_of(reader: vtk.vtkHDFReader) -> list[float]:
+def times_of(reader: vtkHDFReader) -> list[float]:
     """Times as the pipeline says them; VTK names them only if there are several."""
-    steps = vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    steps = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     return list(reader.GetOutputInformation(0).Get(steps) or ())
 
 
-def step_of(reader: vtk.vtkHDFReader, step: int) -> pyvista.DataObject:
+def step_of(reader: vtkHDFReader, step: int) -> pyvista.DataObject:
     reader.SetStep(step)
     reader.Update()
     made = reader.GetOutput().NewInstance()
@@ -49,7 +51,7 @@ def step_of(reader: vtk.vtkHDFReader, step: int) -> pyvista.DataObject:
     return pyvista.wrap(made)
 
 
-def arrays_of(data: vtk.vtkFieldData) -> dict[str, np.ndarray]:
+def arrays_of(data: vtkFieldData) -> dict[str, np.ndarray]:
     arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
     return {a.GetName(): vtk_to_numpy(a) for a in arrays}
 
@@ -326,11 +328,12 @@ def field_of_step(mesh: Mesh, step: int) -> NodeField:
 
 # what a process of its own finds in a file: steps and values of the last one, or that it dies
 LOOK = """
-import sys, vtk, numpy as np
-from vtk.util.numpy_support import vtk_to_numpy
+import sys, numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOHDF import vtkHDFReader
 for line in sys.stdin:
     path = line.strip()
-    reader = vtk.vtkHDFReader()
+    reader = vtkHDFReader()
     reader.SetFileName(path)
     reader.UpdateInformation()
     steps = reader.GetNumberOfSteps()

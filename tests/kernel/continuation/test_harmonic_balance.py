@@ -5,12 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.sparse import csr_array
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
+from ssilang.kernel.continuation.expansion import FrequencyProblem
 from ssilang.kernel.continuation.floquet import exponents, monodromy
 from ssilang.kernel.continuation.harmonics import Oscillators, basis_of, derivative_matrix
 from ssilang.kernel.continuation.response import forced_response, normal_mode
+from ssilang.kernel.stepping.problem.loading import Loading
 
 DAMPING, CUBIC, LOAD = 0.1, 0.25, 0.5
 
@@ -54,6 +57,32 @@ def test_one_harmonic_is_the_closed_form_of_duffings_response():
         k = 1 + 0.75 * CUBIC * a**2 - s**2
         slope = (k**2 + (DAMPING * s) ** 2) + k * 1.5 * CUBIC * a**2
         assert slope == pytest.approx(0.0, abs=1e-5)
+
+
+def test_slopes_of_a_balance_in_motion_and_in_time_are_those_of_differences():
+    """Loads, and the frequency that they go with, change in pseudo-time; some motions are held."""
+    rng, n, m = np.random.default_rng(2), 6, 2
+    K, C, M, T = (csr_array(rng.standard_normal((n, k))) for k in (n, n, n, 4))
+    basis, places = basis_of(1, 12), np.array([[0, 3], [1, 4], [2, 5]])
+    times = np.array([0.0, 1.0, 2.0])
+    loading = Loading(rng.standard_normal((n, m)), np.zeros((0, m)),
+                      ((times, times**2), (times, 3.0 - times)))  # fmt: skip
+    cubic = lambda q: (-(q**3), 3.0 * q[:, :, None] ** 2 * np.eye(m))  # noqa: E731
+    problem = FrequencyProblem(None, K, C, M, T, loading, lambda t: 1.0 + t * t, basis, places,
+                               cubic)  # fmt: skip
+    u, t, h = rng.standard_normal(4), 1.4, 1e-6
+    R, J, rate = problem.at(u, t)
+    for j, step in enumerate(h * np.eye(4)):
+        slope = (problem.at(u + step, t)[0] - problem.at(u - step, t)[0]) / (2 * h)
+        np.testing.assert_allclose(J[:, j], slope, rtol=1e-6, atol=1e-6)
+    slope = (problem.at(u, t + h)[0] - problem.at(u, t - h)[0]) / (2 * h)
+    np.testing.assert_allclose(rate, slope, rtol=1e-6, atol=1e-6)
+    w, U = 1.0 + t * t, (T @ u)
+    F = loading.forces @ [2.2, 1.6]  # between the points of its curves
+    f = np.zeros(n)
+    q = basis.values @ U[places]
+    f[places] = basis.back @ -(q**3)
+    np.testing.assert_allclose(R, T.T @ ((K + w * C + w * w * M) @ U - F - f), rtol=1e-10)
 
 
 def test_an_unbalance_drives_by_the_square_of_the_frequency():

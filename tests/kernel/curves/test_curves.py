@@ -80,8 +80,8 @@ def test_complex_curves_combine_as_complex_numbers(kinds):
         np.testing.assert_allclose(made, values[i] * values[i + 2], rtol=1e-12)
     named = algebra.combined(Curve(a.parts, "t", "COMPLEXE"), b, "-", np.subtract)
     assert (named.title, named.kind) == ("t", "COMPLEXE")
-    refused(lambda: algebra.combined(a, Curve((PART,) * 4), "+", np.add),
-            "real-curve-complex-cannot")  # fmt: skip
+    for both in ((a, Curve((PART,) * 4)), (Curve((PART,) * 4), a)):
+        refused(lambda pair=both: algebra.combined(*pair, "+", np.add), "real-curve-complex-cannot")
     moved = Curve(tuple(CurvePart(X + 1, part.ordinates, kind=part.kind) for part in b.parts))
     refused(lambda: algebra.combined(a, moved, "+", np.add), "complex-curves-must-same")
 

@@ -31,6 +31,7 @@ CASES = {
     **dict.fromkeys(("DKT", "COQ3", "COQ4", "COQ6", "COQ8"), (SHELL, SPACED)),
 }  # fmt: skip
 SHELLS = ("DKT", "COQ3", "COQ4", "COQ6", "COQ8")
+LOOSE = {"Q8RI": 1, "COQ8": 2, "C20R": 6, "P15R": 3}  # of one cell, by strains at few points
 ROUGH = ("Q4RI", "COQ3")  # held by more than their stresses, stresses at one point of three
 FREE = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)
 ALL = [(e, m) for e, (_, modes) in CASES.items() for m in modes]
@@ -172,6 +173,29 @@ def test_nothing_depends_on_how_a_body_is_turned(element, mode):
         near(a, b)
 
 
+@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE])
+def test_rigid_motions_alone_strain_nothing_and_need_no_force(element, mode):
+    two = Two(element, mode, np.eye(3))
+    space = mode in SPACED
+    w, v = (np.array([0.3, -0.5, 0.8]) * [space, space, 1], np.array([1.1, 0.7, 0.9 * space]))
+    u = [v + np.cross(w, two.x), np.tile(w, (len(two.x), 1))]
+    K = families.stiffness(two.zone, two.material)
+    other = two.product(K, two.field(drawn(two, mode)))
+    pushed = two.product(K, two.field(u))
+    size = np.abs(other).max(axis=(1, 2)) / 1e-3
+    assert (np.abs(pushed).max(axis=(1, 2)) <= 1e-9 * size).all()
+    values = np.linalg.eigvalsh(K.values)
+    free = (values < 1e-10 * values[:, -1:]).sum(axis=1)
+    rigid = 6 if space else 3
+    if element[:3] == "BAR":  # held along itself alone
+        rigid = K.values.shape[1] - len(K.local) // mode.dimension + 1
+    assert (free == LOOSE.get(element, 0) + rigid).all(), free
+    strain = families.strain(two.zone, two.field(u), two.material).components
+    usual = families.strain(two.zone, two.field(drawn(two, mode)), two.material).components
+    for name, values in strain.items():
+        assert np.abs(values).max() <= 1e-8 * np.abs(usual[name]).max()
+
+
 @pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE and e != "SHB8"])
 def test_stresses_that_turn_with_a_body_turn_its_forces(element, mode):
     """Geometric stiffness times a small turn is the turned forces, whatever the stresses.
@@ -222,6 +246,28 @@ def test_mass_is_that_of_the_matter_in_each_direction(element, mode, lumped):
     near(M.values, np.swapaxes(M.values, 1, 2), 1e-13)
     if lumped:
         near(M.values, M.values * np.eye(M.values.shape[1]), 1e-15)
+
+
+@pytest.mark.parametrize("element", ["POUT", "TIMO", "TUYA"])
+def test_a_line_that_turns_has_the_energy_of_its_sections_in_their_axes(element):
+    two, w = Two(element, Mode.THREE_DIMENSIONAL, np.eye(3)), np.array([0.3, -0.5, 0.8])
+    given = {k: v[:, 0] for k, v in two.material.blocks[0].components.items()}
+    if element == "TUYA":
+        outer, inner = given["RAYO"], given["RAYO"] - given["EPAI"]
+        given["INRY"] = given["INRZ"] = np.pi / 4 * (outer**4 - inner**4)
+        given["SECT"] = np.pi * (outer**2 - inner**2)
+    ends = two.zone.cells.coordinates
+    v = np.cross(w, ends)
+    along = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(along, axis=1)
+    third = np.cross(along, [0.2, 0.9, 0.4])
+    axes = [x / np.linalg.norm(x, axis=1)[:, None] for x in (along, np.cross(third, along), third)]
+    inertia = (given["INRY"] + given["INRZ"], given["INRY"], given["INRZ"])
+    exact = given["SECT"] * (np.vecdot(v[:, 0], v.sum(axis=1)) + np.vecdot(v[:, 1], v[:, 1])) / 3
+    exact += sum(moment * (e @ w) ** 2 for e, moment in zip(axes, inertia, strict=True))
+    M = families.mass(two.zone, two.material)
+    turn = two.vectors(M, two.field([np.cross(w, two.x), np.tile(w, (len(two.x), 1))]))
+    near(np.einsum("ci,cij,cj->c", turn, M.values, turn), given["RHO"] * length * exact, 1e-12)
 
 
 @pytest.mark.parametrize(("element", "mode"), ALL)

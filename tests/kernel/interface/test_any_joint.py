@@ -1,13 +1,16 @@
 """Joints and their law on random data: any face, rule, rotation, size, path."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from references.assembled import Bench
 from scipy.spatial.transform import Rotation
 
+from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.interface.elements import with_rule
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.materials.model import Mode
@@ -24,10 +27,19 @@ FACES = {
     "JNT3": ("LIA3", "TRI3"),
     "JNO4": ("LIA4", "QUA4"),
 }
+NODAL = {"JOI2": "JNO2", "JOI3": "JNO3", "JOT3": "JNT3", "JOI4": "JNO4", "JOI1": "JOI1"}
 AREA = {"SEG2": 2.0, "SEG3": 2.0, "TRI3": 0.5, "TRI6": 0.5, "QUA4": 4.0, "QUA8": 4.0}
 angle = st.floats(-3.1, 3.1)
 size = st.floats(-2.0, 3.0).map(lambda x: 10.0**x)
 component = st.floats(-1.0, 1.0)
+
+
+def test_rules_lead_from_joints_to_joints_on_the_same_faces():
+    for gauss, nodal in NODAL.items():
+        for start in (gauss, nodal):
+            assert [with_rule(start, r) for r in ("GAUSS", "LOBATTO")] == [gauss, nodal]
+    with pytest.raises(MeshError, match="JOI8"):
+        with_rule("JOI8", "LOBATTO")
 
 
 def placed(element, angles, stretch, shift):

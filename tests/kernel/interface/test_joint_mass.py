@@ -1,11 +1,14 @@
-"""The mass of a joint's own matter: all of it, shared by both sides."""
+"""The mass of a joint's own matter, shared by both sides; the moduli of two points."""
 
 import numpy as np
 import pytest
 from references.assembled import Bench
 
-from ssilang.kernel.elements.families import mass
+from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 
@@ -37,3 +40,35 @@ def test_a_surface_joint_has_its_density_on_the_middle():
     zone = bench.joint("RAC2", cells, "JOI2", KN=1.0, KS=1.0, RHO=5.0)
     wanted = dict(zip(low + up, [3.75, 4.75, 1.0] * 2, strict=True))
     assert masses(bench, zone) == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@pytest.mark.parametrize("kind", ["", "ANISOTROPE"])
+def test_two_points_push_by_their_moduli_along_and_about_their_own_axes(mode, kind):
+    """Jumps and turns of the second point against the first: normal, two shears; turns alike."""
+    rng, bench, d = np.random.default_rng(3), Bench(mode), mode.dimension
+    n = 2 * d - (d == 2)  # components, their normal one first
+    root = rng.standard_normal((n, n))
+    D = root @ root.T + np.eye(n)
+    if kind:
+        given = {f"D{i + 1}{j + 1}": D[i, j] for i in range(n) for j in range(i + 1)}
+    else:
+        D = np.diag(np.diag(D))
+        names = ("KN", "KS", "QS") if d == 2 else ("KN", "KS1", "KS2", "QN", "QS1", "QS2")
+        given = dict(zip(names, np.diag(D), strict=True))
+    axes = np.linalg.qr(rng.standard_normal((d, d)))[0]
+    axes[-1] *= np.linalg.det(axes)
+    given |= {f"V{k + 1}{c}": axes[k, i] for k in range(d - 1) for i, c in enumerate("XYZ"[:d])}
+    nodes = [bench.node(*(0.0 * axes[0])), bench.node(*axes[0])]
+    zone = bench.joint("SEG2", nodes, "JOI1", kind or "ELASTIQUE", **given)
+    block = stiffness(zone, bench.characteristics)
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    u = {name: rng.standard_normal(2) for name in block.unknowns}
+    v = layout.gather(NodeField.of(bench.table, np.array(nodes), u, "DIFFUS"))
+    jump, turn = (
+        np.array([u[name][1] - u[name][0] for name in names if name in u])
+        for names in (("UX", "UY", "UZ"), ("RX", "RY", "RZ"))
+    )
+    local = np.concatenate([axes @ jump, turn if d == 2 else axes @ turn])
+    found = np.einsum("ci,cij,cj->c", v, block.values, v)
+    np.testing.assert_allclose(found, local @ D @ local, rtol=1e-12)

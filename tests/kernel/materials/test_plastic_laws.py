@@ -1,6 +1,7 @@
 """Plastic laws at points: consistent tangents, admissible stresses, closed forms."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from scipy.optimize import brentq
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.materials.plastic import cone
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
@@ -95,6 +97,32 @@ def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...
 def test_every_law_of_solids_and_of_fibres_is_tested() -> None:
     elsewhere = {"CAM_CLAY"}  # has a test of its own: its elasticity is not that of YOUN and NU
     assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*PLASTIC_LAWS}
+
+
+@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
+def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) -> None:
+    """Plane stress: what is left of a stress that returned from far is rounding of where it was."""
+    p, turns = parameters("PARFAIT"), []
+    law = replace(PLASTIC_LAWS["PARFAIT"], respond=lambda *a: turns.append(1) or perfect(*a))
+    perfect, strain = PLASTIC_LAWS["PARFAIT"].respond, size * steps(3)[1]
+    found, taken = respond_held(law, p, np.zeros((M, 6)), strain, np.zeros((M, 1)), (2,))
+    assert len(turns) <= 16
+    q = mises(found.stress)[0]
+    # rounding of the elastic stress from which a point returns, in moduli of 1000
+    assert np.abs(q[q > 0.9] - 1.0).max() <= 1e-12 * max(1.0, 1e3 * np.abs(taken).max())
+
+
+@pytest.mark.parametrize("name", ["ISOTROPE", "J2", "DRUCKER_PRAGER"])
+def test_flow_is_found_in_few_turns_however_little_it_is(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    law, p, turns = PLASTIC_LAWS[name], parameters(name), []
+    stiffness = cone._Flow._stiffness
+    monkeypatch.setattr(cone._Flow, "_stiffness", lambda *a: turns.append(1) or stiffness(*a))
+    for seed in range(40):
+        before, blank = len(turns), np.zeros((M, len(law.variables)))
+        law.respond(p, np.zeros((M, 6)), 0.1 * steps(seed)[1], blank)
+        assert len(turns) - before <= 12
 
 
 @pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
@@ -300,7 +328,16 @@ def test_points_have_each_their_own_answer(name: str) -> None:
     stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
     alone = [(np.zeros((1, 6)), variables[:1])] * m
     for step in (*steps(7), *steps(8)):
-        found = law.respond(p, stress, step[:m], variables)
+        given = (stress, step[:m], variables)
+        kept = [x.copy() for x in given]
+        found = law.respond(p, *given)
+        for x, before in zip(given, kept, strict=True):
+            np.testing.assert_array_equal(x, before)
+        if name in FIBRES:  # elastic shear beside them, nothing else
+            sheared = stress[:, 3:5] + p.values["YOUN"][:, None] / 2.0 / (
+                1.0 + p.values["NU"][:, None]) * step[:m, 3:5]  # fmt: skip
+            np.testing.assert_allclose(found.stress[:, 3:5], sheared, rtol=1e-12)
+            assert not found.stress[:, [1, 2, 5]].any()
         for i in range(m):
             one = p.at(np.array([i]))
             alike = law_at(PLASTIC_LAWS[name], one)

@@ -109,6 +109,11 @@ def test_slender_bars_lose_strength_and_stiffness() -> None:
     # near the reversal the curve is its first line
     assert (found[3] - found[2]) / 0.0005 == pytest.approx(soft, rel=1e-6)
     assert soft < 0.95 * E
+    s, er = found[2], -0.03  # the softer line meets that of hardening; far on the curve is near it
+    e0 = (SY * (1 - b) + soft * er - s) / (soft - b * E)
+    x, share = -er / (e0 - er), b * E / soft
+    far = s + soft * (e0 - er) * (share * x + (1 - share) * x / (1 + x**20) ** 0.05)
+    assert found[4] == pytest.approx(far, rel=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Matrices made, taken apart and condensed, against dense ones summed term by term."""
 
 from collections import defaultdict
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.build import matrix_from_sparse
 from ssilang.kernel.matrices.impedance import factors, impedance
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -247,6 +248,36 @@ def test_parts_of_a_matrix_are_its_terms():
         r.coefficients.tolist() for r in matrix.relations
     ]
     assert terms(matrix.scaled(-2.5)) == pytest.approx({k: -2.5 * v for k, v in all_terms.items()})
+
+
+@pytest.mark.parametrize("kept", [[0, 1, 2], [1], [0, 2], []])
+def test_rows_on_a_mesh_are_whole_rows_of_unequal_terms(kept):
+    """Those whose nodes are all in it, or whose multiplier is; they push where they pushed."""
+    rng, bench = np.random.default_rng(7), Bench()
+    for x in rng.uniform(0.0, 1.0, (9, 2)):
+        bench.node(*x)
+    starts, names = np.array([0, 3, 4, 6]), ("UX", "UY", "RZ", "UY", "UX", "RZ")
+    C, D = (
+        Relations(bench.table, starts, np.array([2, 4, 0, 1, 5, 3]), unknowns,
+                  rng.standard_normal(6), np.array([8, 6, 7]), np.array([0, 1, -1], np.int8))
+        for unknowns in (names, names[::-1])
+    )  # fmt: skip
+    rows = replace(C, dual=D)
+    places = [n for k in kept for n in ([0, 2, 4], [6], [3, 5])[k]]
+    mesh = Mesh.of(bench.table, "POI1", np.array(places, np.int64).reshape(-1, 1))
+    part = submatrices.on_mesh(Matrix(bench.table, (), (rows,)), mesh)
+    if not kept:
+        assert part.relations == ()
+        return
+    (found,) = part.relations
+    for new, old in ((found, C), (found.dual, D)):
+        assert new.raw_multipliers.tolist() == old.raw_multipliers[kept].tolist()
+        assert new.sense.tolist() == old.sense[kept].tolist()
+        for row, k in enumerate(kept):
+            mine, own = slice(*new.row_start[row : row + 2]), slice(*starts[k : k + 2])
+            for name in ("raw_nodes", "unknowns", "coefficients"):
+                assert list(getattr(new, name)[mine]) == list(getattr(old, name)[own])
+        assert len(new.unknowns) == len(new.coefficients) == new.row_start[-1]
 
 
 def test_sparse_matrices_become_elements_and_come_back():

@@ -66,6 +66,10 @@ def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, 
     made = regenerate(sector)
     assert {b.cell_type: len(b) for b in made.blocks} == {name: 4, cell: 4}
     assert repeated_nodes(made) == 0
+    cells = np.random.default_rng(2).integers(0, 9, (40, 4))
+    table = NodeTable()
+    told = repeated_nodes(Mesh.of(table, "QUA4", table.add(np.eye(9)[:, :3])[cells]))
+    assert told == sum(len(set(c)) < 4 for c in cells.tolist()) > 9
     assert total_measure(made) == pytest.approx(area)
 
 

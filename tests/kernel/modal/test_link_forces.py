@@ -211,6 +211,29 @@ def test_dampers_push_only_and_permanent_links_pull():
     np.testing.assert_allclose(total, (34.0 - 3.0 * v) * UNIT @ SEES)
 
 
+@pytest.mark.parametrize("kinematic", [0.0, 1.0])
+@pytest.mark.parametrize("permanent", [0.0, 1.0])
+def test_plastic_springs_do_not_see_the_steps_and_stay_on_their_law(kinematic, permanent):
+    """Over several lines of the law at once, there and back, beyond the start of hardening."""
+    spring = np.array([[0.0, 0.0], [0.2, 10.0], [0.5, 16.0], [1.1, 20.0], [1.5, 21.0]])
+    along = SEES.T @ UNIT / (UNIT @ SEES @ SEES.T @ UNIT)
+    numbers = NORMAL | {law.GAP: 0.0, law.PLASTIC: 1.0, law.KINEMATIC: kinematic,
+                        law.PERMANENT: permanent}  # fmt: skip
+    link, states = [Link(law.PLANE, SEES, SEES, numbers, spring)], (None, None)
+    x = 0.0
+    for end in (0.9, 0.3, 1.9, 0.65, 1.2, -1.4, 0.4, 2.5, -2.0):
+        found = []
+        for way, state in zip(([end], np.linspace(x, end, 201)[1:]), states, strict=True):
+            for at in way:
+                _, record, state = forces(link, at * along, 0 * V, state=state)
+            found.append((record[0, law.FN], state))
+        assert found[0][0] == pytest.approx(found[1][0], rel=1e-9, abs=1e-9)
+        np.testing.assert_allclose(found[0][1], found[1][1], rtol=1e-9, atol=1e-9)
+        if end == 0.9 or (end == 1.9 and not kinematic):
+            assert -found[0][0] == pytest.approx(np.interp(end, *spring.T) if end < 1 else 22.0)
+        x, states = end, tuple(s for _, s in found)
+
+
 DRIVE = np.array([0.3, -0.2, 0.5])
 
 

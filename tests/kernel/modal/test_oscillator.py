@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.oscillator import (
     Oscillators,
     default_frequencies,
@@ -83,17 +82,6 @@ def test_default_frequencies_step_by_the_duration_then_by_the_damping():
     np.testing.assert_allclose(f[:20], 0.1 * np.arange(1, 21))
     np.testing.assert_allclose(np.diff(f)[25:] / f[25:-1], 0.05)
     assert f[-1] <= 50.0 < f[-1] * 1.05
-
-
-def test_bad_signals_are_refused():
-    with pytest.raises(
-        KernelError, check=lambda e: e.code == "kernel.modal.signal-times-must-increase"
-    ):
-        response(np.array([0.0, 0.0]), np.zeros(2), 1.0, 0.1)
-    with pytest.raises(
-        KernelError, check=lambda e: e.code == "kernel.modal.frequency-oscillator-must-positive"
-    ):
-        response(np.array([0.0, 1.0]), np.zeros(2), -1.0, 0.1)
 
 
 def test_equal_steps_give_the_history_of_the_step_by_step_march():

@@ -1,5 +1,6 @@
 """Plastic bodies in calculations: limit loads, convergence of Newton, energy, elastic limit."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -249,16 +250,13 @@ SCHEMES = {
 }  # fmt: skip
 
 
-PAIRS = [(a, b) for i, a in enumerate(LAWS) for b in ("loads", [*SCHEMES][1 + i % 4])]
-
-
-@pytest.mark.parametrize(("law", "scheme"), PAIRS)
-def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str) -> None:
-    """A tied plate is pushed while its side moves: work from instants alone, in fine steps."""
-    kind = ("QUA4", "TRI3", "QUA8")[(list(LAWS).index(law) + list(SCHEMES).index(scheme)) % 3]
-    text = f"""
+@cache
+def plate(law: str):
+    """A tied plate that is pushed while its side moves."""
+    kind = ("QUA4", "TRI3", "QUA8")[list(LAWS).index(law) % 3]
+    return ran(f"""
     OPTI DIME 2 ELEM {kind} MODE PLAN DEFO ;
-    S = (DROI 3 (0 0) (3 0)) TRAN 2 (0.4 1.5) ;
+    S = (DROI 2 (0 0) (3 0)) TRAN 1 (0.4 1.5) ;
     M = MODE S MECANIQUE ELASTIQUE PLASTIQUE {law} ;
     A = MATE M YOUN 1.E3 NU .3 RHO 20. {LAWS[law]} ;
     L1 = COTE 1 S ; L3 = COTE 3 S ; P1 = L3 POIN INIT ; P2 = L3 POIN FINA ;
@@ -267,16 +265,18 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     C = (CHAR DIMP D (EVOL MANU (PROG 0. 1. 2.) (PROG 0. 1. -.3))) ET
     (CHAR MECA F (EVOL MANU (PROG 0. 0.5 2.) (PROG 0. 1.4 -1.))) ;
     MA = MASS M A ; AM = (MA * 0.6) ET ((RIGI M A) * 0.01) ;
-    """
-    result = ran(text)
+    """)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str) -> None:
+    """Work from instants alone, in fine steps."""
+    result = plate(law)
     zones, support = plastic_zones(at(result, "M")), at(result, "B")
     stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
-    times, rule = np.linspace(0.0, 2.0, 121), SCHEMES[scheme]
-    moving = (
-        {}
-        if rule is None
-        else {"mass": at(result, "MA"), "damping": at(result, "AM"), "scheme": rule}
-    )
+    times, rule = np.linspace(0.0, 2.0, 81), SCHEMES[scheme]
+    moving = {"mass": at(result, "MA"), "damping": at(result, "AM"), "scheme": rule} if rule else {}
     p = make_problem(Inputs(stiffness, times, load=at(result, "C"), **moving))
     bulk = bulk_of(zones, at(result, "A"), p.numbering)
     run = BulkRun(p, bulk, bulk.unloaded())
@@ -295,8 +295,9 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     kinetic = 0.5 * np.vecdot(v @ p.M, v)[1:] if rule else 0.0 * work
     np.testing.assert_allclose(energies[:, KINETIC], kinetic, atol=1e-8 * size)
     kept = energies[:, [KINETIC, ELASTIC, STORED, DAMPED, LOST]].sum(axis=1)
-    loss = (work - kept) / size  # of the scheme's own: it has none or little
-    assert loss.min() > -0.02
-    assert loss.max() < (0.02 if scheme in ("loads", "newmark") else 0.2)
+    loss, conserving = (work - kept) / size, scheme in ("loads", "newmark")
+    # others lose more, and lend by turns what they weigh of the step before
+    assert loss.min() > (-0.02 if conserving else -0.04)
+    assert loss.max() < (0.02 if conserving else 0.2)
     assert energies[-1, LOST] > 0.05 * size
     assert (np.diff(energies[:, LOST]) >= -1e-3 * size).all()

@@ -82,9 +82,9 @@ def test_a_strip_under_an_end_moment_rolls_up(tmp_path):
             F = (MOME 'MY' (0.25 * M1) P1) ET (MOME 'MY' (0.5 * M1) P2)
                 ET (MOME 'MY' (0.25 * M1) P3) ;
             T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
-            T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.25 1. ;
-            PASAPAS T ; U = T . 'DEPLACEMENTS' . 4 ; A = EXTR U P2 'UX' ; B = EXTR U P2 'UZ' ;
-            C = EXTR U P2 'RY' ; N = MAXI (EXCO 'M11' (T . 'CONTRAINTES' . 4)) 'ABS' ;
+            T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.5 1. ;
+            PASAPAS T ; U = T . 'DEPLACEMENTS' . 2 ; A = EXTR U P2 'UX' ; B = EXTR U P2 'UZ' ;
+            C = EXTR U P2 'RY' ; N = MAXI (EXCO 'M11' (T . 'CONTRAINTES' . 2)) 'ABS' ;
             """,
             tmp_path / str(count),
         )

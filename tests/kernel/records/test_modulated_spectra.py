@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
     Resolution,
@@ -111,18 +110,3 @@ def test_mean_of_the_largest_values_of_simulated_signals(period):
     )
     # for the stationary signal the same law is 3 % low here
     assert found[0] == pytest.approx(largest.mean(), rel=0.1)
-
-
-def test_what_has_no_meaning_is_refused():
-    with pytest.raises(FieldError, match="limits"):
-        ModulatedSignal(
-            np.array([1.0, 2.0]), np.ones(2), np.array([1.0, 2.0, 3.0]),
-            (np.array([0.0, 1.0]),), (np.ones(2),),
-        )  # fmt: skip
-    with pytest.raises(FieldError, match="all alike"):
-        ModulatedSignal(
-            np.array([1.0, 3.0]), np.ones(2), np.array([1.0, 2.0, 3.0]),
-            (np.array([0.0, 1.0]), np.array([0.0, 2.0])), (np.ones(2), np.ones(2)),
-        )  # fmt: skip
-    with pytest.raises(FieldError, match="damping"):
-        modulated_response_spectrum(flat(1.0, 2.0, 5.0), np.ones(1), 0.0, "ACCE", Resolution(2))

@@ -6,10 +6,10 @@ from references.assembled import Bench
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
-from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector
 from ssilang.kernel.matrices.matrix import Matrix
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.waves.free_field_forces import (
     Ground,
     Motion,
@@ -19,6 +19,8 @@ from ssilang.kernel.waves.free_field_forces import (
     elements_of,
     layer_forces,
     load_of,
+    yielding_at,
+    yielding_outside,
 )
 from ssilang.kernel.waves.resolution import highest_frequency, longest_sides
 from tests.kernel.elements.samples import cell_zone
@@ -162,3 +164,21 @@ def test_the_longest_side_of_an_oblong_cell_and_no_diagonal(element, longest):
     x = zone.cells.nodes.coordinates
     x[:, : nodes.shape[1]] = nodes * np.array([1.0, 2.0, 3.0])[: nodes.shape[1]] / whole
     np.testing.assert_allclose(longest_sides(zone), longest)
+
+
+def test_cells_that_yield_are_told_where_they_touch_an_edge_or_lie_beyond_the_ground():
+    """Of two zones of joints of which one is linear, beside a plastic one: first place, count."""
+    b = Bench()
+    n = [b.node(float(i), 0.0) for i in range(9)]
+    for law, k in (("JOINT_SDM", 0), ("ELASTIQUE", 2)):
+        b.joint("SEG2", [[n[k], n[k + 1]], [n[k + 1], n[k + 2]]], "JOI1", law, KN=1.0, KS=1.0)
+    cells = CellBlock.make(b.table, "SEG2", np.array([n[4:6], n[5:7], n[6:8]]))
+    b.zones.append(Zone(cells, "MECANIQUE", ("ELASTIQUE", "PLASTIQUE", "PARFAIT"), "BARR", b.mode))
+    edge = Mesh.of(b.table, "POI1", np.array([[n[5]], [n[3]], [n[0]]]))
+    found = yielding_at(b.model, edge)
+    assert (found.count, found.behaviour) == (3, ("ELASTIQUE", "JOINT_SDM"))
+    assert found.place[0] == 0.5
+    assert yielding_at(b.model, Mesh.of(b.table, "POI1", np.array([[n[3]], [n[8]]]))) is None
+    inside = Mesh.of(b.table, "SEG2", np.array([[n[1], n[0]], n[4:6], n[2:4], n[6:8]]))
+    found = yielding_outside(b.model, inside)
+    assert (found.count, found.place[0]) == (2, 1.5)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.waves.free_field_forces import along_columns
 from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
 
@@ -83,15 +82,3 @@ def test_an_incident_wave_passes_its_point_then_comes_back_from_the_surface(kind
         np.testing.assert_allclose(found[i, component], expected, atol=1e-8)
     assert wave.delay(ground) == pytest.approx(7 * STEP)
     assert PlaneWave(kind, angle, "SURFACE", 0.0, STEP, record, 9.0).delay(ground) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("change", "step", "match"),
-    [({"step": 0.0}, None, "record"), ({"acceleration": np.ones(1)}, None, "record"),
-     ({}, 0.0, "step"), ({"angle": np.pi / 2}, None, "90 degrees")],
-)  # fmt: skip
-def test_records_of_nothing_are_refused(change, step, match):
-    given = {"kind": "SH", "angle": 0.2, "given": "SURFACE", "start": 0.0, "step": STEP,
-             "acceleration": rough()} | change  # fmt: skip
-    with pytest.raises(MaterialError, match=match):
-        plane_motion(GROUND, PlaneWave(**given), ALONG, DEPTHS, step)

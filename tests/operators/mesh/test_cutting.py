@@ -38,20 +38,6 @@ FRAME = (
 )
 
 
-def test_a_contour_is_cut_at_its_narrowest(found) -> None:
-    """The two parts hold the contour's sides; they fill it, each in its own sense."""
-    way, left, right, both = found(
-        FRAME + "E F G = FUIT L (A POIN 4) C ; W = MESU E ; OPTI ELEM TRI3 ; "
-        "N1 = MESU (SURF F 'PLANE') ; N2 = MESU (SURF G 'PLANE') ; "
-        "I = NBEL ((F ET G) INTE L) ;",
-        "W", "N1", "N2", "I",
-    )  # fmt: skip
-    assert way == pytest.approx(1.0)
-    assert left == pytest.approx(1.5)
-    assert right == pytest.approx(1.5)
-    assert both == 16
-
-
 def test_one_part_holds_the_segment_and_the_other_its_inverse(found) -> None:
     segment, first, second = found(FRAME + "E F G = FUIT L (A POIN 3) C ;", "E", "F", "G")
     a, b = segment.single_block().connectivity[0]

@@ -1,16 +1,8 @@
 """VISA: pairs of nodes at one place."""
 
-import numpy as np
 from script_runs import failed, ran
 
 LINES = "OPTI DIME 2 ELEM SEG2 ; A = DROI 4 (0. 0.) (1. 0.) ; B = DROI 2 (1. 1.E-7) (0. 1.E-7) ; "
-
-
-def test_pairs_are_in_the_same_order() -> None:
-    result = ran(LINES + "M N = VISA 1.E-3 A B ;")
-    m, n = (result.session.root.find(x).blocks[0].coordinates[:, 0] for x in "MN")
-    assert np.allclose(sorted(m[:, 0]), [0.0, 0.5, 1.0])
-    assert np.allclose(m[:, 0], n[:, 0])
 
 
 def test_double_nodes_of_one_mesh_with_the_density() -> None:

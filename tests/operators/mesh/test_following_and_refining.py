@@ -29,20 +29,6 @@ def test_homogeneous_move_of_the_boundary_is_followed_exactly(body):
     assert together == found(script + " K = NBNO R ;", "K")
 
 
-def test_displacement_of_some_nodes_is_carried_to_all():
-    """Given on two sides as a multiple of x: linear in between; both directions stay apart."""
-    script = (
-        "OPTI DIME 2 ELEM TRI3 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 3 (0. 1.) ; L = (COTE 2 S) ET "
-        "(COTE 4 S) ; X = COOR 1 L ; U = (NOMC 'UX' (3. * X)) ET (NOMC 'UY' (1. - X)) ; "
-        "V = DEDU S U ; E = MAXI (ABS ((EXCO V 'UX') - (3. * (COOR 1 S)))) ; "
-        "F = MAXI (ABS ((EXCO V 'UY') - (1. - (COOR 1 S)))) ; N = NBNO (EXTR V "
-        "'MAIL') ;"
-    )
-    e, f, count = found(script, "E", "F", "N")
-    assert (e, f) == pytest.approx((0.0, 0.0), abs=1e-12)
-    assert count == 20
-
-
 def test_inner_nodes_go_to_the_middle_of_their_neighbours():
     """One inner node pulled aside comes back to the middle; the contour's nodes stay themselves."""
     script = (
@@ -66,21 +52,6 @@ def test_parts_without_masters_and_quadratic_cells_are_refused():
     assert "wanted a MAILLAGE" in refused(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; M = DEDU L ;"
     )
-
-
-@pytest.mark.parametrize(
-    ("call", "want"),
-    [
-        ("(PROG 0. 1. 3.) 2", [0.0, 0.5, 1.0, 2.0, 3.0]),
-        ("(PROG 1. 1.) 3", [1.0, 1.0, 1.0, 1.0]),
-        ("(PROG 3. 0.) 0.9", [3.0, 2.0, 1.0, 0.0]),
-        ("(PROG 0. 1. 1. 2.) 0.5", [0.0, 0.5, 1.0, 1.0, 1.5, 2.0]),
-        ("(PROG 7.) 4", [7.0]),
-        ("(PROG 0. 1. 2.) -2", [0.0, 0.5, 1.0, 1.5, 2.0]),
-    ],
-)
-def test_lists_are_refined(call, want):
-    assert list(found(f"L = RAFF {call} ;", "L").values) == pytest.approx(want)
 
 
 def test_refined_intervals_of_different_sizes_grade_into_each_other():

@@ -24,26 +24,6 @@ def test_cells_fill_the_domain_and_share_their_edges(found):
     assert edges == 16  # 13 pieces of the contour, three edges that meet in a point
 
 
-def test_numbers_of_a_cell_are_those_of_the_edges(found):
-    one, other = found(
-        DOMAIN + "T = VORO G L ; N = T . 'CELL' . R . 'ARTS' ; X1 = 0. ; "
-        "REPE B (DIME N) ; X1 = X1 + (MESU (T . 'ARTS' . (EXTR N &B))) ; FIN B ; "
-        "X2 = MESU (T . 'CELL' . R . 'VISU') ;",
-        "X1", "X2",
-    )  # fmt: skip
-    assert one == pytest.approx(other)
-
-
-def test_weights_of_a_field_are_taken_and_told(found):
-    place, told = found(
-        DOMAIN + "G = P ET Q ; W = MANU 'CHPO' G 1 'SCAL' (PROG 0.5 0.1) ; "
-        "T = VORO G L W ; X1 = MAXI (COOR 1 (T . 'CELL' . P . 'VISU')) ; X2 = MAXI (T . 'POND') ;",
-        "X1", "X2",
-    )  # fmt: skip
-    assert place == pytest.approx(1.0 + (0.5**2 - 0.1**2) / 2)
-    assert told == 0.5
-
-
 def test_space_and_other_contours_are_refused(refused):
     assert "plane only" in refused(DOMAIN + "OPTI DIME 3 ; T = «VORO» G L ;")
     assert "mesh of points" in refused(DOMAIN + "T = VORO «L» L ;")

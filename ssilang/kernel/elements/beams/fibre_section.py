@@ -69,8 +69,7 @@ class Fibre(ElementFamily):
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """YOUN and the two shear moduli (n_cells or 1, n_points or 1, 3, 3)."""
         E, Gy, Gz = np.broadcast_arrays(*fibre_moduli(parameters, support))
-        found: FloatArray = np.stack([E, Gy, Gz], axis=-1)[..., None] * np.eye(3)
-        return found
+        return np.stack([E, Gy, Gz], axis=-1)[..., None] * np.eye(3)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """There is none."""

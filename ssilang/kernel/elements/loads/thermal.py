@@ -43,8 +43,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
     kind = ELEMENTS[zone.element]
     nodes = zone.cells.connectivity
     values = field.values_at(name, nodes.ravel()).reshape(nodes.shape)
-    found: FloatArray = values @ shape_functions(kind.reference or kind.cell_type, rule.points).T
-    return found
+    return values @ shape_functions(kind.reference or kind.cell_type, rule.points).T
 
 
 def refuse_expanding(joints: list[Zone], material: CellField) -> None:

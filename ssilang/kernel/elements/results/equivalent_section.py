@@ -46,8 +46,7 @@ def section_form(zone: Zone, given: ZoneField, support: Support) -> FloatArray:
         raise FieldError("kernel.elements.element-no-equivalent-stress", element=zone.element)
     per_force = (_of_pipe if family == "pipe" else _of_beam)(zone, given)
     factors = np.broadcast_arrays(*(per_force.get(n, np.zeros((1, 1))) for n in names))
-    found: FloatArray = np.stack(factors, axis=-1)[..., None] ** 2 * np.eye(len(names))
-    return found
+    return np.stack(factors, axis=-1)[..., None] ** 2 * np.eye(len(names))
 
 
 def _of_beam(zone: Zone, given: ZoneField) -> dict[str, FloatArray]:

@@ -241,8 +241,7 @@ def _turn(own: FloatArray, axes: SurfaceAxes) -> FloatArray:
 
 def _global(own: FloatArray, inside: FloatArray) -> FloatArray:
     """Vectors (n_cells, n_points, 3) of components along the first two own axes."""
-    found: FloatArray = inside[..., :1] * own[..., 0, :] + inside[..., 1:] * own[..., 1, :]
-    return found
+    return inside[..., :1] * own[..., 0, :] + inside[..., 1:] * own[..., 1, :]
 
 
 FOLLOWING = "LIE"

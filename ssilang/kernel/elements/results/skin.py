@@ -114,8 +114,7 @@ def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldB
         if force not in names:
             return 0.0
         ratio = parameters.at(lever, support, 0.0) / parameters.at(constant, support)
-        found: np.ndarray = forces[:, names.index(force)] * ratio
-        return found
+        return forces[:, names.index(force)] * ratio
 
     stress = forces[:, 0] / parameters.at("SECT", support)
     stress = stress - term("MOMZ", "DY", "INRZ")

@@ -105,8 +105,7 @@ def von_mises(T: FloatArray) -> FloatArray:
 def tresca(T: FloatArray) -> FloatArray:
     """Largest difference of principal values, (n, p)."""
     values = np.linalg.eigvalsh(T)
-    found: FloatArray = values[..., 2] - values[..., 0]
-    return found
+    return values[..., 2] - values[..., 0]
 
 
 def invariants(T: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

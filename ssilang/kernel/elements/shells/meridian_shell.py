@@ -89,8 +89,7 @@ class _Meridian:
     def slope_around(self, harmonic_number: int) -> FloatArray:
         """Rotation of the normal towards the circumference."""
         r, nr = self.r[..., None], self.n[:, 0, None, None]
-        found: FloatArray = (harmonic_number * self.w + nr * self.v) / r
-        return found
+        return (harmonic_number * self.w + nr * self.v) / r
 
 
 class MeridianShell(ShellFamily):

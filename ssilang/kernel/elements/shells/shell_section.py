@@ -95,8 +95,7 @@ def _shear(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     if symmetry_of(zone) == "ISOTROPE":
         young, poisson = (parameters.at(n, support) for n in ("YOUN", "NU"))
         G = young / (2 * (1 + poisson))
-        out: FloatArray = G[..., None, None] * np.eye(2)
-        return out
+        return G[..., None, None] * np.eye(2)
     names = ("G13", "G23", "V1X", "V1Y")
     G13, G23, c, s = np.broadcast_arrays(*(parameters.at(n, support) for n in names))
     first, second = np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)

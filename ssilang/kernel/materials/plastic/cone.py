@@ -108,19 +108,19 @@ class _Flow:
     def _stiffness(self, slope: FloatArray) -> FloatArray:
         """Decrease of the yield function per unit of the multiplier."""
         shear = self.beta * self.delta * (3 * self.G + self.kinematic)
-        found: FloatArray = shear + 9 * self.B * self.alpha * self.gamma + slope * self.growth
-        return found
+        return shear + 9 * self.B * self.alpha * self.gamma + slope * self.growth
 
     def multiplier(self, p: FloatArray) -> FloatArray:
         """Plastic multiplier (m,) by Newton on a function without kinks but the curve's own."""
         x = np.zeros(len(p))
         elastic = self._stiffness(np.zeros(len(p)))
+        rounding = 4e-16 * (np.abs(self.alpha * self.trace) + self.beta * self.q) / elastic
         for _ in range(TURNS):
             strength, slope = self.hardening(self.rows, p + self.growth * x)
             f = self.alpha * self.trace + self.beta * self.q - elastic * x - strength
             step = f / np.maximum(self._stiffness(slope), 1e-9 * elastic)
             x = np.maximum(x + step, 0.0)
-            if (np.abs(step) <= 1e-15 * np.abs(x)).all():
+            if (np.abs(step) <= 1e-15 * np.abs(x) + rounding).all():
                 break
         return x
 

@@ -33,22 +33,21 @@ def respond_held(
     moduli = parameters.moduli
     whole[:, h] = 0.0
     free = np.setdiff1d(np.arange(6), h)
-    scale = parameters["YOUN"]
+    ridge = 1e-12 * parameters["YOUN"][:, None, None] * np.eye(len(h))
     found = law.respond(parameters, stress, whole, variables)
     for turn in range(TURNS):
         rest = found.stress[:, h]
         block = (moduli if turn == 0 else found.tangent)[:, h[:, None], h[None, :]]
-        size = np.abs(found.stress).max(axis=1)
+        rounding = 0.03 * np.abs(moduli @ whole[..., None])[..., 0]  # of where it returned from
+        size = np.maximum(np.abs(found.stress), rounding).max(axis=1)
         if (np.abs(rest).max(axis=1) <= 1e-13 * size + 1e-300).all():
             break
-        ridge = 1e-12 * scale[:, None, None] * np.eye(len(h))
         whole[:, h] -= np.linalg.solve(block + ridge, rest[..., None])[..., 0]
         found = law.respond(parameters, stress, whole, variables)
     tangent = np.zeros_like(found.tangent)
     cross = found.tangent[:, free[:, None], h[None, :]]
     back = found.tangent[:, h[:, None], free[None, :]]
     own = found.tangent[:, h[:, None], h[None, :]]
-    ridge = 1e-12 * scale[:, None, None] * np.eye(len(h))
     reduced = found.tangent[:, free[:, None], free[None, :]]
     tangent[:, free[:, None], free[None, :]] = reduced - cross @ np.linalg.solve(own + ridge, back)
     final = found.stress.copy()

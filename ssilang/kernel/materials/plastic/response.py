@@ -56,14 +56,12 @@ class PointParameters:
     @property
     def shear(self) -> FloatArray:
         """Shear modulus (m,)."""
-        found: FloatArray = self["YOUN"] / (2 * (1 + self["NU"]))
-        return found
+        return self["YOUN"] / (2 * (1 + self["NU"]))
 
     @property
     def bulk(self) -> FloatArray:
         """Bulk modulus (m,)."""
-        found: FloatArray = self["YOUN"] / (3 * (1 - 2 * self["NU"]))
-        return found
+        return self["YOUN"] / (3 * (1 - 2 * self["NU"]))
 
     @property
     def moduli(self) -> FloatArray:

@@ -79,8 +79,7 @@ def _closest_point(
 
 
 def _solved(jacobian: FloatArray, rest: FloatArray) -> FloatArray:
-    found: FloatArray = np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
-    return found
+    return np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
 
 
 def _searched(

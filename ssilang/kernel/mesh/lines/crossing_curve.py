@@ -131,11 +131,9 @@ def _to_length(curve: CrossingCurve, length: float) -> CrossingCurve:
 def _slopes(gaps: tuple[Gap, Gap], x: FloatArray, size: float) -> FloatArray:
     """Gradients (m, 2, 3) of the distances at positions (m, 3)."""
     h = 1e-5 * size
-    shift = h * np.eye(3)
-    columns = [
-        [(gap(x + shift[k]) - gap(x - shift[k])) / (2.0 * h) for k in range(3)] for gap in gaps
-    ]
-    return np.moveaxis(np.array(columns), 2, 0)
+    shifted = x + h * np.vstack([np.eye(3), -np.eye(3)])[:, None]
+    off = np.array([gap(shifted.reshape(-1, 3)) for gap in gaps]).reshape(2, 2, 3, len(x))
+    return np.moveaxis((off[:, 0] - off[:, 1]) / (2.0 * h), 2, 0)
 
 
 def _on_both(gaps: tuple[Gap, Gap], x: FloatArray, size: float) -> FloatArray:

@@ -182,8 +182,7 @@ class FlowingSolid(YieldingSolid):
         F = self.solid._transformation(u).reshape(-1, 3, 3)
         C = self._squared(u, last)
         F[:, 2, 2] = np.sqrt(C[:, 2, 2]) if self._thin else F[:, 2, 2]
-        found: FloatArray = F @ _Eigen(C).of(lambda c: c**-0.5)
-        return found
+        return F @ _Eigen(C).of(lambda c: c**-0.5)
 
     def _across(self, last: PointState, whole: FloatArray, strains: FloatArray) -> FloatArray:
         """Changes (m, 6) of the logarithm of the thickness under plane stress."""

@@ -280,8 +280,7 @@ def free_motions(
         energy, vectors = _ritz(scaled, X, symmetric)
         null = energy < FREE
         if not null.all() or width == n or width > 512:
-            found: FloatArray = X @ vectors[:, null]
-            return found
+            return X @ vectors[:, null]
         width *= 4
 
 

@@ -185,8 +185,7 @@ class PetscFactor:
         )  # fmt: skip
         if "refused" in reply:
             raise _refusal(reply)
-        found: FloatArray = desk.copy()
-        return found
+        return desk.copy()
 
 
 def _is_symmetric(A: sp.csr_array) -> bool:

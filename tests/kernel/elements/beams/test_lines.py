@@ -5,7 +5,6 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.loads import line_load
 from ssilang.kernel.elements.results.integrals import green_strain
 from ssilang.kernel.fields.cell_field import CellField
@@ -104,20 +103,6 @@ def test_timoshenko_elements_converge_at_second_order():
         exact = 1e3 * L**3 / (3 * E * IZ) + 1e3 * L / (E / (2 * (1 + NU)) * A)
         errors.append(abs(u.values_at("UY", np.array([n]))[0] / exact - 1))
     assert errors[1] < 0.27 * errors[0] < 0.27 * 0.01
-
-
-@pytest.mark.parametrize("element", ["POUT", "TIMO"])
-def test_rigid_motions_of_a_beam_cost_no_force(element):
-    zone = line_zone(element, [0 * AXIS, L * AXIS], Mode.THREE_DIMENSIONAL)
-    block = families.stiffness(zone, material(zone, **SECTION))
-    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
-    w = np.array([0.3, -0.2, 0.5])
-    turn = {
-        **{n: (lambda x, i=i: np.cross(w, x)[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))},
-        **{n: (lambda x, i=i: w[i]) for i, n in enumerate(("RX", "RY", "RZ"))},
-    }
-    v = layout.gather(field(zone, **turn))[0]
-    assert np.abs(block.values[0] @ v).max() < 1e-12 * np.abs(block.values).max()
 
 
 def test_uniform_load_on_a_beam_gives_the_exact_tip_deflection():

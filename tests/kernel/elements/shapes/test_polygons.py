@@ -7,6 +7,7 @@ from script_runs import ran
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.polygons import (
     SIDES,
+    polygon_excess,
     polygon_functions,
     polygon_gradients,
     regular_polygon,
@@ -33,6 +34,12 @@ def test_functions_are_one_at_their_corner_and_exact_for_linear_fields(n: int) -
     assert values.sum(axis=1) == pytest.approx(1.0)
     assert values.min() > 0.0
     assert values @ corners == pytest.approx(inside)
+    middles = (corners + np.roll(corners, -1, axis=0)) / 2  # beyond one side by as much as inside
+    across = np.linalg.norm(middles[0])
+    for share in (0.0, 1.0, 1.7):
+        excess = polygon_excess(n, share * middles)
+        assert excess.max(axis=1) == pytest.approx((share - 1.0) * across, abs=1e-12)
+    assert len({*polygon_excess(n, 1.7 * middles).argmax(axis=1)}) == n
 
 
 @pytest.mark.parametrize("n", [5, 6, 12])

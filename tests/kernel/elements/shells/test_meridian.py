@@ -55,6 +55,12 @@ def test_mass_is_that_of_the_matter_on_slides_and_turns(mode, harmonic, weight):
     if mode is Mode.FOURIER:
         still = energy(lambda x: 0 * x, around=1.0)
         np.testing.assert_allclose(still, matter)
+    if mode is Mode.PLANE_STRESS:  # each cell has its own width
+        own = material(zone, **given | {"YOUN": 7.0, "NU": 0.2})
+        whole = [of(zone, own).values for of in (families.mass, families.stiffness)]
+        own.blocks[0].components["DIM3"][:, 0] = 0.4 * np.array([1.0, 2.5])
+        for of, one in zip((families.mass, families.stiffness), whole, strict=True):
+            np.testing.assert_allclose(of(zone, own).values, one * [[[1.0]], [[2.5]]], rtol=1e-12)
     sign = 1.0 if mode in (Mode.PLANE_STRAIN, Mode.PLANE_STRESS) else -1.0
     centre = np.array([0.3, 1.7])
 

@@ -5,11 +5,16 @@ import pytest
 from script_runs import ran
 
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.solids.finite_motion import (
     gradient_components,
     polar,
     transformation,
+    work,
 )
+from ssilang.kernel.elements.solids.gradients import gradient_names
+from ssilang.kernel.elements.solids.solid import kinematics
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode
 from tests.kernel.elements.samples import cell_zone
 
@@ -68,6 +73,34 @@ _RING = (
     "X Y = COOR S ; U0 = NOMC 'UR' (0.01 * X) ;"
     "U = (NOMC 'UR' (2. * X)) + (NOMC 'UZ' ((3. * X) + Y)) ;"
 )
+
+
+@pytest.mark.parametrize(
+    ("element", "mode"),
+    [("QUA4", Mode.PLANE_STRAIN), ("TRI6", Mode.AXISYMMETRIC), ("TET4", Mode.THREE_DIMENSIONAL)],
+)
+def test_stresses_work_on_gradients_term_by_term(element, mode):
+    zone, rng = cell_zone(element, mode), np.random.default_rng(6)
+    n = len(support_rule(element, "STRESSES").weights)
+    d = mode.dimension
+    s, H = rng.standard_normal((2, 1, n, 3, 3))
+    if d == 2:
+        s[..., 2, :2] = s[..., :2, 2] = H[..., 2, :2] = H[..., :2, 2] = 0.0
+        H[..., 2, 2] *= mode is Mode.AXISYMMETRIC
+    s = s + np.swapaxes(s, -1, -2)
+    pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
+    stress = {
+        name: s[..., i, j] for name, (i, j) in zip(kinematics(zone).stresses, pairs, strict=False)
+    }
+    rows = [(i, j) for i in range(d) for j in range(d)] + [(2, 2)] * (mode is Mode.AXISYMMETRIC)
+    gradient = {name: H[..., i, j] for name, (i, j) in zip(gradient_names(zone), rows, strict=True)}
+    fields = [
+        CellField((CellFieldBlock(zone.cells, given, "STRESSES", element),))
+        for given in (stress, gradient)
+    ]
+    found, support = work(zone, *fields)
+    np.testing.assert_allclose(found, np.einsum("cpij,cpij->cp", s, H), rtol=1e-12)
+    assert support == "STRESSES"
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.fields.cell_field import CellField
@@ -65,9 +64,3 @@ def test_forces_on_the_section_are_the_resultants_of_the_stresses_across(zone):
     at = np.array([zone.options["DPGE"].number])
     for name, arm in (("FZ", 1.0), ("MX", x[:, 1] + 0.4), ("MY", 0.7 - x[:, 0])):
         assert forces.values_at(name, at)[0] == pytest.approx((w * s * arm).sum(), rel=1e-9)
-
-
-def test_a_section_without_its_point_is_refused():
-    zone = cell_zone("QUA4", MODE)
-    with pytest.raises(MeshError, match="generalised"):
-        families.stiffness(zone, material(zone, YOUN=E, NU=NU))

@@ -239,11 +239,11 @@ def test_flat_quadrangles_and_smallest_lengths():
     square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     assert quality.flatness(square[None]) == pytest.approx([100.0])
     assert quality.flatness(square[None, :, :2]) == pytest.approx([100.0])
-    bent = square.copy()
-    bent[2, 2] = 0.5
-    one, two = np.cross([1, 0, 0], [0, 1, 0]), np.cross([-1, 0, -0.5], [0, -1, -0.5])
-    turn = np.arccos(one @ two / np.linalg.norm(two))
-    assert quality.flatness(bent[None]) == pytest.approx([100 * (1 - turn / np.pi)])
+    for bent in np.random.default_rng(4).standard_normal((9, 4, 3)) * 0.3 + square:
+        sides = np.roll(bent, -1, axis=0) - bent  # normals at the first corner and the third
+        one, two = (np.cross(sides[k], -sides[k - 1]) for k in (0, 2))
+        turn = np.arccos(one @ two / np.linalg.norm(one) / np.linalg.norm(two))
+        assert quality.flatness(bent[None]) == pytest.approx([100 * (1 - turn / np.pi)])
     long = cell("QUA4", np.array([[0.0, 0.0], [5.0, 0.0], [5.3, 0.4], [0.3, 0.4]]))
     assert quality.smallest_lengths(long) == pytest.approx([0.4])
     low = cell("TET4", np.array([[0.0, 0, 0], [4, 0, 0], [0, 3, 0], [1, 1, 0.2]]))
@@ -503,6 +503,34 @@ def test_maps_move_what_they_say_and_keep_what_they_hold():
     moved = np.flatnonzero((mesh.nodes.coordinates[: len(before)] != before).any(axis=1))
     assert moved.tolist() == sorted([at[0, 0], at[3, 1]])
     np.testing.assert_allclose(mesh.nodes.coordinates[at[0, 0]], before[at[0, 0]] + b)
+
+
+@pytest.mark.parametrize("name", ["TRI3", "QUA4", "TET4", "CUB8", "PRI6", "PYR5"])
+def test_a_linear_motion_of_what_is_held_is_followed_within(name):
+    """One node is not held: the others, in no order and with a stranger, are."""
+    rng = np.random.default_rng(8)
+    table, flat = NodeTable(), name in ("TRI3", "QUA4")
+    x = np.array(list(itertools.product(range(3), range(3), range(1 if flat else 3))), float)
+    middle = len(x) // 2
+    x[middle, : 2 if flat else 3] += 0.2
+    ids = table.add(x)
+    low = [0, 1, 3, 4] if flat else [0, 1, 3, 4, 9, 10, 12, 13]
+    whole = np.array(low)[:, None] + ([0, 3, 4, 1] if flat else [0, 9, 12, 3, 1, 10, 13, 4])
+    split = {"TRI3": [[0, 1, 2], [0, 2, 3]], "QUA4": [[0, 1, 2, 3]], "CUB8": [list(range(8))],
+             "TET4": [[0, 1, 2, 5], [0, 2, 3, 7], [0, 5, 7, 4], [2, 7, 5, 6], [0, 2, 7, 5]],
+             "PRI6": [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]],
+             "PYR5": [[0, 1, 2, 3, 6], [0, 4, 5, 1, 6], [0, 3, 7, 4, 6]]}[name]  # fmt: skip
+    cells = whole[:, split].reshape(-1, len(split[0]))
+    A = rng.standard_normal((3, 3))
+    if flat:  # out of its plane
+        A[:, 2] = 0.0
+    held = rng.permutation(np.setdiff1d(ids, [middle]))
+    stranger = table.add(np.ones((1, 3)))
+    masters = np.concatenate([held, stranger])
+    places = table.coordinates[masters] @ A.T + [1.0, 2.0, 3.0]
+    nodes, moved = transform.followed(Mesh.of(table, name, cells), masters, places)
+    assert nodes.tolist() == ids.tolist()
+    np.testing.assert_allclose(moved, table.coordinates[nodes] @ A.T + [1.0, 2.0, 3.0], atol=1e-12)
 
 
 def test_lines_that_bend_that_continue_and_that_repeat():

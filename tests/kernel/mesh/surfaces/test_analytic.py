@@ -175,23 +175,6 @@ def test_a_chart_lifts_what_it_flattens_and_keeps_lengths_or_angles(name):
         np.testing.assert_allclose(b, 1.0, rtol=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("made", "match"),
-    [
-        (lambda: charts.plane_chart(np.eye(3), np.zeros((2, 2, 3))), "area"),
-        (lambda: chart_of("plane", np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0.2], [0, 1, 0.0]])),
-         "plane"),
-        (lambda: chart_of("cylinder", np.array(place([0, 0, 1], [1, 0, 1], [1, 1, 0]))), "axis"),
-        (lambda: chart_of("cylinder", np.array(place([1, 0, 1], [-1, 0, 1]))), "round"),
-        (lambda: chart_of("cone", np.array(place([1, 0, 1], [1, 0.1, -1]))), "apex"),
-        (lambda: chart_of("sphere", np.array(place([1, 0, 0], [-1, 0, 0]))), "round"),
-    ],
-)  # fmt: skip
-def test_contours_that_a_chart_cannot_hold_are_refused(made, match):
-    with pytest.raises(MeshError, match=match):
-        made()
-
-
 # --- facets --------------------------------------------------------------------------------------
 
 

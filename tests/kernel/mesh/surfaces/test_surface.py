@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from references.straight_line import straight_line
+from scipy.spatial import ConvexHull
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
@@ -17,7 +18,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, surface_normals
 from ssilang.kernel.mesh.queries.measure import total_measure
 from ssilang.kernel.mesh.surfaces.charts import plane_chart, sphere_chart
-from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
+from ssilang.kernel.mesh.surfaces.surface import _convex, contour_chart_data, fill_surface
 
 
 def square(nodes: NodeTable, side: float, cuts: int, quadratic: bool = False) -> Mesh:
@@ -100,6 +101,17 @@ def test_cap_of_a_sphere_has_its_area() -> None:
     assert total_measure(made) == pytest.approx(0.8 * math.pi, rel=5e-3)
     ids = made.node_ids
     assert np.linalg.norm(nodes.coordinates[ids], axis=1) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_polygons_that_turn_one_way_alone_are_convex() -> None:
+    random, seen = np.random.default_rng(3), set()
+    for corners in random.normal(size=(60, 4, 2)):
+        hull = ConvexHull(corners).vertices  # anticlockwise
+        convex = len(hull) == 4 and np.ptp(np.diff(np.append(hull, hull[0])) % 4) == 0
+        convex = convex and (hull[1] - hull[0]) % 4 == 1
+        assert _convex(corners.copy()) == convex
+        seen.add(convex)
+    assert seen == {True, False}
 
 
 def test_open_contour_is_refused() -> None:

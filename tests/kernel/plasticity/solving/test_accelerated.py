@@ -101,9 +101,15 @@ def test_runs_repeat_to_the_last_bit_and_go_on_to_it(tmp_path: Path) -> None:
     assert np.array_equal(resumed[2], whole[2])
 
 
-def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not() -> None:
+def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not(monkeypatch) -> None:
     assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop.startswith("kept factor")
     assert stepped("DRUCKER_PRAGER", steps=3)[0].loop.startswith("full Newton")
+    asked: list[np.ndarray] = []  # of the whole body, held: it is positive
+    monkeypatch.setattr(
+        accelerated, "factor_pays", lambda A, order, solves: asked.append(A.toarray()) or solves < 9
+    )
+    assert stepped(steps=3)[0].loop.startswith("full Newton")
+    assert np.linalg.eigvalsh(asked[0])[0] > 1e-6 * np.diag(asked[0]).min()
 
 
 def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
@@ -128,6 +134,13 @@ def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
     whole = np.linalg.solve(A.toarray(), load)
     assert np.allclose(made.T @ x[made.places], whole[nodes], rtol=1e-12)
     assert 0 < np.diff(made.runs).sum() < 0.3 * (len(panels.first) - 1)
+
+
+def test_cells_numbered_through_all_zones_are_those_of_each() -> None:
+    bulk = SimpleNamespace(places=(np.zeros((3, 8)), np.zeros((4, 6)), np.zeros((2, 8))))
+    found = part.by_zone(bulk, np.array([0, 2, 3, 6, 8]))  # type: ignore[arg-type]
+    assert [x.tolist() for x in found] == [[0, 2], [0, 3], [1]]
+    assert [len(x) for x in part.by_zone(bulk, np.array([4]))] == [0, 1, 0]  # type: ignore[arg-type]
 
 
 def test_acceleration_solves_a_linear_problem_in_as_many_turns_as_it_has_unknowns() -> None:

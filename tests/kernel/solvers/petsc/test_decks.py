@@ -170,7 +170,8 @@ def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypat
     from ssilang.kernel.solvers.petsc import client
     from ssilang.kernel.stepping import keeping
 
-    script = HEAD + ASKED + MODEL + MOTION.replace("FULL0", full)
+    motion = MOTION.replace("FULL0", full).replace("0.01 0.5 ;\nTAB1", "0.01 0.3 ;\nTAB1")
+    script = HEAD + ASKED + MODEL + motion
     script = script.replace("TAB2 =", "TAB1 . 'REPRISE' = TABL ; TAB1 . 'PAS_SAUVES' = 1 ; TAB2 =")
     monkeypatch.setattr(keeping, "stride_of", lambda done, *_: 16 - done % 16)  # a large model's
     whole, _ = run(script, tmp_path / "whole")

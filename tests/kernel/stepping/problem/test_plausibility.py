@@ -124,11 +124,12 @@ def test_periods_are_rayleighs_of_the_static_shape():
 
 def test_masses_alone_and_starts_against_supports():
     b = Bench()
-    n = [b.node(float(i), 0.0) for i in range(6)]
+    n = [b.node(float(i), 0.0) for i in range(7)]
     for node in n:
         b.mass(1.0, node, ("UY",))
     b.spring(2.0, n[0])
     b.relate([(1.0, "UY", n[1])])
+    b.relate([(1.0, "UY", n[6])])
     b.dashpot(3.0, n[2])
     start = b.field((n[1], "UY", 0.2), (n[0], "UY", 0.1))
     fast = b.field((n[3], "UY", 0.4), (n[1], "UY", 0.0))

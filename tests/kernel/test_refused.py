@@ -1,0 +1,333 @@
+"""What cannot be calculated or meshed is refused by its own code, at the limit of what can."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, CurvePart
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.results.supports import nodal_of_field, values_at_points
+from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS
+from ssilang.kernel.interface.laws.law import columns_of
+from ssilang.kernel.materials import behaviours
+from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.mesh.changes.degree import quadratic
+from ssilang.kernel.mesh.changes.merge import cut_open
+from ssilang.kernel.mesh.combine import polygons
+from ssilang.kernel.mesh.families import FAMILIES, family_of
+from ssilang.kernel.mesh.generators import sweep
+from ssilang.kernel.mesh.generators.interfaces import joint_mesh
+from ssilang.kernel.mesh.lines.lines import line_chain, shortest_line
+from ssilang.kernel.mesh.lines.subdivision import subdivide
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
+from ssilang.kernel.mesh.surfaces import charts, surface
+from ssilang.kernel.modal import explicit, links, oscillator
+from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
+from ssilang.kernel.records.soil_column import SoilColumn, free_field
+from ssilang.kernel.waves import layered_half_space as waves
+from tests.kernel.elements.samples import ELASTIC, material
+
+PLANE, ROUND, SPATIAL = Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL
+ONE, TWO = np.ones(1), np.array([1.0, 2.0])
+TABLE = NodeTable()
+TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1, 2)], float))
+LINE, SURE = (Mesh.of(TABLE, "SEG2", np.array(c)) for c in ([[0, 1], [1, 2]], [[3, 4], [4, 5]]))
+STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
+QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
+CURVED = Mesh.of(TABLE, "SEG3", np.array([[0, 1, 2]]))
+BRICK = Mesh.of(TABLE, "CUB8", np.array([[0, 1, 4, 3, 9, 10, 13, 12]]))
+FIVE = Mesh.of(TABLE, "POL5", np.array([[0, 1, 5, 7, 3]]))
+POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
+SOIL = SoilColumn(TWO, TWO, TWO, TWO * 0.1, 1.0, 2.0)
+FLOOR = floors.Storey(TWO, TWO * 0.1, TWO)
+SPACE = waves.HalfSpace(ONE, TWO, TWO, 2.0 * TWO, TWO * 0.1)
+WAVE = waves.PlaneWave("SH", 0.0, "INCIDENTE", 0.0, 0.1, np.arange(3.0))
+SIGNAL = modulated.ModulatedSignal(TWO, TWO, TWO, (TWO,), (TWO,))
+FLAT = (TWO, TWO)
+PLAN = explicit.ModalSteps(0.1, 4)
+MODE = SimpleNamespace(M=np.eye(2), C=np.eye(2), K=np.eye(2), links=None)
+RING = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]])
+SIDES = np.stack([RING, np.roll(RING, -1, axis=0)], axis=1)
+AXIS = np.array([[0.0, 0, 0], [0, 0, 1]])
+TIMES = np.linspace(0.0, 1.0, 11)
+LAW = {"law": np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 3.0]]), "numbers": {links.PLASTIC: 1.0}}
+
+
+def by(function, **usual):
+    """Calls of a function, later, with what is usual but for what is given."""
+    return lambda **given: lambda: function(**usual | given)
+
+
+contact = by(
+    lambda **link: links._check(2, SimpleNamespace(kind=min(links.CONTACTS), **link)), **LAW
+)
+psrs = by(power.response_spectrum, f=TWO, density=TWO, duration=1.0, periods=ONE, damping=0.1,
+          kind="ACCE", law="CRAM")  # fmt: skip
+modulation = by(
+    lambda periods, damping, **numbers: modulated.modulated_response_spectrum(
+        SIGNAL, periods, damping, "ACCE", SimpleNamespace(**numbers)
+    ), periods=ONE, damping=0.1, processes=1, instants=1, precision=0.1,
+)  # fmt: skip
+floor = by(
+    floors.floor_spectrum, storey=FLOOR, power=FLAT, envelope=FLAT, frequencies=ONE, damping=0.1
+)
+yielding = by(inelastic.yielding_peaks, times=TIMES, signal=TIMES, frequencies=ONE, damping=0.1,
+              law="CINE", hardening=0.1, limits=ONE)  # fmt: skip
+column = by(free_field, soil=SOIL, step=0.1, acceleration=TWO, depths=ONE, cutoff=5.0)
+
+
+def law(*rows):
+    return contact(law=np.array(rows))
+
+
+def plane(step=None, **given):
+    return lambda: waves.plane_motion(SPACE, replace(WAVE, **given), ONE, ONE, step)
+
+
+def cut(line):
+    return lambda: cut_open(QUADS, line)
+
+
+def modes(M=MODE.M, **given):
+    problem = SimpleNamespace(**{**vars(MODE), "M": M})
+    return lambda: explicit.integrate_modes(problem, None, replace(PLAN, **given))
+
+
+def changed(value, **given):
+    return lambda: replace(value, **given)
+
+
+def zone(element, mode, *x):
+    """One cell on points (n, d)."""
+    table = NodeTable()
+    nodes = table.add(np.array(x, float))[None]
+    cells = CellBlock.make(table, ELEMENTS[element].cell_type, nodes)
+    return Zone(cells, "MECANIQUE", ELASTIC, element, mode)
+
+
+def stiff(element, mode, *x, **given):
+    """The stiffness of such a cell, of ordinary material."""
+    given = {"YOUN": 1.0, "NU": 0.2, "SECT": 1.0, "EPAI": 0.1, "INRY": 1.0, "INRZ": 1.0,
+             "TORS": 1.0} | given  # fmt: skip
+    at = zone(element, mode, *x)
+    return lambda: families.stiffness(at, material(at, **given))
+
+
+def words(family, *given):
+    return lambda: behaviours.normalised(list(given), family)
+
+
+def checked(law, **given):
+    curves = {n: ([v], np.zeros(1, int)) for n, v in given.items() if isinstance(v, Curve)}
+    arrays = {n: np.array([v, v]) for n, v in given.items() if n not in curves}
+    for values in arrays.values():
+        values[0] = 0.4  # admissible
+    return lambda: PLASTIC_LAWS[law].check(PointParameters(arrays, curves))
+
+
+def joint(check, value):
+    parameters = np.full((2, N_PARAMETERS), 0.1)
+    parameters[1, 0] = value
+    return lambda: check(parameters)
+
+
+REFUSED = {
+    "elements": {
+        "field-empty": [lambda f=f: f(CellField(())) for f in (values_at_points, nodal_of_field)],
+        "beam-cell-zero-length": [
+            stiff("POUT", SPATIAL, [1, 0, 0], [1, 0, 0]), stiff("TIMO", PLANE, [1, 2], [1, 2])
+        ],
+        "vect-along-beam-must": [stiff("POUT", SPATIAL, [0, 0, 0], [1, 2, 0], VX=-2.0, VY=-4.0)],
+        "line-cell-zero-length": [stiff("BARR", PLANE, [1, 2], [1, 2])],
+        "shell-cell-zero-length": [stiff("COQ2", ROUND, [1, 2], [1, 2])],
+        "shells-off-mesh-exce": [stiff("COQ2", ROUND, [1, 2], [2, 3], EXCE=0.1)],
+        "quadrangle-shell-no-area": [stiff("COQ4", SPATIAL, *RING[[0, 2, 0, 2]])],
+        "triangle-shell-no-area": [stiff("DKT", SPATIAL, [0, 0, 0], [1, 1, 1], [3, 3, 3])],
+        "middle-surface-shell-folds": [stiff("COQ6", SPATIAL, *RING[[0, 0, 0, 0, 0, 0]])],
+        "cell-axisymmetric-model-reaches": [
+            stiff("QUA4", ROUND, [-1, 0], [1, 0], [1, 1], [-1, 1]),
+            stiff("TRI3", ROUND, [-1, 0], [0.5, 0], [0.5, 1]),
+        ],
+        "hoop-on-axis": [stiff("CERC", ROUND, [0, 2])],
+        "generalised-plane-strain-needs": [
+            stiff("TRI3", Mode.GENERALISED_PLANE_STRAIN, [0, 0], [1, 0], [0, 1])
+        ],
+    },
+    "materials": {
+        "elements-family-no-elasticity": [words("bar", "ORTHOTROPE")],
+        "behaviour-joints-only": [words("solid", "JOINT_DILATANT")],
+        "plastic-law-bodies-not": [words("joint", "PLASTIQUE", "PARFAIT")],
+        "elements-family-no-law": [words("solid", "IMPEDANCE")],
+        "impedance-no-law": [
+            words("impedance", "IMPEDANCE", "VOIGT", "REUSS"),
+            words("impedance", "IMPEDANCE", "SOL"),
+            words("impedance", "IMPEDANCE", "MODAL", "STATIQUE"),
+        ],
+        "elements-family-not-creep": [words("joint", "FLUAGE", "NORTON")],
+        "law-creep": [words("solid", "FLUAGE"), words("solid", "FLUAGE", "NORTON", "NORTON")],
+        "creep-goes-elasticity-isotrope": [words("solid", "ORTHOTROPE", "FLUAGE", "NORTON")],
+        "beam-fibres-elastique-section": [words("fibre", "PLASTIQUE", "SECTION")],
+        "elements-family-no-plastic": [
+            words("solid", "PLASTIQUE", "BETON_BAEL"), words("fibre", "PLASTIQUE", "CAM_CLAY")
+        ],
+        "elements-family-no-plastic-law": [words("impedance", "PLASTIQUE", "PARFAIT")],
+        "sections-no-plastic": [words("beam", "PLASTIQUE", "CAM_CLAY")],
+        "plastic-laws-go-elasticity": [words("solid", "ORTHOTROPE", "PLASTIQUE", "PARFAIT")],
+        "drucker-prager-needs-beta": [
+            checked("DRUCKER_PRAGER", **dict.fromkeys(("ALFA", "BETA", "ETA", "MU", "DELT"), 0.4)
+                    | {wrong: value})
+            for wrong, value in (("BETA", 0.0), ("MU", 0.0), ("DELT", -1e-9))
+        ],
+        "rh-coulomb-needs-cohesion": [checked("RH_COULOMB", COHE=0.0, PHI=0.4)],
+        "rh-coulomb-phi": [checked("RH_COULOMB", COHE=1.0, PHI=x) for x in (0.0, np.pi / 2)],
+        "fc-concrete-needs-strength": [checked("BETON_BAEL", FC=0.0)],
+        "curve-strengths-not": [checked("ISOTROPE", ECRO=Curve((CurvePart(TWO, TWO - 1.0),)))],
+    },
+    "interface": {
+        "joint-parameter-not-finite": [joint(columns_of, np.nan), joint(columns_of, np.inf)],
+    },
+    "records": {
+        "soil-needs-many-thicknesses": [changed(SOIL, density=ONE), changed(SOIL, damping=ONE)],
+        "thickness-density-modulus-layer": [
+            *(changed(SOIL, **{n: TWO - 1.0}) for n in ("thickness", "density", "modulus")),
+            changed(SOIL, damping=np.array([0.0, -1e-9])),
+        ],
+        "frequencies-rayleigh-damping-must": [changed(SOIL, f1=0.0), changed(SOIL, f2=0.0)],
+        "acceleration-needs-two-points": [
+            column(step=0.0), column(cutoff=0.0), column(acceleration=ONE)
+        ],
+        "depth-outside-layers-end": [column(depths=-ONE), column(depths=3.1 * ONE)],
+        "mode-frequency-damping-participation": [changed(FLOOR, participations=ONE)],
+        "frequencies-modes-positive": [changed(FLOOR, frequencies=np.array([1.0, 0.0]))],
+        "damping-between-not": [
+            *(changed(FLOOR, dampings=np.array([0.1, x])) for x in (0.0, 1.0)),
+            *(f(damping=x) for f in (floor, psrs, modulation) for x in (0.0, 1.0)),
+            lambda: matching.matched(TIMES, TIMES, ONE, ONE, 1.0, 0.1),
+        ],
+        "frequencies-spectrum-duration-positive": [
+            floor(frequencies=0.0 * ONE), floor(envelope=(np.array([2.0, 2.0]), TWO))
+        ],
+        "power-spectrum-positive-over": [
+            floor(power=(TWO, 0.0 * TWO)), psrs(f=TWO[::-1]), psrs(density=0.0 * TWO),
+            psrs(density=TWO - 1.5), changed(SIGNAL, density=TWO - 1.5),
+            changed(SIGNAL, density=0.0 * TWO), changed(SIGNAL, frequencies=TWO[[0, 0]]),
+        ],
+        "duration-periods-must-positive": [
+            psrs(duration=0.0), psrs(periods=0.0 * ONE), modulation(periods=0.0 * ONE)
+        ],
+        "least-process-instant-needed": [
+            modulation(processes=0), modulation(instants=0), modulation(precision=0.0)
+        ],
+        "power-spectrum-not-negative": [lambda: modulated.sines(TWO, TWO - 1.2, 10)],
+        "elastic-limit-oscillator-must": [yielding(limits=0.0 * ONE)],
+        "signal-times-must-go": [yielding(times=ONE), yielding(times=TIMES**1.001)],
+        "frequency-oscillator-must-positive": [yielding(frequencies=0.0 * ONE)],
+        "damping-oscillator-cannot-negative": [yielding(damping=-1e-9)],
+        "hardening-ratio-lies-left": [yielding(hardening=1.0)],
+        "ductility-least": [
+            lambda: inelastic.limits_for_ductility(TIMES, TIMES, ONE, 0.0, "CINE", 0.0, 0.99, ONE)
+        ],
+        "modulations-need-increasing-limits": [
+            changed(SIGNAL, bands=np.arange(3.0)), changed(SIGNAL, bands=TWO[::-1])
+        ],
+        "modulations-not-go-instant": [
+            changed(SIGNAL, bands=np.arange(3.0), times=(TWO, TWO + 1.0), modulations=(TWO, TWO))
+        ],
+        "baseline-points": [lambda: filters.without_trend(TIMES[:7], 0.1, 6)],
+    },
+    "waves": {
+        "layers-differ": [changed(SPACE, shear=ONE), changed(SPACE, damping=ONE)],
+        "last-layer-endless": [changed(SPACE, thickness=TWO)],
+        "layer-not-positive": [
+            changed(SPACE, thickness=0.0 * ONE), changed(SPACE, damping=TWO - 1.5),
+            *(changed(SPACE, **{n: TWO - 1.0}) for n in ("density", "shear", "primary")),
+        ],
+        "frequencies-not-positive": [changed(SPACE, f1=0.0), changed(SPACE, f2=0.0)],
+        "record-too-short": [plane(acceleration=ONE), plane(**{"step": 0.1}, acceleration=ONE)],
+        "step-not-positive": [plane(0.0)],
+        "angle-not-upwards": [plane(angle=np.pi / 2)],
+    },
+    "modal": {
+        "step-numbers-steps-must": [modes(h=0.0), modes(count=0), modes(every=0)],
+        "mass-modes-singular": [modes(M=np.ones((2, 2))), modes(M=np.diag([1.0, np.inf]))],
+        "link-no-positive-stiffness": [contact(law=None, numbers={links.STIFF: 0.0})],
+        "law-link-wants-two": [law([0.0, 0.0]), law([0.0, 0.0], [0.0, 1.0])],
+        "law-link-not-elastic": [
+            law([0, 0], [1, 0], [2, 0]), law([0, 0], [1, 1], [2, 2]), law([0, 1], [1, 2], [2, 1.9])
+        ],
+        "damping-oscillator-cannot-negative": [lambda: oscillator.Oscillators(ONE, -1e-9)],
+        "frequency-oscillator-must-positive": [lambda: oscillator.Oscillators(0.0 * ONE, 0.1)],
+        "signal-times-must-increase": [
+            lambda: oscillator.response(0.0 * TWO, TWO, 1.0, 0.1),
+        ],
+        "default-list-frequencies-too": [
+            lambda: oscillator.default_frequencies(np.linspace(0.0, 1.0, 40_100), 0.0)
+        ],
+    },
+    "mesh": {
+        "cells-type-no-quadratic": [lambda: quadratic(FIVE)],
+        "line-seg2-seg3-needed": [cut(QUADS)],
+        "line-branches-node": [cut(STAR)],
+        "line-not-separate-cells": [cut(LINE)],
+        "no-polygons-five-sides": [lambda: polygons(QUADS)],
+        "no-surface-made-elements": [FAMILIES["SEG2"].need_surface],
+        "no-mesh-made-elements": [lambda: family_of("QUA5")],
+        "facing-cells-paired-within": [lambda: joint_mesh(LINE, SURE, 0.0)],
+        "line-needed-sweep-surface": [
+            lambda: sweep.sweep_line(
+                QUADS, sweep.translation(AXIS[1]), subdivide(1.0, count=2), "QUA4"
+            )
+        ],
+        "no-volume-swept-cells": [
+            lambda: sweep.sweep_surface(
+                FIVE, sweep.translation(AXIS[1]), subdivide(1.0, count=2)
+            )
+        ],
+        "line-of-segments-needed": [
+            lambda: line_chain(QUADS), lambda: line_chain(Mesh(TABLE, ())),
+            lambda: shortest_line(QUADS, 0, 5),
+        ],
+        "volume-inside-surface-asked": [lambda: enclosed_volume(LINE)],
+        "mesh-sizes-measured-edges": [lambda: node_sizes(POINTS)],
+        "contour-encloses-no-area": [
+            lambda: charts.plane_chart(RING[[0, 2]], np.stack([RING[[0, 2]], RING[[2, 0]]], axis=1))
+        ],
+        "contour-not-plane-point": [
+            lambda: charts.plane_chart(RING + 0.2 * AXIS[1] * RING[:, :1] ** 2, SIDES)
+        ],
+        "contour-goes-through-axis": [
+            lambda: charts.cylinder_chart(RING + RING[0], AXIS[0], AXIS[1])
+        ],
+        "contour-goes-round-axis": [lambda: charts.cylinder_chart(RING, AXIS[0], AXIS[1])],
+        "contour-both-sides-apex": [
+            lambda: charts.cone_chart(RING + 3.0 * RING[0], AXIS[0], AXIS[1]),
+            lambda: charts.cone_chart(RING[:, [2, 1, 0]] + 3.0 * RING[0], AXIS[0], AXIS[1]),
+        ],
+        "contour-goes-right-round": [lambda: charts.sphere_chart(RING, AXIS[0])],
+        "lines-contour-not-run": [
+            lambda: surface.contour_cells(
+                Mesh.of(TABLE, "SEG2", np.array([[0, 1], [1, 3], [0, 3], [1, 2], [2, 5], [5, 1]]))
+            )
+        ],
+    },
+}  # fmt: skip
+CASES = [
+    (room, code, k) for room, codes in REFUSED.items() for code, ways in codes.items()
+    for k in range(len(ways))
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("room", "code", "way"), CASES)
+def test_what_cannot_be_is_refused_by_its_code(room, code, way):
+    with pytest.raises(KernelError) as caught:
+        REFUSED[room][code][way]()
+    assert caught.value.code == f"kernel.{room}.{code}"
