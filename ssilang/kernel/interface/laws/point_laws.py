@@ -6,6 +6,9 @@ Numba has no table of functions whose calls cost nothing: a chain of comparisons
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
@@ -13,43 +16,28 @@ from ssilang.kernel.interface.laws.bed_law import PLACE, bed_points
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import Energy, Point
 from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.interface.laws.sdm_law import opening_loss
 
+Answer = Callable[..., float | None]
 
-def _or_point(own: int, law: Point, others: Point) -> Point:
+
+def _or_others(own: int, law: Answer, others: Answer) -> Any:
     """The law's answer where the code is its own, else that of the others."""
 
     @compiled_inline
-    def point(
-        code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray,
-        new: FloatArray, D: FloatArray,
-    ) -> None:  # fmt: skip
+    def answer(code: int, *rest: Any) -> float | None:
         if code == own:
-            law(code, w, state, p, t, new, D)
-        else:
-            others(code, w, state, p, t, new, D)
+            return law(code, *rest)
+        return others(code, *rest)
 
-    return point
-
-
-def _or_energy(own: int, law: Energy, others: Energy) -> Energy:
-    """As `_or_point`, of stored energies."""
-
-    @compiled_inline
-    def energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
-        if code == own:
-            return law(code, w, t, state, p)
-        return others(code, w, t, state, p)
-
-    return energy
+    return answer
 
 
 point_response, _stored = PLACE.point, PLACE.energy
 for _law in {law.code: law for law in reversed(LAWS.values())}.values():
-    point_response = _or_point(int(_law.code), _law.point, point_response)
-    _stored = _or_energy(int(_law.code), _law.energy, _stored)
+    point_response = _or_others(int(_law.code), _law.point, point_response)
+    _stored = _or_others(int(_law.code), _law.energy, _stored)
 
 
 @apart
