@@ -89,8 +89,8 @@ def opening_loss(xi: float, fu: float, gf: float) -> float:
 def sdm_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored energy of a point, per unit area, that of shear as its state has it."""
     n = w.shape[0] - 1
-    normal = normal_energy(w[n], t[n], state[Var.XI], p[Par.KN], p[Par.FC])
-    return normal + state[Var.SHEAR_ENERGY]
+    shear: float = state[Var.SHEAR_ENERGY]
+    return normal_energy(w[n], t[n], state[Var.XI], p[Par.KN], p[Par.FC]) + shear
 
 
 @compiled
