@@ -76,7 +76,11 @@ class Library:
 
     def called(self, items: Sequence[Item]) -> Sequence[Item]:
         """The phrase; a procedure that stands in quotes before its operands is read as called."""
-        if len(items) > 1 and isinstance(first := items[0], Quoted) and self.find(first.text):
+        if (
+            len(items) > 1
+            and isinstance(first := items[0], Quoted)
+            and first.text in self.standard_names
+        ):
             return [Name(first.text, first.text, first.span), *items[1:]]
         return items
 
