@@ -34,6 +34,8 @@ from ssilang.kernel.modal import explicit, links, oscillator
 from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
 from ssilang.kernel.waves import layered_half_space as waves
+from ssilang.kernel.waves.incoherence import Ground as Unlike
+from ssilang.kernel.waves.incoherence import RigidBase
 from tests.kernel.elements.samples import ELASTIC, material
 
 PLANE, ROUND, SPATIAL = Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL
@@ -82,6 +84,8 @@ floor = by(
 )
 yielding = by(inelastic.yielding_peaks, times=TIMES, signal=TIMES, frequencies=ONE, damping=0.1,
               law="CINE", hardening=0.1, limits=ONE)  # fmt: skip
+match = by(matching.matched, times=TIMES, values=TIMES, frequencies=ONE, target=ONE, damping=0.1,
+           tolerance=0.1)  # fmt: skip
 column = by(free_field, soil=SOIL, step=0.1, acceleration=TWO, depths=ONE, cutoff=5.0)
 
 
@@ -211,7 +215,7 @@ REFUSED = {
         "damping-between-not": [
             *(changed(FLOOR, dampings=np.array([0.1, x])) for x in (0.0, 1.0)),
             *(f(damping=x) for f in (floor, psrs, modulation) for x in (0.0, 1.0)),
-            lambda: matching.matched(TIMES, TIMES, ONE, ONE, 1.0, 0.1),
+            match(damping=1.0),
         ],
         "frequencies-spectrum-duration-positive": [
             floor(frequencies=0.0 * ONE), floor(envelope=(np.array([2.0, 2.0]), TWO))
@@ -233,6 +237,9 @@ REFUSED = {
         "frequency-oscillator-must-positive": [yielding(frequencies=0.0 * ONE)],
         "damping-oscillator-cannot-negative": [yielding(damping=-1e-9)],
         "hardening-ratio-lies-left": [yielding(hardening=1.0)],
+        "target-not-positive": [match(target=0.0 * ONE)],
+        "target-too-fast": [match(frequencies=5.1 * ONE)],
+        "record-zero": [match(values=0.0 * TIMES)],
         "ductility-least": [
             lambda: inelastic.limits_for_ductility(TIMES, TIMES, ONE, 0.0, "CINE", 0.0, 0.99, ONE)
         ],
@@ -253,6 +260,14 @@ REFUSED = {
         ],
         "frequencies-not-positive": [changed(SPACE, f1=0.0), changed(SPACE, f2=0.0)],
         "record-too-short": [plane(acceleration=ONE), plane(**{"step": 0.1}, acceleration=ONE)],
+        "above-the-surface": [
+            lambda: waves.transfers(SPACE, "P", 0.0, np.ones(1), np.array([-1.0]))
+        ],
+        "base-without-size": [
+            lambda: RigidBase("disc", 0.0), lambda: RigidBase("rectangle", 2.0)
+        ],
+        "speed-not-positive": [lambda: Unlike(0.0), lambda: Unlike(200.0, 0.1, 0.0)],
+        "gamma-negative": [lambda: Unlike(200.0, -0.1)],
         "step-not-positive": [plane(0.0)],
         "angle-not-upwards": [plane(angle=np.pi / 2)],
     },

@@ -343,3 +343,11 @@ def test_the_zone_that_shows_a_law_has_it(law):
     elif law.kind in ("plastic", "creep"):
         assert zone.behaviour[-2:] == ("PLASTIQUE" if law.kind == "plastic" else "FLUAGE", law.name)
     assert zone.element in words.elements_of_law(law)
+
+
+def test_hints_and_searches_end_where_they_say():
+    zone = words.sample_of_law(vocabulary.find("law", "ANISOTROPE"))  # of thirty parameters
+    names = [r.word.name for r in words.parameter_rows(zone, section=True)]
+    assert len(words.told_parameters(zone, names, "en")) == 12 < len(names)
+    shown = pages.found_text("field", "en").split("\n")
+    assert len(shown) == 20 + 2  # a head, and how many more there are

@@ -51,8 +51,8 @@ def test_length_of_a_word_and_characters_outside(found, refused):
 
 
 def test_message_prints_one_line_and_an_empty_one(printed):
-    assert printed("MESS 'n = ' 3 ; MESS ; SAUT 2 'LIGN' ; MESS 'end' ;") == [
-        "n = 3", "", "", "", "end"
+    assert printed("MESS 'n = ' 3 (-2) ; MESS ; SAUT 2 'LIGN' ; MESS 'end' ;") == [
+        "n = 3 -2", "", "", "", "end"
     ]  # fmt: skip
 
 

@@ -122,6 +122,7 @@ class PhraseReader:
             word = items[0].text.upper()[:4]
             if word == "TEXT" and items[0].text.upper() not in scope.values:
                 return [Operand(UNKNOWN, span, result=True)]
+        items = self.session.library.called(items)
         call = AbstractCall(self.session, self._operands(items, scope), span)
         try:
             while self._step(call):

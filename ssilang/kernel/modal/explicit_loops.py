@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.modal.link_laws import link_forces
+from ssilang.kernel.modal.link_laws import link_forces, times_vector
 from ssilang.kernel.modal.links import LinkArrays
 
 
@@ -89,15 +89,6 @@ def outer_force(loads: Loads, i: int, f: FloatArray) -> None:
         f[j] = 0.0
         for p in range(spaces.shape[0]):
             f[j] += amplitudes[p, i] * spaces[p, j]
-
-
-@compiled
-def times_vector(A: FloatArray, x: FloatArray, y: FloatArray) -> None:
-    """`y = A x` without BLAS: the matrices are small."""
-    for i in range(len(x)):
-        y[i] = 0.0
-        for j in range(len(x)):
-            y[i] += A[i, j] * x[j]
 
 
 @compiled

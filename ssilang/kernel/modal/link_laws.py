@@ -222,12 +222,12 @@ def turn(
 
 
 @compiled
-def times_rows(rows: FloatArray, q: FloatArray, x: FloatArray) -> None:
-    """`x = rows q`, of rows (3, n)."""
-    for c in range(3):
-        x[c] = 0.0
-        for j in range(len(q)):
-            x[c] += rows[c, j] * q[j]
+def times_vector(A: FloatArray, x: FloatArray, y: FloatArray) -> None:
+    """`y = A x` without BLAS: the matrices are small."""
+    for i in range(len(y)):
+        y[i] = 0.0
+        for j in range(len(x)):
+            y[i] += A[i, j] * x[j]
 
 
 @compiled
@@ -236,7 +236,7 @@ def places_now(points: Points, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     places, rows = points.places.copy(), points.rows.copy()
     x = np.empty(3)
     for p in range(len(places)):
-        times_rows(points.rows[p], q, x)
+        times_vector(points.rows[p], q, x)
         turn(points, p, q, 1.0, x, rows[p])
         for c in range(3):
             places[p, c] += x[c]
@@ -394,8 +394,8 @@ def contact(
             for c in range(3):
                 k, m = (c + 1) % 3, (c + 2) % 3
                 acting[c, j] += links.turns[i, k, j] * arm[m] - links.turns[i, m, j] * arm[k]
-        times_rows(acting, q, x)
-    times_rows(acting, v, rate)
+        times_vector(acting, q, x)
+    times_vector(acting, v, rate)
     vn = rate[0] * n[0] + rate[1] * n[1] + rate[2] * n[2]
     push = 0.0
     if overlap > -np.inf:
@@ -501,7 +501,7 @@ def link_forces(
     places, moving = places_now(points, q)
     touched = np.zeros(len(places), dtype=np.int64)
     for i in range(count):
-        times_rows(links.sees[i], q, x)
+        times_vector(links.sees[i], q, x)
         record[i, FN:] = 0.0
         if kinds[i] <= RING:
             for j in range(2):

@@ -20,6 +20,7 @@ from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.problem.equilibrium import supports_are_still
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.iterated import (
@@ -87,7 +88,7 @@ class Case:
     def small(self) -> bool:
         """Whether dense matrices serve."""
         p = self.problem
-        return p.small and (p.numbering.size <= SMALL or _supports_are_still(p))
+        return p.small and (p.numbering.size <= SMALL or supports_are_still(p))
 
     @property
     def dense(self) -> bool:
@@ -116,12 +117,6 @@ class Case:
         if not takes(self.problem):
             return None
         return contact_loop(self.problem, self.motion, self.effective, self.closed)
-
-
-def _supports_are_still(problem: Problem) -> bool:
-    from ssilang.kernel.stepping.problem.equilibrium import supports_are_still
-
-    return supports_are_still(problem)
 
 
 def _adaptive(case: Case) -> Loop:

@@ -11,7 +11,7 @@ from pathlib import Path
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Definition
+from ssilang.language.text.tree import Definition, Item, Name, Quoted
 from ssilang.language.values import Procedure
 from ssilang.language.vocabulary.entries import Declaration, declared_names, read_declaration
 from ssilang.resources import resource
@@ -33,6 +33,11 @@ class Library:
         Folder of the script, searched for names that begin with @.
     allowed : sequence of Path
         Further folders to which links may lead from there.
+
+    Attributes
+    ----------
+    standard_files : dict
+        Files of the standard library's procedures by name.
     """
 
     def __init__(self, folder: Path, allowed: Sequence[Path] = ()) -> None:
@@ -40,19 +45,10 @@ class Library:
         self._allowed = allowed
         self._loaded: dict[str, Procedure | None] = {}
         self._files: dict[str, tuple[Path, float]] = {}  # of what is loaded, and its last change
-        self._standard = standard_procedures()
+        self.standard_files = standard_procedures()
+        self.standard_names = frozenset(self.standard_files)
         self._declared: dict[str, Declaration | None] = {}
         self.read: list[Path] = []  # files beside the script, and those that could stand there
-
-    @property
-    def standard_names(self) -> frozenset[str]:
-        """Names of the standard library's procedures."""
-        return frozenset(self._standard)
-
-    @property
-    def standard_files(self) -> dict[str, Path]:
-        """Files of the standard library's procedures by name."""
-        return self._standard
 
     @cached_property
     def declared_names(self) -> list[str]:
@@ -62,24 +58,27 @@ class Library:
     def declared(self, name: str) -> Declaration | None:
         """What is declared of the tables of a procedure or operator, None if nothing is."""
         if name not in self._declared:
-            known = name in self.declared_names
-            self._declared[name] = read_declaration(name) if known else None
+            self._declared[name] = read_declaration(name) if name in self.declared_names else None
         return self._declared[name]
 
     def is_own(self, name: str) -> bool:
         """Whether the standard library has a procedure that scripts are not meant to replace."""
         declared = self.declared(name)
-        return name in self._standard and (declared is None or not declared.replaceable)
+        return name in self.standard_names and (declared is None or not declared.replaceable)
 
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""
-        if name in self._loaded:
-            return self._loaded[name]
-        self._loaded[name] = None
-        path = self._path(name)
-        if path is not None:
-            self._load(path)
+        if name not in self._loaded:
+            self._loaded[name] = None
+            if (path := self._path(name)) is not None:
+                self._load(path)
         return self._loaded[name]
+
+    def called(self, items: Sequence[Item]) -> Sequence[Item]:
+        """The phrase; a procedure that stands in quotes before its operands is read as called."""
+        if len(items) > 1 and isinstance(first := items[0], Quoted) and self.find(first.text):
+            return [Name(first.text, first.text, first.span), *items[1:]]
+        return items
 
     def look_again(self) -> None:
         """Forget what may have changed on the disk: other files, and names that none had."""
@@ -91,7 +90,7 @@ class Library:
         path, changed = self._files[name]
         if _last_change(path) != changed or self._path(name) not in (None, path):
             return False
-        if path not in self._standard.values() and path not in self.read:
+        if path not in self.standard_files.values() and path not in self.read:
             self.read.append(path)
         return True
 
@@ -102,9 +101,9 @@ class Library:
             for path in paths:
                 if os.path.isfile(path):  # False for a name that no file can have
                     return self._inside(path)
-            if name in self._standard:  # one of these would stand before the library's
+            if name in self.standard_names:  # one of these would stand before the library's
                 self.read += [path for path in paths if path not in self.read]
-        return self._standard.get(name)
+        return self.standard_files.get(name)
 
     def _inside(self, path: Path) -> Path:
         """A file beside the script, if it is no link that leads out of the folder."""
@@ -114,7 +113,7 @@ class Library:
         raise SsiError("forbidden-path", None, path=str(real), folder=str(real.parent))
 
     def _load(self, path: Path) -> None:
-        origin = "stdlib" if path in self._standard.values() else str(path)
+        origin = "stdlib" if path in self.standard_files.values() else str(path)
         if origin != "stdlib":
             self.read.append(path)
         changed = _last_change(path)

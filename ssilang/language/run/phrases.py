@@ -150,7 +150,7 @@ class PhraseRunner(OperandReader):
             if word in _RAW_ITEMS and self.session.frame.find(word) is None:
                 return [Operand(self._texte(items[1:]), span, result=True)]
         self._silent = None
-        call = Call(self.session, self.operands_of(items), span)
+        call = Call(self.session, self.operands_of(self.session.library.called(items)), span)
         self._reduce(call)
         if one_name and call.operands:
             self._implicit_point(call)

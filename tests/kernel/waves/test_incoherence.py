@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from scipy.integrate import dblquad
 from scipy.special import erf, j1, jv
 
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.waves.incoherence import (
     Ground,
     RigidBase,
@@ -157,15 +156,3 @@ def test_a_record_keeps_what_is_slow_and_loses_what_is_fast():
     record = slow + fast
     found = averaged(record, np.where(frequencies_of(record, step) < 5.0, 1.0, 0.25))
     np.testing.assert_allclose(found[400:-400], (slow + 0.25 * fast)[400:-400], atol=2e-2)
-
-
-@pytest.mark.parametrize(
-    ("wrong", "code"),
-    [(lambda: RigidBase("disc", 0.0), "base-without-size"),
-     (lambda: RigidBase("rectangle", 2.0), "base-without-size"),
-     (lambda: Ground(0.0), "speed-not-positive"), (lambda: Ground(200.0, -0.1), "gamma-negative"),
-     (lambda: Ground(200.0, 0.1, 0.0), "speed-not-positive")],
-)  # fmt: skip
-def test_what_cannot_be_is_refused(wrong, code):
-    with pytest.raises(MaterialError, check=lambda e: e.code == f"kernel.waves.{code}"):
-        wrong()

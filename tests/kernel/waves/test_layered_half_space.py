@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.records.soil_column import SoilColumn
 from ssilang.kernel.records.soil_column import transfers as column_transfers
 from ssilang.kernel.waves.layered_half_space import HalfSpace, transfers
@@ -73,12 +72,3 @@ def test_vertical_shear_is_that_of_the_column():
     for kind in ("SH", "SV"):
         moved = transfers(ground, kind, 0.0, OMEGA, depths)[0][:, 0]
         assert np.abs(moved / moved[0] - expected).max() < 1e-12
-
-
-def test_refusals():
-    with pytest.raises(MaterialError) as told:
-        transfers(half_space(), "P", np.pi / 2, OMEGA, np.zeros(1))
-    assert told.value.code == "kernel.waves.angle-not-upwards"
-    with pytest.raises(MaterialError) as told:
-        transfers(half_space(), "P", 0.0, OMEGA, np.array([-1.0]))
-    assert told.value.code == "kernel.waves.above-the-surface"

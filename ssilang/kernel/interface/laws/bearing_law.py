@@ -103,8 +103,9 @@ def _lead_core(
 @seldom
 @compiled
 def lead_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
-) -> None:
+    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
+    D: FloatArray,
+) -> None:  # fmt: skip
     """Force, new state and tangent of a lead and rubber bearing, written in place."""
     n = w.shape[0] - 1
     clear(D)
@@ -119,7 +120,7 @@ def lead_point(
 
 @seldom
 @compiled
-def lead_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
+def lead_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored in the rubber, in what of the core is elastic, and in the vertical spring."""
     n = w.shape[0] - 1
     core: float = p[Par.QD] ** 2 / (p[Par.KS1] - p[Par.KPOS])
@@ -133,8 +134,9 @@ def lead_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
 @seldom
 @compiled
 def pendulum_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
-) -> None:
+    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
+    D: FloatArray,
+) -> None:  # fmt: skip
     """Force, new state and tangent of a friction pendulum, written in place."""
     n, radius = w.shape[0] - 1, p[Par.RAYO]
     clear(D)
@@ -198,7 +200,9 @@ def _rub(
 
 @seldom
 @compiled
-def pendulum_energy(w: FloatArray, state: FloatArray, p: FloatArray) -> float:
+def pendulum_energy(
+    code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray
+) -> float:
     """Stored in the vertical spring and in the friction's spring."""
     n = w.shape[0] - 1
     gap, stored = w[n], 0.0
@@ -250,6 +254,8 @@ def _bearing_columns(parameters: FloatArray) -> dict[str, FloatArray]:
 LAWS = {
     "APPUI_PLOMB": Law(
         LawCode.LEAD,
+        lead_point,
+        lead_energy,
         ("KN", "KS", "QD", "KPOS"),
         ("ETA", "BETA"),
         check_lead_parameters,
@@ -258,6 +264,8 @@ LAWS = {
     ),
     "APPUI_PENDULE": Law(
         LawCode.PENDULUM,
+        pendulum_point,
+        pendulum_energy,
         ("KN", "KS", "RAYO", "FROT"),
         (),
         check_pendulum_parameters,

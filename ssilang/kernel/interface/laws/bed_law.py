@@ -26,8 +26,10 @@ import math
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
+from ssilang.kernel.interface.laws.law import Law
 
 TURNS = 60  # of the projection: halvings alone end below rounding
 SAME = 1e-15  # of a right angle
@@ -195,8 +197,9 @@ def bed_points(
 @seldom
 @compiled
 def bed_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
-) -> None:
+    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
+    D: FloatArray,
+) -> None:  # fmt: skip
     """One point, as other laws answer."""
     d = w.shape[0]
     bed_points(
@@ -207,7 +210,7 @@ def bed_point(
 
 @seldom
 @compiled
-def bed_energy(w: FloatArray, t: FloatArray, p: FloatArray) -> float:
+def bed_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Energy stored beyond that of the elastic bed, per unit area."""
     n = w.shape[0] - 1
     kn, ks = p[Par.BED_KN], p[Par.BED_KS]
@@ -219,3 +222,7 @@ def bed_energy(w: FloatArray, t: FloatArray, p: FloatArray) -> float:
         if ks > 0.0:
             stored += 0.5 * drag * drag / ks - 0.5 * ks * w[i] * w[i]
     return stored
+
+
+PLACE = Law(LawCode.BED, bed_point, bed_energy, ())
+"""No law of a model: footings over ground that yields put places under themselves."""

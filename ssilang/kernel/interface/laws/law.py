@@ -14,15 +14,25 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter, Variable
 
+Point = Callable[
+    [int, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], None
+]
+Energy = Callable[[int, FloatArray, FloatArray, FloatArray, FloatArray], float]
+
 
 @dataclass(frozen=True)
 class Law:
-    """What is known of a law beside its equations.
+    """A law: its equations at one point, compiled, and what is known beside them.
 
     Attributes
     ----------
     code : int
         Number that compiled code knows it by.
+    point : callable
+        `point(code, w, state, p, t, new, D)`: traction t, new state and tangent D of a jump w,
+        written in place.
+    energy : callable
+        `energy(code, w, t, state, p)`: stored energy per unit area at the point's own state.
     required, optional : tuple of str
         Parameters as scripts name them (KS stands for KS1 and KS2).
     check : callable or None
@@ -44,6 +54,8 @@ class Law:
     """
 
     code: LawCode
+    point: Point
+    energy: Energy
     required: tuple[str, ...]
     optional: tuple[str, ...] = ()
     check: Callable[[FloatArray], None] | None = None

@@ -7,12 +7,18 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.interface.laws import bearing_law, macro_law, mohr_law, sdm_law
-from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws import (
+    bearing_law,
+    elastic_law,
+    macro_law,
+    mohr_law,
+    sdm_law,
+)
+from ssilang.kernel.interface.laws.columns import N_STATE, Parameter
 from ssilang.kernel.interface.laws.law import Law
 
 LAWS: dict[str, Law] = {
-    "ELASTIQUE": Law(LawCode.ELASTIC, ("KN", "KS"), linear=True),
+    **elastic_law.LAWS,
     **sdm_law.LAWS,
     **mohr_law.LAWS,
     **macro_law.LAWS,

@@ -199,7 +199,9 @@ def _over_places(code: int, w: FloatArray, p: FloatArray, t: FloatArray, D: Floa
 
 @seldom
 @compiled
-def macro_energy(code: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
+def macro_energy(
+    code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray
+) -> float:
     """Stored energy of a macro-element, without what its ground takes."""
     half: float = 0.0
     for i in range(w.shape[0]):
@@ -415,6 +417,8 @@ def _rocking_springs(p: FloatArray) -> tuple[FloatArray, FloatArray]:
 LAWS = {
     "MACRO_SEMELLE": Law(
         LawCode.STRIP,
+        macro_point,
+        macro_energy,
         ("KN", "KS", "LARG"),
         ("LONG", "COHE", "QULT", "FROT", "PDUR"),
         _check,
@@ -423,6 +427,8 @@ LAWS = {
     ),
     "MACRO_DISQUE": Law(
         LawCode.DISC,
+        macro_point,
+        macro_energy,
         ("KN", "KS", "RAYO"),
         ("COHE", "QULT", "FROT", "PDUR"),
         _check,
@@ -430,6 +436,8 @@ LAWS = {
     ),
     "MACRO_RESSORTS": Law(
         LawCode.SPRINGS,
+        macro_point,
+        macro_energy,
         ("KN", "KS", "LARG"),
         (),
         _check,

@@ -34,7 +34,7 @@ pressure at all stand exactly there."""
 
 @seldom
 @compiled
-def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
+def mohr_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
     """Stored energy of a point, per unit area."""
     n = w.shape[0] - 1
     stored: float = 0.0
@@ -53,8 +53,9 @@ def mohr_energy(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) 
 @seldom
 @compiled
 def mohr_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
-) -> None:
+    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
+    D: FloatArray,
+) -> None:  # fmt: skip
     """Traction, new state and tangent, written in place (arguments as `sdm_point`)."""
     n = w.shape[0] - 1
     strength = p[Par.FTRC]
@@ -228,6 +229,8 @@ _PLASTIC = {
 LAWS = {
     "JOINT_DILATANT": Law(
         LawCode.MOHR,
+        mohr_point,
+        mohr_energy,
         ("KN", "KS", "PHI", "MU"),
         ("FTRC", "COHE"),
         check_mohr_parameters,
@@ -236,6 +239,8 @@ LAWS = {
     ),
     "COULOMB": Law(
         LawCode.MOHR,
+        mohr_point,
+        mohr_energy,
         ("KN", "KS", "FRIC", "COHE"),
         ("FTRC", "EF", "ECN", "FNE", "QT", "TYPE"),
         check_mohr_parameters,

@@ -1,74 +1,43 @@
 """The compiled laws of joints behind one interface: by code, on one point or on many.
 
-A law is one file with a compiled function of one point::
-
-    law(w, state, p, t, new, D)      # traction t, new state and tangent D, written in place
-
-To add a law: write it, give it a code (`columns.LawCode`), a row in `law_table.LAWS` and a line in
-`point_response`.
+Numba has no table of functions whose calls cost nothing: a chain of comparisons is made of
+`law_table.LAWS` instead, a function a law, each written into the one before.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.copies import clear, copy_state
-from ssilang.kernel.interface.laws.bearing_law import (
-    lead_energy,
-    lead_point,
-    pendulum_energy,
-    pendulum_point,
-)
-from ssilang.kernel.interface.laws.bed_law import bed_energy, bed_point, bed_points
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
+from ssilang.kernel.interface.laws.bed_law import PLACE, bed_points
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.macro_law import macro_energy, macro_point
-from ssilang.kernel.interface.laws.mohr_law import mohr_energy, mohr_point
-from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss, sdm_point
+from ssilang.kernel.interface.laws.law_table import LAWS
+from ssilang.kernel.interface.laws.sdm_law import opening_loss
+
+Answer = Callable[..., float | None]
 
 
-@compiled
-def elastic_point(
-    w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, D: FloatArray
-) -> None:
-    """Bonded joint: t = diag(KS1, KS2, KN) w, no state."""
-    n = w.shape[0] - 1
-    clear(D)
-    copy_state(state, new)
-    for i in range(n):
-        D[i, i] = p[Par.KS1 + i]
-        t[i] = p[Par.KS1 + i] * w[i]
-    D[n, n] = p[Par.KN]
-    t[n] = p[Par.KN] * w[n]
+def _or_others(own: int, law: Answer, others: Answer) -> Any:
+    """The law's answer where the code is its own, else that of the others."""
+
+    @compiled_inline
+    def answer(code: int, *rest: Any) -> float | None:
+        if code == own:
+            return law(code, *rest)
+        return others(code, *rest)
+
+    return answer
 
 
-@compiled
-def point_response(
-    code: int,
-    w: FloatArray,
-    state: FloatArray,
-    p: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
-    D: FloatArray,
-) -> None:
-    """Traction, new state and tangent of one point by the law of this code."""
-    if code == LawCode.SDM:
-        sdm_point(w, state, p, t, new, D)
-    elif code == LawCode.MOHR:
-        mohr_point(w, state, p, t, new, D)
-    elif code == LawCode.ELASTIC:
-        elastic_point(w, state, p, t, new, D)
-    elif code == LawCode.LEAD:
-        lead_point(w, state, p, t, new, D)
-    elif code == LawCode.PENDULUM:
-        pendulum_point(w, state, p, t, new, D)
-    elif code == LawCode.BED:
-        bed_point(w, state, p, t, new, D)
-    else:
-        macro_point(code, w, state, p, t, new, D)
+point_response, _stored = PLACE.point, PLACE.energy
+for _law in {law.code: law for law in reversed(LAWS.values())}.values():
+    point_response = _or_others(int(_law.code), _law.point, point_response)
+    _stored = _or_others(int(_law.code), _law.energy, _stored)
 
 
 @apart
@@ -100,22 +69,5 @@ def point_energies(
     code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray
 ) -> tuple[float, float]:
     """Stored energy and energy lost so far of one point, per unit area, at its own state."""
-    n = w.shape[0] - 1
-    if code == LawCode.SDM:
-        xi, spent = state[Var.XI], state[Var.SHEAR_LOSS]
-        stored = normal_energy(w[n], t[n], xi, p[Par.KN], p[Par.FC]) + state[Var.SHEAR_ENERGY]
-        return stored, opening_loss(xi, p[Par.FU], p[Par.GF]) + spent
-    stored = 0.0
-    if code == LawCode.MOHR:
-        return mohr_energy(w, t, state, p), state[Var.SHEAR_LOSS]
-    if code == LawCode.LEAD:
-        return lead_energy(w, state, p), state[Var.SHEAR_LOSS]
-    if code == LawCode.PENDULUM:
-        return pendulum_energy(w, state, p), state[Var.SHEAR_LOSS]
-    if code == LawCode.BED:
-        return bed_energy(w, t, p), state[Var.SHEAR_LOSS]
-    if code == LawCode.ELASTIC:
-        for i in range(n + 1):
-            stored += 0.5 * w[i] * t[i]
-        return stored, 0.0
-    return macro_energy(code, w, t, p), 0.0
+    spent = opening_loss(state[Var.XI], p[Par.FU], p[Par.GF])
+    return _stored(code, w, t, state, p), spent + state[Var.SHEAR_LOSS]

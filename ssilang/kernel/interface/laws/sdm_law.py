@@ -86,7 +86,16 @@ def opening_loss(xi: float, fu: float, gf: float) -> float:
 
 
 @compiled
+def sdm_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
+    """Stored energy of a point, per unit area, that of shear as its state has it."""
+    n = w.shape[0] - 1
+    shear: float = state[Var.SHEAR_ENERGY]
+    return normal_energy(w[n], t[n], state[Var.XI], p[Par.KN], p[Par.FC]) + shear
+
+
+@compiled
 def sdm_point(
+    code: int,
     w: FloatArray,
     state: FloatArray,
     p: FloatArray,
@@ -265,6 +274,8 @@ def _check_snap_back(kn: FloatArray, fu: FloatArray, gf: FloatArray) -> None:
 LAWS = {
     "JOINT_SDM": Law(
         LawCode.SDM,
+        sdm_point,
+        sdm_energy,
         ("KN", "KS"),
         ("FU", "GF", "FC", "FROT"),
         check_sdm_parameters,

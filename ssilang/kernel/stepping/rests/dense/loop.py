@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_state
+from ssilang.kernel.interface.copies import copy_state, dot
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import (
     InterfaceState,
@@ -169,10 +169,7 @@ def sweep_of(system: System) -> Sweep:
 @compiled_fast
 def _times_vector(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
     for i in range(A.shape[0]):
-        total = 0.0
-        for j in range(A.shape[1]):
-            total += A[i, j] * x[j]
-        out[i] = total
+        out[i] = dot(A[i], x)
 
 
 @compiled_fast
@@ -180,10 +177,7 @@ def _form(A: FloatArray, x: FloatArray) -> float:
     """x^T A x."""
     total = 0.0
     for i in range(A.shape[0]):
-        row = 0.0
-        for j in range(A.shape[1]):
-            row += A[i, j] * x[j]
-        total += row * x[i]
+        total += dot(A[i], x) * x[i]
     return total
 
 
