@@ -47,8 +47,7 @@ class Layer:
         table = self.mesh.nodes
         if self.displacement is None or self.scale == 0.0:
             return table.coordinates
-        moved: FloatArray = table.coordinates + self.scale * displacements(self.displacement)
-        return moved
+        return table.coordinates + self.scale * displacements(self.displacement)
 
 
 @dataclass(frozen=True)

@@ -190,8 +190,7 @@ class _Sheet:
         return placed / self.unit
 
     def turn(self, steps: FloatArray) -> FloatArray:
-        turned: FloatArray = steps @ self.axes.T / self.unit
-        return turned
+        return steps @ self.axes.T / self.unit
 
 
 def _open() -> Any:

@@ -62,8 +62,7 @@ def _spread(part: CellFieldBlock, given: FloatArray) -> FloatArray:
     spread = to_nodes(part.element, part.support, part.cells.cell_type)
     if spread is None or spread.shape[1] != given.shape[1]:
         return np.broadcast_to(given.mean(axis=1, keepdims=True), shape)
-    nodal: FloatArray = given @ spread.T
-    return nodal
+    return given @ spread.T
 
 
 @lru_cache(maxsize=64)

@@ -37,8 +37,7 @@ class Plane:
 
     def height(self, points: FloatArray) -> FloatArray:
         """Signed distance of points (..., 3) from the plane."""
-        above: FloatArray = (points - self.origin) @ self.normal
-        return above
+        return (points - self.origin) @ self.normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +57,7 @@ class View:
 
     def project(self, points: FloatArray) -> FloatArray:
         """Sheet coordinates (..., 2) of points (..., 3)."""
-        flat: FloatArray = points @ self.axes[:2].T
-        return flat
+        return points @ self.axes[:2].T
 
     def depth(self, points: FloatArray) -> FloatArray:
         """How near points (..., 3) are to the eye; larger is nearer."""

@@ -147,8 +147,7 @@ class Mesh:
             return np.empty(0, dtype=np.int64)
         flat = np.concatenate([b.connectivity.ravel() for b in self.blocks])
         _, first = np.unique(flat, return_index=True)
-        ids: IntArray = flat[np.sort(first)]
-        return ids
+        return flat[np.sort(first)]
 
     @property
     def sorted_node_ids(self) -> IntArray:

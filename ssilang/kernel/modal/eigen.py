@@ -285,8 +285,7 @@ def _refuse_strangers(problem: ReducedProblem, values: FloatArray, shapes: Float
 def _normal(problem: ReducedProblem, shapes: FloatArray) -> FloatArray:
     """Shapes of generalised mass one."""
     mass = np.einsum("ij,ij->j", shapes, problem.M @ shapes)
-    scaled: FloatArray = shapes / np.sqrt(np.where(mass > 0.0, mass, 1.0))
-    return scaled
+    return shapes / np.sqrt(np.where(mass > 0.0, mass, 1.0))
 
 
 def between(problem: ReducedProblem, low: float, high: float) -> Pairs:

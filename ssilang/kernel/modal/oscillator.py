@@ -68,8 +68,7 @@ class Oscillators:
     @property
     def turning_square(self) -> FloatArray:
         """Square of the damped circular frequency, negative beyond critical damping."""
-        square: FloatArray = self.w**2 * (1.0 - self.xi**2)
-        return square
+        return self.w**2 * (1.0 - self.xi**2)
 
     def history(self, times: FloatArray, signal: FloatArray, x0: float, v0: float) -> FloatArray:
         """Displacements (n_times,) of a single oscillator.

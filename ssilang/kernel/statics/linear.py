@@ -138,8 +138,7 @@ class LinearSystem:
     @property
     def free_motions(self) -> FloatArray:
         """Displacements (n, p) that meet no stiffness."""
-        motions: FloatArray = self.elimination.T @ self.inverse.kernel[: self.n_masters]
-        return motions
+        return self.elimination.T @ self.inverse.kernel[: self.n_masters]
 
     def solve(self, f: FloatArray, d: FloatArray, project: bool = False) -> Solution:
         """Solution for forces f (n,) and imposed values d (n_rows,).

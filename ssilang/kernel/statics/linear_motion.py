@@ -162,8 +162,7 @@ def _turns(
 
 
 def _place(point: FloatArray, extent: float) -> FloatArray:
-    clean: FloatArray = np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
-    return clean
+    return np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
 
 
 def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> list[Sentence]:

@@ -173,5 +173,4 @@ def _slipped(
     from scipy.optimize import brentq
 
     H = brentq(lambda v: gone(v) - slip, 0.0, last, xtol=1e-14)
-    back: FloatArray = np.where(h < H, force * np.exp(h - 2 * H), T)
-    return back
+    return np.where(h < H, force * np.exp(h - 2 * H), T)

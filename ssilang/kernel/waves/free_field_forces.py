@@ -200,8 +200,7 @@ def elements_at(ground: Ground, edge: Mesh) -> Share:
     nodes = edge.sorted_node_ids
 
     def kept(of: IntArray) -> BoolArray:
-        touching: BoolArray = np.asarray(np.isin(of, nodes).any(axis=1))
-        return touching
+        return np.asarray(np.isin(of, nodes).any(axis=1))
 
     return _share(ground, kept)
 

@@ -90,16 +90,14 @@ def _edges(kind: CellType) -> set[tuple[int, int]]:
 def shear_speed(zone: Zone, material: CellField) -> FloatArray:
     """Speed of shear waves of each cell (m/s), from YOUN, NU and RHO."""
     young, poisson, density = _moduli(zone, material)
-    speed: FloatArray = np.sqrt(young / (2 * (1 + poisson)) / density)
-    return speed
+    return np.sqrt(young / (2 * (1 + poisson)) / density)
 
 
 def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
     """Speed of pressure waves of each cell (m/s)."""
     young, poisson, density = _moduli(zone, material)
     modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    speed: FloatArray = np.sqrt(modulus / density)
-    return speed
+    return np.sqrt(modulus / density)
 
 
 def _moduli(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray, FloatArray]:

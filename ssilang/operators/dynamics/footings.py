@@ -165,8 +165,7 @@ def _mean_motion(
         parts = np.einsum("ng,gm->nm", j.weights, j.shape)
         total += np.einsum("nm,knmd,d->k", parts, u[:, index], normal)
         area += float(j.weights.sum())
-    mean: FloatArray = total / area
-    return mean
+    return total / area
 
 
 def _arms(joints: tuple[JointCells, ...], footing: Footing) -> FloatArray:

@@ -22,8 +22,7 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
         if skip:
             found.random(skip)
         options["RANDOM GENERATOR"] = found
-    generator: np.random.Generator = found
-    return generator
+    return found
 
 
 BRUI = shared("BRUI", "numbers", full_name="BRUIT")

@@ -125,8 +125,7 @@ def cell_volumes(cell_type: str, coordinates: FloatArray, rule: Rule) -> FloatAr
     det = J[..., 0, 0] * J[..., 1, 1] - J[..., 0, 1] * J[..., 1, 0] if J.shape[-1] == 2 else None
     det = np.linalg.det(J) if det is None else det
     _check_jacobians(det, J)
-    volumes: FloatArray = rule.weights * np.abs(det)
-    return volumes
+    return rule.weights * np.abs(det)
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,8 +64,7 @@ def polygon_gradients(n: int, points: FloatArray) -> FloatArray:
 def polygon_excess(n: int, points: FloatArray) -> FloatArray:
     """How far points (m, 2) lie beyond each side, negative inside, shape (m, n)."""
     normals, offsets = _sides(n)
-    beyond: FloatArray = points @ normals.T - offsets
-    return beyond
+    return points @ normals.T - offsets
 
 
 def consistent(

@@ -44,8 +44,7 @@ def _orthotropic(parameters: ZoneField, support: Support) -> FloatArray:
     T[..., 0, :] = np.stack([c * c, s * s, c * s], axis=-1)
     T[..., 1, :] = np.stack([s * s, c * c, -c * s], axis=-1)
     T[..., 2, :] = np.stack([-2 * c * s, 2 * c * s, c * c - s * s], axis=-1)
-    turned: FloatArray = np.swapaxes(T, -1, -2) @ Q @ T
-    return turned
+    return np.swapaxes(T, -1, -2) @ Q @ T
 
 
 _LAWS = {"ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic}

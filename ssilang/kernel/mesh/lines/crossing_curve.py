@@ -154,5 +154,4 @@ def _tangent(gaps: tuple[Gap, Gap], x: FloatArray, size: float) -> FloatArray:
     sine = float(np.linalg.norm(along))
     if sine < 1e-5:
         raise MeshError("kernel.mesh.two-surfaces-touch-without", x=x)
-    unit: FloatArray = along / sine
-    return unit
+    return along / sine

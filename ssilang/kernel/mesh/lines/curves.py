@@ -30,8 +30,7 @@ def unit_vector(vector: FloatArray, code: str) -> FloatArray:
     size = float(np.linalg.norm(vector))
     if size == 0.0:
         raise MeshError(code)
-    unit: FloatArray = vector / size
-    return unit
+    return vector / size
 
 
 def plane_normal(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
@@ -145,8 +144,7 @@ class Polynomial:
     def at(self, u: FloatArray) -> FloatArray:
         """Positions (m, 3) at parameters (m,)."""
         powers = u[:, None] ** np.arange(len(self.coefficients))
-        position: FloatArray = powers @ self.coefficients
-        return position
+        return powers @ self.coefficients
 
     @property
     def length(self) -> float:
@@ -254,8 +252,7 @@ class ParabolicArc:
             raise MeshError("kernel.mesh.parabola-covers-half-turn")
         centred = self.arc(0.5 * (self.fractions[:-1] + self.fractions[1:])) - self.arc.centre
         reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
-        middle: FloatArray = self.arc.centre + reach[:, None] * centred
-        return middle
+        return self.arc.centre + reach[:, None] * centred
 
 
 def fillet(
@@ -304,8 +301,7 @@ def _line(like: Mesh, corners: IntArray, quadratic: bool, colour: int) -> Mesh:
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    unit: FloatArray = vector / np.linalg.norm(vector)
-    return unit
+    return vector / np.linalg.norm(vector)
 
 
 def _corner(a: FloatArray, u: FloatArray, b: FloatArray, v: FloatArray) -> tuple[FloatArray, float]:

@@ -139,8 +139,7 @@ def junctions(mesh: Mesh) -> IntArray:
     if not parts:
         return np.empty(0, dtype=np.int64)
     ids, times = np.unique(np.concatenate(parts), return_counts=True)
-    chosen: IntArray = ids[times > 2]
-    return chosen
+    return ids[times > 2]
 
 
 def inside_contour(

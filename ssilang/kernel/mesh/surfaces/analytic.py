@@ -140,8 +140,7 @@ def torus_shape(
 
 def _across(vectors: FloatArray, unit: FloatArray) -> FloatArray:
     """Parts of vectors (m, 3) orthogonal to a unit vector."""
-    part: FloatArray = vectors - (vectors @ unit)[:, None] * unit
-    return part
+    return vectors - (vectors @ unit)[:, None] * unit
 
 
 def _plane_hit(x: FloatArray, d: FloatArray, a: FloatArray, normal: FloatArray) -> FloatArray:

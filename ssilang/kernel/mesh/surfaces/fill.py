@@ -30,8 +30,7 @@ class SizeField:
 
     def __call__(self, p: FloatArray) -> FloatArray:
         """Sizes (m,) at positions (m, 2)."""
-        sizes: FloatArray = np.maximum(self._inside(p), self._least)
-        return sizes
+        return np.maximum(self._inside(p), self._least)
 
 
 def boundary_sizes(points: FloatArray, segments: IntArray) -> FloatArray:

@@ -124,5 +124,4 @@ def _sizes(
     v = np.linspace(0.0, 1.0, len(right))[:, None]
     upright = (1 - v) * density[bottom][None] + v * density[top][None]
     flat = (1 - u) * density[left][:, None] + u * density[right][:, None]
-    mean: FloatArray = 0.5 * (upright + flat)
-    return mean
+    return 0.5 * (upright + flat)

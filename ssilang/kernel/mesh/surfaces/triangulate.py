@@ -53,8 +53,7 @@ def delaunay_triangles(points: FloatArray) -> IntArray:
 def doubled_areas(points: FloatArray, triangles: IntArray) -> FloatArray:
     """Twice the signed areas of triangles (t, 3) of points (m, 2)."""
     a, b, c = np.moveaxis(points[triangles], 1, 0)
-    area: FloatArray = _cross(b - a, c - a)
-    return area
+    return _cross(b - a, c - a)
 
 
 def _cross(u: FloatArray, v: FloatArray) -> FloatArray:

@@ -158,8 +158,7 @@ def _transfinite(x: FloatArray) -> FloatArray:
 
     def along(value: FloatArray, axis: int) -> FloatArray:
         t = shares[axis]
-        mixed: FloatArray = (1 - t) * np.take(value, [0], axis) + t * np.take(value, [-1], axis)
-        return mixed
+        return (1 - t) * np.take(value, [0], axis) + t * np.take(value, [-1], axis)
 
     one = along(x, 0) + along(x, 1) + along(x, 2)
     two = along(along(x, 0), 1) + along(along(x, 0), 2) + along(along(x, 1), 2)

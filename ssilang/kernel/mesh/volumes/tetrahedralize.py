@@ -353,8 +353,7 @@ def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
         hull = ConvexHull(np.column_stack([every, lift]), qhull_options="Qt Q12")
     except QhullError as error:
         raise MeshError("kernel.mesh.points-surface-cannot-triangulated") from error
-    cells: IntArray = hull.simplices[hull.equations[:, 3] < -1e-12].astype(np.int64)
-    return cells
+    return hull.simplices[hull.equations[:, 3] < -1e-12].astype(np.int64)
 
 
 def _faces(cells: IntArray) -> IntArray:
@@ -364,8 +363,7 @@ def _faces(cells: IntArray) -> IntArray:
 
 def _codes(faces: IntArray, size: int) -> IntArray:
     """One number a face."""
-    codes: IntArray = (faces[:, 0] * size + faces[:, 1]) * size + faces[:, 2]
-    return codes
+    return (faces[:, 0] * size + faces[:, 1]) * size + faces[:, 2]
 
 
 def _missing_triangles(cells: IntArray, triangles: IntArray) -> BoolArray:

@@ -70,8 +70,7 @@ def _coordinate(support: Support, axis: int, density: bool) -> float | NodeField
 
 
 def _column(nodes: NodeTable, axis: int, density: bool) -> FloatArray:
-    column: FloatArray = nodes.density if density else nodes.coordinates[:, axis]
-    return column
+    return nodes.density if density else nodes.coordinates[:, axis]
 
 
 def curvilinear(line: Mesh) -> NodeField:
