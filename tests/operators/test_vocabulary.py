@@ -47,7 +47,9 @@ _KNOWN = {
     "parameter": words.known_parameters(),
     "component": words.known_components(),
     "option": tuple(READERS),
-    "structure": ("SI", "SINON", "FINSI", "REPETER", "DEBPROC", "FINPROC", "DEBMETH", "FINMETH"),
+    "structure": (
+        "SI", "SINON", "FINSI", "REPETER", "DEBPROC", "FINPROC", "DEBMETH", "FINMETH", "TEXTE",
+    ),
 }  # fmt: skip
 
 
