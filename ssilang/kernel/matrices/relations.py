@@ -89,8 +89,11 @@ def rows_from_table(
     unknowns: tuple[str, ...],
     coefficients: FloatArray,
     sense: int = 0,
+    multipliers: IntArray | None = None,
 ) -> Relations:
     """Rows with the same unknowns: nodes and coefficients (n_rows, n_terms); zeros are dropped.
+
+    Multiplier nodes (n_rows,) are made where none are given.
 
     Raises
     ------
@@ -106,10 +109,10 @@ def rows_from_table(
         raise FieldError("kernel.matrices.relation-node-no-coefficient", node=node)
     names = np.array(unknowns, dtype=object)
     where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
+    own = _multiplier_nodes(table, nodes[:, 0]) if multipliers is None else multipliers
     return Relations(
         table, np.concatenate([[0], np.cumsum(counts)]).astype(np.int64), nodes[kept],
-        tuple(names[where]), np.asarray(coefficients[kept], dtype=float),
-        _multiplier_nodes(table, nodes[:, 0]), np.full(len(nodes), sense, dtype=np.int8),
+        tuple(names[where]), np.asarray(coefficients[kept], dtype=float), own, np.full(len(nodes), sense, dtype=np.int8),
     )  # fmt: skip
 
 

@@ -207,10 +207,8 @@ class Evaluator(PhraseRunner):
             self._unnamed(statement)
             return
         one = len(statement.targets) == 1
-        path = statement.targets[0]
-        deep = isinstance(path, tree.Path) and len(path.indices) > 1
         try:
-            left = self.phrase(statement.items, statement.span, one_name=one and not deep)
+            left = self.phrase(statement.items, statement.span, one_name=one)
         except SsiError as error:
             word = self.word_of_entry(statement, error)
             if word is None:

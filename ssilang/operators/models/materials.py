@@ -127,6 +127,9 @@ def _parameters(
         refuse_outside(call, zone, others, said)
         tension_to_hardening(values)
         reference_to_curve(call, values, said)
+    if of_laws and all(z.behaviour == ("UNILATERAL",) for z in model.zones):
+        for zone, values in zip(model.zones, given, strict=True):  # what asks for no parameter
+            values.setdefault("JEU", (np.zeros((len(zone.cells), 1)), "GRAVITE"))
     blocks = [b for z, v in zip(model.zones, given, strict=True) for b in _blocks(z, v)]
     if not blocks:
         raise call.error("operators.models.no-parameter", model)

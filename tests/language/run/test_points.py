@@ -1,5 +1,7 @@
 """Section 7: numbers that become a point."""
 
+import pytest
+
 
 def test_two_numbers_are_a_point_in_two_dimensions(run):
     assert run("OPTI DIME 2 ; p = 1. 2. ;").kind("p") == "POINT"
@@ -22,14 +24,11 @@ def test_two_names_take_two_numbers(run):
     assert (script["x"], script["y"]) == (1.0, 2.0)
 
 
-def test_a_table_index_of_one_level_takes_a_point(run):
-    script = run("OPTI DIME 2 ; t = TABL ; t . 'A' = 0. 0. ; k = TYPE (t . 'A') ;")
-    assert script["k"].rstrip() == "POINT"
-
-
-def test_two_levels_of_indices_make_no_point(fails):
-    text = "OPTI DIME 2 ; t = TABL ; t . 'A' = TABL ; t . 'A' . 'B' = 0. «0.» ;"
-    assert fails(text) == "excess"
+@pytest.mark.parametrize("place", ["t . 'A'", "t . 'T' . 'A'", "t . 'T' . 1 . 'A'"])
+def test_the_index_of_a_table_takes_a_point(run, place):
+    inner = "t = TABL ; t . 'T' = TABL ; t . 'T' . 1 = TABL ;"
+    script = run(f"OPTI DIME 2 ; {inner} {place} = 3. -4. ; k = COOR 2 ({place}) ;")
+    assert script["k"] == -4.0
 
 
 def test_numbers_in_a_parenthesis_are_a_point(run):

@@ -1,0 +1,77 @@
+"""IMPO: possible links of lines and projectiles in the plane, relations of those that touch."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ssilang.kernel.contact import touching
+from ssilang.kernel.matrices.relations import in_space
+from ssilang.language.values import ANNULE, Annule
+from ssilang.language.vocabulary.terms import Range
+from ssilang.operators.matrices.supports import as_matrix
+from ssilang.operators.prelude import *
+
+_SIZE = arg("size", "FLOTTANT", en="radius, or width", unit="m", range=POSITIVE)
+_ANGLE = arg(
+    "angle", "FLOTTANT", en="from the axis to the side", unit="deg",
+    range=Range(0.0, 90.0, open_low=True, open_high=True),
+)  # fmt: skip
+
+
+@operator("IMPO", said("IMPA"), family="relations", full_name="IMPOSE")
+def impo(
+    call: Call,
+    master: Mesh = Key("MAIT", arg("line", "MAILLAGE"), optional=False, en="line of segments"),
+    slave: Mesh | Point = Key(
+        "ESCL",
+        arg("other", "MAILLAGE", "POINT"),
+        optional=False,
+        en="line that comes to touch it, or point of a rigid projectile",
+    ),
+) -> Mesh:
+    """All links that lines, or a line and a projectile, can have."""
+    if workspace(call.session).mode.dimension != 2:
+        raise call.error("operators.matrices.impo-in-the-plane", master)
+    if isinstance(slave, Point):
+        slave = Mesh.of(slave.nodes, "POI1", np.array([[slave.node]]))
+    return touching.possible_links(master, slave)
+
+
+@impo.form(
+    said("IMPA"),
+    arg("links", "MAILLAGE", en="possible links, by IMPO 'IMPA' 'MAIT'"),
+    select(
+        "nose",
+        {
+            "HEMI": [_SIZE],
+            "PLAT": [_SIZE],
+            "CONE": [_SIZE, key("angle", "ANGL", _ANGLE, optional=False)],
+        },
+        en="nose of the projectile: half a circle, flat, or a cone",
+    ),
+    key("axis", "VECT", arg("vector", "POINT"), en="axis of the projectile, out of its nose"),
+)
+def of_touching(call: Call, links: Mesh, nose: Chosen | None, axis: Point | None) -> Matrix | Annule:
+    """Relations of the nodes that touch now."""
+    kinds = {b.cell_type for b in links.blocks}
+    if not kinds <= {touching.OF_LINES, touching.OF_PROJECTILE}:
+        raise call.error("operators.matrices.impo-wants-links", links)
+    shot = touching.OF_PROJECTILE in kinds
+    if shot and (nose is None or axis is None):
+        raise call.error("operators.matrices.projectile-without-nose", links)
+    if not shot and not (nose is axis is None):
+        raise call.error("operators.matrices.nose-without-projectile", links)
+    names = in_space(workspace(call.session).mode)
+    found = touching.touching(links, (names[0], names[1]), _nose(call, nose, axis))
+    return ANNULE if found is None else as_matrix(found)  # EXIS tells
+
+
+def _nose(call: Call, nose: Chosen | None, axis: Point | None) -> touching.Nose | None:
+    if nose is None or axis is None:
+        return None
+    vector = axis.coordinates[:2]
+    length = float(np.linalg.norm(vector))
+    if length == 0.0:
+        raise call.error("operators.matrices.direction-without-length", axis)
+    angle = np.radians(nose["angle"]) if nose.word == "CONE" else 0.0
+    return touching.Nose(nose.word, vector / length, nose["size"], float(angle))
