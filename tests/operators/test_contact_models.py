@@ -1,7 +1,6 @@
 """Contact between sides: patch tests of all formulations, openings, sliding, refusals."""
 
 import pytest
-from script_runs import failed
 
 PLANE = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
@@ -94,13 +93,6 @@ def test_two_cubes_do_not_pull(found):
     assert size < 1e-9
 
 
-def test_matrix_of_contact_with_friction_is_refused(refused):
-    refused(
-        PLANE
-        + "K = MODE C CONTACT FROTTANT COULOMB A ; R = «RIGI» (M ET K) (G ET (MATE K MU .2)) ;"
-    )
-
-
 def test_contour_of_cells_of_both_senses_runs_one_way(found):
     length = found(
         "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (0 -1) ; S = (L TRAN 2 (1 0)) ET "
@@ -119,13 +111,3 @@ def test_contour_drawn_in_both_senses_is_filled(found):
         "X",
     )
     assert area == pytest.approx(0.5)
-
-
-def test_adherence_is_refused_with_what_takes_its_place(tmp_path):
-    result = failed(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "
-        "M = MODE A 'CONTACT' 'FROTTANT' 'COULOMB' B ; C = MATE M 'MU' 0.3 'ADHE' 1. ;",
-        folder=tmp_path,
-    )
-    assert "ADHE is not built" in result.message
-    assert "JOINT_SDM" in result.message

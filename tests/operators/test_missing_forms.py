@@ -31,38 +31,6 @@ def test_model_is_dealt_out_zone_by_zone(found, how):
     assert [z.element for z in a.zones] == ["QUA4", "BARR"]
 
 
-SPRINGS = (
-    "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; R = 2. 0. ; "
-    "K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ET (APPU 'UX' 7. R) ; "
-    "C = RELA 2. 'UX' P '-' 1. 'UX' Q ; "
-)
-
-
-def test_condensation_by_the_matrix_of_dependence_gives_the_solution(found):
-    """Two springs on one unknown: (4/4 + 5) q = 1/2 + 1, and p = q / 2."""
-    values = found(
-        SPRINGS + "T D = CHAN 'COND' (K ET C) ; F = MANU 'CHPO' (P ET Q ET R) 'FX' 1. ; "
-        "V = RESO (CMCT K T) (F * D) ; U = V * T ; "
-        "X1 = EXTR U 'UX' P ; X2 = EXTR U 'UX' Q ; X3 = EXTR U 'UX' R ;",
-        "X1", "X2", "X3",
-    )  # fmt: skip
-    assert values == pytest.approx((0.125, 0.25, 1 / 7), rel=1e-12)
-
-
-def test_dependence_of_relations_alone_leaves_other_unknowns_as_they_are(found, refused):
-    stiffness, force, back = found(
-        SPRINGS + "T D = CHAN 'COND' C ; M = EXTR (CMCT K T) 'DIAG' ; X1 = MAXI M ; X2 = MINI M ; "
-        "G = D * (MANU 'CHPO' (P ET Q) 1 'FX' 3.) ; X3 = RESU G ; Y = MAXI 'ABS' G ; "
-        "U = (MANU 'CHPO' Q 1 'UX' 8.) * T ; Z = EXTR U 'UX' P ; S = X1 + X2 ;",
-        "S", "Y", "Z",
-    )  # fmt: skip
-    assert stiffness == pytest.approx(7 + 6)
-    # one of the two stays: q with 3 + 3/2
-    assert force == pytest.approx(4.5)
-    assert back == pytest.approx(4.0)
-    assert "no relation" in refused(SPRINGS + "T D = «CHAN» 'COND' K ;")
-
-
 def test_curves_in_cells_through_fields(found, refused):
     start = (
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (1. 0.) ; "
