@@ -6,8 +6,9 @@ touch, or have gone into each other, come relations
 
     n . (sum_i M_i u_i - u_s) <= 0,    n . (u_P - u_m) <= 0
 
-(what would go in, so that a multiplier pushes where it is positive) with M the segment's shape functions at the foot of the slave's node, n the outer normal there: of
-the segment, or of the projectile's nose.
+of what goes in, so that multipliers are positive where they push; M are the segment's shape
+functions at the foot of the slave's node, n the outer normal there: of the segment, or of the
+projectile's nose.
 """
 
 from __future__ import annotations
@@ -97,7 +98,8 @@ def possible_links(master: Mesh, slave: Mesh) -> Mesh:
 def _pairs(cells: IntArray, nodes: IntArray) -> IntArray:
     """Each of the cells (n, k) with each node (m,) that is not its own: (links, k + 1)."""
     found = np.column_stack([np.repeat(cells, len(nodes), axis=0), np.tile(nodes, len(cells))])
-    return found[(found[:, :-1] != found[:, -1:]).all(axis=1)]
+    pairs: IntArray = found[(found[:, :-1] != found[:, -1:]).all(axis=1)]
+    return pairs
 
 
 def touching(links: Mesh, unknowns: tuple[str, str], nose: Nose | None = None) -> Relations | None:

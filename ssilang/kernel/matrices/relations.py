@@ -112,7 +112,8 @@ def rows_from_table(
     own = _multiplier_nodes(table, nodes[:, 0]) if multipliers is None else multipliers
     return Relations(
         table, np.concatenate([[0], np.cumsum(counts)]).astype(np.int64), nodes[kept],
-        tuple(names[where]), np.asarray(coefficients[kept], dtype=float), own, np.full(len(nodes), sense, dtype=np.int8),
+        tuple(names[where]), np.asarray(coefficients[kept], dtype=float), own,
+        np.full(len(nodes), sense, dtype=np.int8),
     )  # fmt: skip
 
 

@@ -51,7 +51,9 @@ def impo(
     ),
     key("axis", "VECT", arg("vector", "POINT"), en="axis of the projectile, out of its nose"),
 )
-def of_touching(call: Call, links: Mesh, nose: Chosen | None, axis: Point | None) -> Matrix | Annule:
+def of_touching(
+    call: Call, links: Mesh, nose: Chosen | None, axis: Point | None
+) -> Matrix | Annule:
     """Relations of the nodes that touch now."""
     kinds = {b.cell_type for b in links.blocks}
     if not kinds <= {touching.OF_LINES, touching.OF_PROJECTILE}:
@@ -59,7 +61,7 @@ def of_touching(call: Call, links: Mesh, nose: Chosen | None, axis: Point | None
     shot = touching.OF_PROJECTILE in kinds
     if shot and (nose is None or axis is None):
         raise call.error("operators.matrices.projectile-without-nose", links)
-    if not shot and not (nose is axis is None):
+    if not shot and (nose is not None or axis is not None):
         raise call.error("operators.matrices.nose-without-projectile", links)
     names = in_space(workspace(call.session).mode)
     found = touching.touching(links, (names[0], names[1]), _nose(call, nose, axis))
