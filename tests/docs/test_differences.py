@@ -25,6 +25,14 @@ RUNS = {
     "A procedure that a deck defines": [
         ("DEBP @VERIFIE A*ENTIER ; FINP (A + 1) ; X = @VERIFIE 2 ;", 0, "X", 3)
     ],
+    "Two or three numbers are a point": [
+        (
+            "OPTI DIME 2 ; T = TABL ; T . 1 = T ; T . 1 . 2 = 3. 5. ; X = TYPE (T . 2) ;",
+            0,
+            "X",
+            "POINT   ",
+        )
+    ],
     "Names keep 24 characters": [
         (f"{'A' * 24}B = 1 ; {'A' * 24}C = 2 ; X = {'A' * 24}B ;", 0, "X", 2),
         (f"{'A' * 23}B = 1 ; {'A' * 23}C = 2 ; X = {'A' * 23}B ;", 0, "X", 1),
