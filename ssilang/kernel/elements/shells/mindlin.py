@@ -1,10 +1,11 @@
 """COQ4 and DST: flat shells with transverse shear.
 
-COQ4 assumes shear strains (MITC4): Bathe and Dvorkin (1985). DST assumes discrete shears: Batoz and
-Lardeur, "A discrete shear triangular nine d.o.f. element for the analysis of thick to very thin
-plates" (1989). The normal's rotations are quadratic as those of DKT; the moments that they make are
-linear and, by balance, say one shear strain for the cell, which each side's mean strain must meet:
-the strains depend on the ratio of the moduli of bending and shear.
+COQ4 assumes shear strains (MITC4): Bathe and Dvorkin (1985). DST extends DKT by discrete shears:
+Katili, "A new discrete Kirchhoff-Mindlin element based on Mindlin-Reissner plate theory and assumed
+shear strain fields, part I" (1993). Along each side the normal's rotation is quadratic, the moment
+that it makes linear and, by balance, the shear strain constant: what the side bends and shears is
+told by the ratio of its moduli. Batoz and Lardeur (1989) take one shear strain for the cell: beside
+each other such cells turn unlike, and thick irregular meshes miss a constant moment.
 """
 
 from __future__ import annotations
@@ -62,28 +63,25 @@ def _discrete_shear(local: FloatArray, points: FloatArray, moduli: FloatArray) -
     """Curvatures and shears (n, 5, p, 9) of a triangle with moduli (n or 1, 8, 8)."""
     rotations = kirchhoff_rotations(local)
     sides = np.roll(local, -1, axis=1) - local
-    sides /= np.linalg.norm(sides, axis=2, keepdims=True)
-    # second derivatives (n, side, 2, 2) of the shapes of the middles: 4 L_i L_j
-    J = np.stack([local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]], axis=1)
-    slopes = np.einsum("cij,kj->cki", np.linalg.inv(J), shape_gradients("TRI3", points[:1])[0])
-    pair = np.einsum("cka,ckb->ckab", slopes, np.roll(slopes, -1, axis=1))
-    second = 4 * (pair + np.swapaxes(pair, -1, -2))
-    # V = div M of a bulge of each side's rotation, and the shear strain that it makes
-    bent = np.einsum("ckab,cks->ckasb", second, sides)  # cell, side, d(d beta_s / dx_b) / dx_a
-    curved = np.stack([bent[..., 0, 0], bent[..., 1, 1], bent[..., 0, 1] + bent[..., 1, 0]], -1)
-    moments = np.einsum("cij,ckaj->ckai", moduli[:, 3:6, 3:6], curved)
-    forces = np.stack(
-        [moments[:, :, 0, 0] + moments[:, :, 1, 2], moments[:, :, 0, 2] + moments[:, :, 1, 1]], 1
-    )
-    strain = np.linalg.solve(np.broadcast_to(moduli[:, 6:, 6:], (len(local), 2, 2)), forces)
-    # bulges without shear, then with it: bulge = without + 3/2 side . strain bulge
+    length = np.linalg.norm(sides, axis=2)
+    sides /= length[..., None]
+    c, s = np.moveaxis(sides, 2, 0)
+    bent = np.stack([c * c, s * s, 2 * c * s], axis=2)
+    stiff = np.einsum("cki,cij,ckj->ck", bent, moduli[:, 3:6, 3:6], bent)
+    soft = np.einsum("cki,cij,ckj->ck", sides, np.linalg.inv(moduli[:, 6:, 6:]), sides)
+    ratio = (12 * stiff * soft / length**2)[..., None]
+    # bulge of the rotation in the middle of each side: without shear strain, then with it
     ends = 0.5 * (rotations[:, ::2] + np.roll(rotations[:, ::2], -1, axis=1))
     without = np.einsum("cks,cksm->ckm", sides, rotations[:, 1::2] - ends)
-    bulge = np.linalg.solve(np.eye(3) - 1.5 * sides @ strain, without)
-    rotations[:, 1::2] += np.einsum("cks,ckm->cksm", sides, bulge - without)
-    curvatures = curvatures_of(rotations, local, points)
-    shears = np.broadcast_to((strain @ bulge)[:, :, None], (len(local), 2, *curvatures.shape[2:]))
-    return np.concatenate([curvatures, shears], axis=1)
+    bulge = without / (1 + ratio)
+    rotations[:, 1::2] -= np.einsum("cks,ckm->cksm", sides, ratio * bulge)
+    along = -2 / 3 * ratio * bulge
+    # linear shears that are constant along each side: at a corner those of both sides hold
+    meeting, strains = (np.stack([v, np.roll(v, 1, axis=1)], axis=2) for v in (sides, along))
+    corners = np.linalg.solve(meeting, strains)
+    shapes = np.column_stack([1 - points.sum(axis=1), points])
+    shears = np.einsum("pk,cksm->cspm", shapes, corners)
+    return np.concatenate([curvatures_of(rotations, local, points), shears], axis=1)
 
 
 class Mindlin(FlatShell):
