@@ -10,8 +10,7 @@ ALPHA, THICKNESS = 1e-5, 0.1
 LOWER, MIDDLE, UPPER = 0.0, 30.0, 60.0
 SKINS = f"'TINF' {LOWER} 'T' {MIDDLE} 'TSUP' {UPPER}"
 CELLS = {
-    "DKT": "TRI3",
-    "COQ3": "TRI3",
+    **dict.fromkeys(("DKT", "DST", "COQ3"), "TRI3"),
     "COQ4": "QUA4",
     "COQ6": "TRI6",
     "COQ8": "QUA8",
