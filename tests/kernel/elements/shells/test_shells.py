@@ -34,7 +34,7 @@ PLATE = {"YOUN": E, "NU": NU, "EPAI": H, "RHO": RHO}
 D = E * H**3 / 12 / (1 - NU**2)
 
 
-def plate(nx, ny, a, b, turn=None, behaviour=ELASTIC, astray=0.0):
+def plate(nx, ny, a, b, turn=None, astray=0.0):
     """Triangles on a rectangle a x b, nodes inside astray by parts of a cell; mapped by `turn`."""
     table = NodeTable()
     X, Y = np.meshgrid(np.linspace(0, a, nx + 1), np.linspace(0, b, ny + 1), indexing="ij")
@@ -46,7 +46,7 @@ def plate(nx, ny, a, b, turn=None, behaviour=ELASTIC, astray=0.0):
     p, q, r, s = (part.ravel() for part in (ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]))
     cells = np.concatenate([np.column_stack([p, q, r]), np.column_stack([p, r, s])])
     block = CellBlock.make(table, "TRI3", cells)
-    return Zone(block, "MECANIQUE", behaviour, "DKT", Mode.THREE_DIMENSIONAL), x
+    return Zone(block, "MECANIQUE", ELASTIC, "DKT", Mode.THREE_DIMENSIONAL), x
 
 
 def quadrangles(element, nx, ny, a, b, bend=None):
@@ -89,16 +89,6 @@ def solved(zone, mat, fixed, load):
     return vector_to_field(u, numbering)
 
 
-def bent(zone, kx, ky, kxy):
-    """Displacements of constant curvatures."""
-    return field(
-        zone,
-        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
-        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
-        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
-    )
-
-
 SKEW = np.array([[1.0, 0.4, 0.0], [0.0, 0.8, 0.0], [0.0, 0.0, 1.0]])
 
 
@@ -107,10 +97,16 @@ SKEW = np.array([[1.0, 0.4, 0.0], [0.0, 0.8, 0.0], [0.0, 0.0, 1.0]])
 )
 def test_plate_bent_to_a_quadratic_surface_has_the_exact_moments(element, h, n):
     """In balance inside; of cubic triangles on a regular mesh alone, that it may be skew."""
-    curved = (1e-3, -5e-4, 3e-4)
+    kx, ky, kxy = curved = (1e-3, -5e-4, 3e-4)
     zone, x = plate(n, n, 1.0, 0.7, SKEW, astray=0.0 if element == "COQ3" else 0.3)
     inside = np.flatnonzero((np.abs(x[:, :2] / [1.0, 0.7] - 0.5) < 0.499).all(axis=1))
-    zone, u = replace(zone, element=element), bent(zone, *curved)
+    zone = replace(zone, element=element)
+    u = field(
+        zone,
+        UZ=lambda x: -kx * x[:, 0] ** 2 / 2 - ky * x[:, 1] ** 2 / 2 - kxy * x[:, 0] * x[:, 1] / 2,
+        RX=lambda x: -ky * x[:, 1] - kxy * x[:, 0] / 2,
+        RY=lambda x: kx * x[:, 0] + kxy * x[:, 1] / 2,
+    )
     mat = material(zone, **(PLATE | {"EPAI": h}))
     strain, stress = families.strain(zone, u, mat), families.stress(zone, mat, u)
     assert strain.components["RTSS"].shape == (2 * n * n, 1 if element == "COQ3" else 3)
@@ -243,10 +239,7 @@ def test_strip_in_plane_stress_is_a_beam():
     zone = line_zone("COQ2", [(0, 0), (0.6, 0.8)], Mode.PLANE_STRESS)
     mat = material(zone, YOUN=E, NU=NU, EPAI=H, DIM3=0.2)
     load = NodeField.of(
-        zone.cells.nodes,
-        np.array([1]),
-        {"FX": np.array([-0.8]), "FY": np.array([0.6])},
-        "DISCRET",
+        zone.cells.nodes, np.array([1]), {"FX": np.array([-0.8]), "FY": np.array([0.6])}, "DISCRET"
     )
     u = solved(zone, mat, lambda m: m.nodes == 0, load)
     tip = np.array([1])
@@ -255,21 +248,28 @@ def test_strip_in_plane_stress_is_a_beam():
 
 
 @pytest.mark.parametrize(
-    ("element", "thickness"),
-    [("DKT", 1e-2), ("DST", 1e-2), ("DST", 1e-4),
-     ("COQ4", 1e-2), ("COQ4", 1e-4), ("COQ8", 1e-2), ("COQ8", 2e-3)],
+    ("element", "n", "h", "factor", "rtol"),
+    [("DKT", 12, H, 0.00560, 0.02), ("DST", 16, H, 0.00560, 0.02), ("DST", 16, 1e-4, 0.00560, 0.02),
+     ("COQ4", 16, H, 0.00560, 0.02), ("COQ4", 16, 1e-4, 0.00560, 0.02),
+     ("COQ8", 12, H, 0.00560, 0.02), ("COQ8", 12, 2e-3, 0.00560, 0.02),
+     ("DKT", 12, H, 0.01160, 1e-2), ("DKT", 24, H, 0.01160, 3e-3)],
 )  # fmt: skip
-def test_clamped_square_plate_deflects_as_timoshenko_says_and_does_not_lock(element, thickness):
-    n, a = 12 if element == "COQ8" else 16, 1.0
-    zone, x, _ = flat_zone(element, n, a, a, n)
-    edge = np.flatnonzero((np.abs(x[:, :2] - a / 2) > a / 2 - 1e-9).any(axis=1))
-    centre = int(np.argmin(np.linalg.norm(x - [a / 2, a / 2, 0], axis=1)))
-    mat = material(zone, YOUN=E, NU=NU, EPAI=thickness)
+def test_square_plate_deflects_as_timoshenko_says_and_does_not_lock(element, n, h, factor, rtol):
+    """Under a force P in the middle by 0.00560 P a^2 / D if clamped, 0.01160 on simple supports."""
+    zone, x, _ = flat_zone(element, n, 1.0, 1.0, n)
+    edge = np.flatnonzero((np.abs(x[:, :2] - 0.5) > 0.5 - 1e-9).any(axis=1))
+    centre = int(np.argmin(np.linalg.norm(x - [0.5, 0.5, 0], axis=1)))
+
+    def fixed(numbering):
+        names = np.array([numbering.name(i) for i in range(numbering.size)])
+        on_edge = np.isin(numbering.nodes, edge) & ((names == "UZ") | (factor < 0.01))
+        return on_edge | np.isin(names, ["UX", "UY", "RZ"])
+
     load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
-    u = solved(zone, mat, lambda m: np.isin(m.nodes, edge), load)
-    rigidity = E * thickness**3 / 12 / (1 - NU**2)
+    u = solved(zone, material(zone, YOUN=E, NU=NU, EPAI=h), fixed, load)
+    rigidity = E * h**3 / 12 / (1 - NU**2)
     deflection = u.values_at("UZ", np.array([centre]))[0]
-    assert deflection == pytest.approx(0.00560 * a**2 / rigidity, rel=0.02)
+    assert deflection == pytest.approx(factor / rigidity, rel=rtol)
 
 
 @pytest.mark.parametrize("element", ["COQ4", "COQ8"])
@@ -435,23 +435,6 @@ def test_clamped_thin_tube_vibrates_as_the_published_case_says():
     for near in (0.0, 300.0, 560.0):
         mode = modes_near(stiffness, mass, [(near, 1)])[0]
         assert mode.frequency == pytest.approx((534.62 + 533.84) / 2, rel=5e-3)
-
-
-@pytest.mark.parametrize(("n", "rtol"), [(12, 1e-2), (24, 3e-3)])
-def test_simply_supported_plate_of_cut_rectangles_deflects_as_timoshenko_says(n, rtol):
-    """0.01160 P a^2 / D under a force in the middle, of 2 n^2 triangles."""
-    zone, x = plate(n, n, 1.0, 1.0)
-    edge = np.flatnonzero((np.abs(x[:, :2] - 0.5) > 0.5 - 1e-9).any(axis=1))
-    centre = int(np.argmin(np.linalg.norm(x - [0.5, 0.5, 0], axis=1)))
-
-    def fixed(numbering):
-        names = np.array([numbering.name(i) for i in range(numbering.size)])
-        on_edge = np.isin(numbering.nodes, edge) & (names == "UZ")
-        return on_edge | np.isin(names, ["UX", "UY", "RZ"])
-
-    load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
-    u = solved(zone, material(zone, **PLATE), fixed, load)
-    assert u.values_at("UZ", np.array([centre]))[0] == pytest.approx(0.01160 / D, rel=rtol)
 
 
 @pytest.mark.parametrize(("harmonic", "rigid"), [(0, 2), (1, 2), (2, 0), (3, 0)])
