@@ -154,9 +154,13 @@ def test_discrete_shear_is_kirchhoffs_when_thin_and_takes_plain_shear_when_thick
     np.testing.assert_allclose(K, limit, rtol=0, atol=1e-6 * np.abs(limit[:, 2::6, 2::6]).max())
     u = field(zone, UZ=lambda x: 2e-3 * x[:, 0] - 3e-3 * x[:, 1])
     strain = families.strain(sheared, u, material(zone, YOUN=E, NU=NU, EPAI=1e3)).components
-    found = np.hypot(strain["GASN"], strain["GATN"])
-    np.testing.assert_allclose(found, np.hypot(2e-3, 3e-3), rtol=1e-5)
+    size = np.hypot(strain["GASN"], strain["GATN"])
+    np.testing.assert_allclose(size, np.hypot(2e-3, 3e-3), rtol=1e-5)
     np.testing.assert_allclose(strain["GASN"][:9:3], 2e-3, rtol=1e-5)  # own x is the global x
+    u = field(zone, UZ=lambda x: x[:, 0] ** 2 * x[:, 1], RY=lambda x: x[:, 1] ** 3)
+    along = families.strain(sheared, u, material(zone, YOUN=E, NU=NU, EPAI=0.3)).components["GASN"]
+    np.testing.assert_allclose(along[:, 0], along[:, 1])  # constant along a side, own x
+    assert (np.ptp(along, axis=1) > 1e-3).any()
 
 
 @pytest.mark.parametrize(
@@ -178,10 +182,8 @@ def test_thick_plate_on_simple_supports_deflects_and_vibrates_as_mindlins_does(e
     u = solved(zone, mat, fixed, shell_load(Model((zone,)), 1.0))
     odd = np.arange(1, 100, 2) * np.pi
     p, q = odd[:, None], odd[None]
-    k2 = p**2 + q**2
-    middle = (
-        16 / (p * q) * (1 / (bends * k2**2) + 1 / (shears * k2)) * np.sin(p / 2) * np.sin(q / 2)
-    )
+    k2, wave = p**2 + q**2, 16 / (p * q) * np.sin(p / 2) * np.sin(q / 2)
+    middle = wave * (1 / (bends * k2**2) + 1 / (shears * k2))
     centre = np.flatnonzero(np.abs(x[:, :2] - 0.5).max(axis=1) < 1e-9)
     assert abs(u.values_at("UZ", centre)[0]) == pytest.approx(middle.sum(), rel=rtol)
     made = families.stiffness(zone, mat), families.mass(zone, mat)
@@ -267,22 +269,17 @@ def test_square_plate_deflects_as_timoshenko_says_and_does_not_lock(element, n, 
 
     load = NodeField.of(zone.cells.nodes, np.array([centre]), {"FZ": np.array([1.0])}, "DISCRET")
     u = solved(zone, material(zone, YOUN=E, NU=NU, EPAI=h), fixed, load)
-    rigidity = E * h**3 / 12 / (1 - NU**2)
-    deflection = u.values_at("UZ", np.array([centre]))[0]
-    assert deflection == pytest.approx(factor / rigidity, rel=rtol)
+    exact = factor / (E * h**3 / 12 / (1 - NU**2))
+    assert u.values_at("UZ", np.array([centre]))[0] == pytest.approx(exact, rel=rtol)
 
 
 @pytest.mark.parametrize("element", ["COQ4", "COQ8"])
 def test_ring_of_shell_cells_under_pressure_grows_evenly(element):
     radius, p, quarter = 1.0, 1e5, np.pi / 2
     zone, x, used = quadrangles(
-        element,
-        12,
-        1,
-        quarter,
-        0.1,
+        element, 12, 1, quarter, 0.1,
         lambda x: np.column_stack([radius * np.cos(x[:, 0]), radius * np.sin(x[:, 0]), x[:, 1]]),
-    )
+    )  # fmt: skip
     mat = material(zone, YOUN=E, NU=0.0, EPAI=H)
     load = shell_load(Model((zone,)), p)
     start, end = (np.isin(np.arange(len(x)), used) & np.isclose(x[:, 0], s) for s in (0, quarter))
