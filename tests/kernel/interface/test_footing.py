@@ -43,7 +43,7 @@ def strip(
 
 
 def raft(cells: int = 24, soil_first: bool = False, turn: npt.NDArray[np.float64] = FLAT) -> Bench:
-    """A rectangle of joints, WIDTH along x and LENGTH along y, then turned; its structure is above."""
+    """A rectangle of joints, WIDTH along x and LENGTH along y, then turned; the structure above."""
     bench = Bench(Mode.THREE_DIMENSIONAL)
     x = np.linspace(-WIDTH / 2, WIDTH / 2, cells + 1)
     y = np.linspace(-LENGTH / 2, LENGTH / 2, 5)
@@ -166,7 +166,7 @@ def test_axes_lie_in_the_base_and_a_rigid_rotation_is_read_about_them(turn) -> N
     omega, at = np.array([2e-3, -1e-3, 5e-4]), footing.unknowns
     numbering = problem.numbering
     x = numbering.table.coordinates[numbering.nodes[at]]
-    moved = np.cross(omega, x) + (3e-3, 1e-3, -2e-3)
+    moved = np.cross(omega, x) + np.array([3e-3, 1e-3, -2e-3])
     axis = np.array(["XYZ".index(name[1]) for name in numbering.unknowns])[numbering.codes[at]]
     u = moved[np.arange(len(at)), axis]
     np.testing.assert_allclose(footing.turn @ u, footing.axes @ omega, atol=1e-15)
@@ -192,8 +192,12 @@ def test_pairs_on_a_line_turn_about_the_line_across() -> None:
         np.testing.assert_allclose(footing.centre, [1.0, 4 / 3, 0.5], atol=1e-12)
         np.testing.assert_allclose(np.abs(footing.axes), [[0.8, 0.6, 0.0]], atol=1e-12)
         assert footing.axes[0, 0] * footing.axes[0, 1] < 0.0
-        w = np.zeros((1, 3, 3))
-        t = np.zeros((1, 3, 3))
+        moved = np.cross(footing.axes[0], footing.places - footing.centre)[:, 2]
+        u = np.zeros(len(footing.unknowns))
+        up = np.array(problem.numbering.unknowns)[problem.numbering.codes[footing.unknowns]] == "UZ"
+        u[up] = moved
+        np.testing.assert_allclose(footing.turn @ u, [1.0])
+        w, t = np.zeros((2, 1, 3, 3))
         t[0, footing.points, 2] = [-5.0, 0.0, -2.0]
         loads = footing.loads(w, t, np.zeros((1, len(footing.unknowns))))
         about = 5.0 * (-5.0 - 5 / 3) + 2.0 * (10.0 - 5 / 3)  # forces upwards times arms
