@@ -101,26 +101,6 @@ def test_matrix_of_contact_with_friction_is_refused(refused):
     )
 
 
-def test_contour_of_cells_of_both_senses_runs_one_way(found):
-    length = found(
-        "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (0 -1) ; S = (L TRAN 2 (1 0)) ET "
-        "(L TRAN 2 (-1 0)) ; C = CONT S ; T = (COOR 2 S) POIN EGAL 0. ; "
-        "H = C ELEM APPUYE STRICTEMENT T ; E = EVOL CHPO (COOR 1 S) SCAL H ; "
-        "X = EXTR E ABSC ; D = MAXI X ;",
-        "D",
-    )
-    assert length == pytest.approx(2.0)
-
-
-def test_contour_drawn_in_both_senses_is_filled(found):
-    area = found(
-        "OPTI DIME 2 ELEM TRI3 ; A = 0 0 ; B = 1 0 ; C = 0 1 ; "
-        "S = SURF ((DROI 3 A B) ET (DROI 3 C B) ET (DROI 3 C A)) PLAN ; X = MESU S ;",
-        "X",
-    )
-    assert area == pytest.approx(0.5)
-
-
 def test_adherence_is_refused_with_what_takes_its_place(tmp_path):
     result = failed(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = DROI 4 (0. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; "

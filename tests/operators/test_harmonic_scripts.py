@@ -67,7 +67,7 @@ def test_stability_changes_at_both_limit_points_of_a_converged_series(found):
     for word, (cosine, sine) in (("DEPLACEMENT", "UV"), ("FORCE", "FG")):
         by = [[f"{cosine}1"], *([f"{cosine}{n}", f"{sine}{n}"] for n in range(2, 7))]
         assert [names.get(f"HARM_{word}").get(k).values for k in range(6)] == by
-        assert names.get(f"{word}_HBM").values == sum(by, [])
+        assert names.get(f"{word}_HBM").values == [name for row in by for name in row]
     w = reals(T, "TEMPS_PROG")
     states = reals(T, "RESULTATS_STABILITE", "FLOQ", "STABILITE")
     assert len(states) == len(w) - 1

@@ -30,7 +30,9 @@ NAMES = OBJECTS.split()
 
 def test_everything_with_a_name_comes_back(tmp_path: Path) -> None:
     first = ran(FIRST + "SAUV ;", tmp_path)
-    second = ran("OPTI REST 'state' ; REST ; Z = TWICE 4. ; O = OB%SUM 3 ; DI = VALE 'DIME' ;", tmp_path)
+    second = ran(
+        "OPTI REST 'state' ; REST ; Z = TWICE 4. ; O = OB%SUM 3 ; DI = VALE 'DIME' ;", tmp_path
+    )
     old, new = first.session.root, second.session.root
     assert [type_of(new.find(n)) for n in NAMES] == [type_of(old.find(n)) for n in NAMES]
     assert [new.find(n) for n in "WIRB"] == ["hello", 7, 0.1, False]
