@@ -79,9 +79,8 @@ def test_two_cubes_press_on_each_other(found):
         + "K = MODE F1 CONTACT UNILATERAL F2 MORT ; "
         "U = RESO ((RIGI (M ET K) G) ET B ET D) (DEPI D -.02) ; S = EXCO SMZZ (SIGM M G U) ; "
         "A1 = MINI S ; A2 = MAXI S ;",
-        "A1",
-        "A2",
-    )
+        "A1", "A2",
+    )  # fmt: skip
     assert (low, high) == pytest.approx((-10.0, -10.0), rel=1e-8)
 
 

@@ -34,7 +34,6 @@ def run(tmp_path):
         ("M = MODE S MECANIQUE ELASTIQUE JOINT_SDM ;", "for joints only"),
         ("M = MODE S THERMIQUE ;", "THERMIQUE (heat) is out of ssilang's scope"),
         ("M = MODE S MECANIQUE ELASTIQUE ISOTORPE ;", "ISOTROPE"),
-        ("OPTI MODE AXIS ; M = MODE L MECANIQUE ELASTIQUE ;", "name one of"),
         ("OPTI MODE AXIS ; M = MODE L MECANIQUE ELASTIQUE ;", "COQ2"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YONG' 3. ;", "YOUN"),
         ("M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'SECT' 3. ;", "SECT"),
