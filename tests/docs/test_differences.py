@@ -38,7 +38,7 @@ RUNS = {
     ],
     "A string that runs over": [("X = 'AB\nCD' ;", 0, "X", "AB CD")],
     "`EXTR` of a field": [
-        (_MODEL.format("") + "X = EXTR U 'UX' Q ;", 1, "X", None),
+        (_MODEL.format("") + "X = EXTR U 'UX' Q ;", 0, "X", 0.0),
         (_MODEL.format("'NATURE' 'DISCRET'") + "X = EXTR U 'UX' Q ;", 0, "X", 0.0),
         (_MODEL.format("") + "X = MAXI (EXTR U 'VALE' 'UX' Q 'NOID') ;", 0, "X", 0.0),
     ],

@@ -177,7 +177,15 @@ def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -
     before = bare[: place - begin].rstrip()[-1:]
     if before in (".", "%"):
         return SsiError("nothing-behind", Span(source, place, place + 1), sign=before)
-    return SsiError("syntax", Span(source, place, place + 1), found=text[place])
+    found = text[place]
+    return SsiError("syntax", Span(source, place, place + 1), found=found, meant=_SET.get(found))
+
+
+_SET = {
+    **dict.fromkeys("\u2012\u2013\u2014\u2212", "-"),
+    **dict.fromkeys("\u2018\u2019\u201c\u201d", "'"),
+}
+"""Signs that are set in print, and those that are typed."""
 
 
 def _first_opened(text: str, last: int) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Collection
 import numpy as np
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.operators.curves.instants import refused_place
+from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
 from ssilang.operators.fields.signs import names_of, nature_of, nature_word
 from ssilang.operators.prelude import *
@@ -230,14 +230,14 @@ def value_at(
     """A component at a point."""
     name = component.rstrip()
     node_algebra.component(field, name)
-    _checked_node(call, field, name, point)
+    _tell_foreign(call, field, name, point)
     return float(node_algebra.values_in_order(field, [name], np.asarray([point.node]))[0])
 
 
-def _checked_node(call: Call, field: NodeField, name: str, point: Point) -> None:
-    """Refuse a point that the field does not stand on; forces are zero where none acts."""
+def _tell_foreign(call: Call, field: NodeField, name: str, point: Point) -> None:
+    """Warn of a point that the field does not stand on; forces are zero where none acts."""
     if field.nature != "DISCRET" and point.node not in field.node_ids:
-        raise refused_place(call, [field], name, point.node)
+        tell_zero(call, refused_place(call, [field], name, point.node))
 
 
 def _points_of(field: NodeField, without_multipliers: bool) -> Mesh:
@@ -260,7 +260,7 @@ def _values(
         for name in names:
             node_algebra.component(field, name)
         if isinstance(support, Point) and names:
-            _checked_node(call, field, names[0], support)
+            _tell_foreign(call, field, names[0], support)
     nodes = None if support is None else support_nodes(support)
     return ListReel(node_algebra.values_in_order(field, names, nodes))
 

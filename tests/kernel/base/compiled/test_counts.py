@@ -5,6 +5,7 @@ import importlib
 import itertools
 import pkgutil
 import sys
+from types import UnionType
 from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -42,7 +43,7 @@ def gives_numbers(function):
 
 
 def holds_numbers(kind):
-    if get_origin(kind) is tuple:
+    if get_origin(kind) in (tuple, UnionType):
         return all(map(holds_numbers, get_args(kind)))
     if hasattr(kind, "_fields"):
         return all(map(holds_numbers, get_type_hints(kind).values()))
