@@ -20,27 +20,6 @@ def test_centre_of_a_triangle_is_the_mean_of_its_corners():
     assert (x, y) == pytest.approx((1.0, 2.0), rel=1e-12)
 
 
-def test_centre_of_two_densities_is_their_balance():
-    """Unit squares side by side with densities 1 and 3: 0.5 + 3/4."""
-    x, y = found(
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; PA = 0. 0. ; L1 = PA DROI 1 (0. 1.) ; "
-        "SA = L1 TRAN 1 (1. 0.) ; SB = (COTE 3 SA) TRAN 1 (1. 0.) ; "
-        "MA = MODE SA MECANIQUE ELASTIQUE ; MB = MODE SB MECANIQUE ELASTIQUE ; "
-        "X1 X2 = @CDG (MA ET MB) ((MATE MA RHO 1.) ET (MATE MB RHO 3.)) ;",
-        "X1", "X2",
-    )  # fmt: skip
-    assert (x, y) == pytest.approx((1.25, 0.5), rel=1e-12)
-
-
-def test_centre_in_space_has_three_coordinates():
-    values = found(
-        "OPTI DIME 3 ELEM CUB8 ; P = 0. 0. 0. ; S = (P DROI 2 (2. 0. 0.)) TRAN 2 (0. 4. 0.) ; "
-        "V = VOLU 2 S TRAN (0. 0. 6.) ; X Y Z = @CDG (MODE V MECANIQUE ELASTIQUE) ;",
-        "X", "Y", "Z",
-    )  # fmt: skip
-    assert values == pytest.approx((1.0, 2.0, 3.0), rel=1e-12)
-
-
 def test_resultant_counts_the_nodes_of_the_mesh_only():
     total = found(
         "OPTI DIME 2 ELEM SEG2 ; L1 = (0. 0.) DROI 4 (1. 0.) ; L2 = L1 ELEM (LECT 1 2) ; "
