@@ -55,6 +55,8 @@ STAND = {
     "test_a_word_for_a_logical_is_told_and_taken_as_it",
     "Under `OPTI 'MODE' 'FREQ'`": "operators/test_frequency_sweep.py::"
     "test_frequencies_of_the_default_sweep_show_the_resonance",
+    "Shells DST": "kernel/elements/shells/test_shells.py::"
+    "test_plate_bent_to_a_quadratic_surface_has_the_exact_moments",
     "Plastic solids in large": "docs/test_differences.py::test_reactualise_is_half_way",
     "Lines are not echoed": "docs/test_differences.py::test_lines_are_not_echoed",
     "Procedures beside the deck": "docs/test_differences.py::test_procedures_beside_the_deck",

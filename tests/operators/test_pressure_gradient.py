@@ -14,7 +14,7 @@ def _moved(vector):
     return f"(MANU 'CHPO' S 3 'UX' {vector[0]} 'UY' {vector[1]} 'UZ' {vector[2]})"
 
 
-@pytest.mark.parametrize(("cell", "shell"), [("TRI3", "DKT"), ("QUA4", "COQ4")])
+@pytest.mark.parametrize(("cell", "shell"), [("TRI3", "DKT"), ("TRI3", "DST"), ("QUA4", "COQ4")])
 @pytest.mark.parametrize("vector", [(1.0, 0.0, 0.0), (0.2, -0.5, 0.9), (0.6, 0.0, 0.8)])
 def test_without_a_direction_the_sides_stand_on_springs(found, cell, shell, vector):
     work = found(

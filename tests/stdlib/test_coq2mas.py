@@ -28,7 +28,7 @@ def heights(mesh):
 
 
 @pytest.mark.parametrize(
-    ("change", "element"), [("", "COQ4"), ("S = CHAN TRI3 S ;", "DKT"), ("", "COQ4 DKT")]
+    ("change", "element"), [("", "COQ4"), ("S = CHAN TRI3 S ;", "DST"), ("", "COQ4 DKT")]
 )
 def test_volume_is_area_times_thickness_at_the_right_height(change, element):
     script = LAYERS.format(change, element, element) + CALL + (

@@ -135,6 +135,7 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind(
             "SHB8", "CUB8", "solid shell", _VOLUME, {"RIGIDITE": 5, "MASSE": 8}, default=False
         ),
+        ElementKind("DST", "TRI3", "mindlin", _VOLUME, {"RIGIDITE": 3}, default=False),
         ElementKind("COQ4", "QUA4", "mindlin", _VOLUME, {"RIGIDITE": 4}, default=False),
         ElementKind(
             "COQ6", "TRI6", "thick", _VOLUME, {"RIGIDITE": 3, "MASSE": 7}, default=False, layers=2

@@ -9,8 +9,9 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.results.frames import SHELL_FRAMES
+from ssilang.kernel.elements.results.frames import is_flat_shell
 from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode, Zone
 
@@ -45,10 +46,9 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     MaterialError
         If a vector is missing, zero or parallel to the other.
     """
-    family = ELEMENTS[zone.element].family
-    if family in SHELL_FRAMES:
+    if is_flat_shell(zone):
         return _on_shell(zone, given), "GRAVITE"
-    if family == "joint" and zone.element != "JOI1" and given.second is None:
+    if ELEMENTS[zone.element].family == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"
     flat = zone.mode is not Mode.THREE_DIMENSIONAL
     support: Support = "RIGIDITE" if given.radial else "GRAVITE"
@@ -65,7 +65,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
 
 def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     """Cosines V1X V1Y of the first axis in the own frame of each shell cell."""
-    frames, _ = SHELL_FRAMES[ELEMENTS[zone.element].family](zone)
+    frames, _ = flat_frames(zone)
     vector = np.broadcast_to(given.first, (len(frames), 3))
     if given.radial:
         vector = zone.cells.coordinates.mean(axis=1) - given.first

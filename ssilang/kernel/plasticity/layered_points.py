@@ -14,7 +14,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, element_matrices
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.shells.shell_section import drilled, section_moduli
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -131,6 +131,6 @@ def drilling_stiffness(zone: Zone, characteristics: CellField) -> ElementMatrice
     parameters, layout = zone_field(zone, characteristics), family_of(zone).layout(zone)
     rows = len(layout.unknowns)
     bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
-    normals = np.repeat(plate_frames(zone)[0][:, None, 2], 3, axis=1)
+    normals = np.repeat(flat_frames(zone)[0][:, None, 2], 3, axis=1)
     values = drilled(zone, np.zeros((len(zone.cells), rows, rows)), bending, normals)
     return element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)

@@ -267,7 +267,7 @@ def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
 
 
 OTHER_ELEMENTS = (
-    "BAEX", "DST", "TUFI", "LISP", "LISM", "LIA2", "LIA3", "LIA4", "LIA6", "LIA8", "JOP3", "JOP6",
+    "BAEX", "TUFI", "LISP", "LISM", "LIA2", "LIA3", "LIA4", "LIA6", "LIA8", "JOP3", "JOP6",
     "JOP8", "JGI2", "JGI4", "JGT3", "JCI4", "JCT3", "SHB6", "TRIP", "QUAP", "CUBP", "TETP",
     "PRIP", "TRIQ", "QUAQ", "CUBQ", "ZCO2", "ZCO3", "ZCO4", "XQ4R", "XC8R", "RACO", "TRH6",
     "BBCA", "CIFL", "CAF2", "CAF3",

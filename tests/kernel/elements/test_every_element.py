@@ -28,9 +28,9 @@ CASES = {
     **dict.fromkeys(("BARR", "BAR3"), (LINE, (Mode.PLANE_STRESS, *SPACED))),
     **dict.fromkeys(("POUT", "TIMO"), (LINE, (Mode.PLANE_STRESS, *SPACED))),
     "TUYA": (PIPE, SPACED), "SHB8": (SOLID, SPACED),
-    **dict.fromkeys(("DKT", "COQ3", "COQ4", "COQ6", "COQ8"), (SHELL, SPACED)),
+    **dict.fromkeys(("DKT", "DST", "COQ3", "COQ4", "COQ6", "COQ8"), (SHELL, SPACED)),
 }  # fmt: skip
-SHELLS = ("DKT", "COQ3", "COQ4", "COQ6", "COQ8")
+SHELLS = ("DKT", "DST", "COQ3", "COQ4", "COQ6", "COQ8")
 LOOSE = {"Q8RI": 1, "COQ8": 2, "C20R": 6, "P15R": 3}  # of one cell, by strains at few points
 ROUGH = ("Q4RI", "COQ3")  # held by more than their stresses, stresses at one point of three
 FREE = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)

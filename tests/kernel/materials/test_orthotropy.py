@@ -7,7 +7,7 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.loads.thermal import given_strain, temperature, thermal_strain
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.shells.shell_section import section_moduli, transverse_moduli
 from ssilang.kernel.elements.solids.solid_moduli import (
     hooke_block,
@@ -200,7 +200,7 @@ def test_first_axes_of_shells_are_projections_turned_about_the_side_named(radial
     up = TILT[:, 2]
     given = Directions(FIRST, None, radial, 25.0, None if outside is None else up + 0.1 * FIRST)
     values = axis_parameters(zone, given)[0]
-    frames = plate_frames(zone)[0]
+    frames = flat_frames(zone)[0]
     for k in range(2):
         v1 = values["V1X"][k, 0] * frames[k, 0] + values["V1Y"][k, 0] * frames[k, 1]
         vector = zone.cells.coordinates[k].mean(axis=0) - FIRST if radial else FIRST

@@ -422,7 +422,7 @@ def body_force(
     Raises
     ------
     MeshError
-        If the model holds elements that are neither continuous nor plates (DKT, COQ3, COQ4).
+        If the model holds elements that are neither continuous nor plates (DKT, DST, COQ3, COQ4).
     """
     wanted = {n for zone in model.zones for n in force_names(zone)}
     blocks = [density] if isinstance(density, NodeField) else density.blocks

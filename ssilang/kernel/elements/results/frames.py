@@ -27,8 +27,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.tensors import as_components, components_at_home, tensor
 from ssilang.kernel.elements.shapes.reference import shape_functions
-from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -131,17 +130,16 @@ def given_rotations(
     return np.swapaxes(R, -1, -2) if transposed else R
 
 
-SHELL_FRAMES = {"plate": plate_frames, "mindlin": quadrangle_frames}
-"""Own frames of flat shells; their parameters V1X V1Y are cosines in them."""
+FLAT_SHELLS = ("plate", "mindlin")
+"""Families of flat shells; their parameters V1X V1Y are cosines in their own frames."""
 
 
 def material_frames(zone: Zone, material: CellField, support: Support) -> FloatArray:
     """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), global components."""
     parameters = zone_field(zone, material)
-    own = SHELL_FRAMES.get(ELEMENTS[zone.element].family)
-    if own is None:
+    if not is_flat_shell(zone):
         return material_axes(parameters, support)
-    frames = own(zone)[0][:, None]
+    frames = flat_frames(zone)[0][:, None]
     c, s = (parameters.at(n, support)[..., None] for n in ("V1X", "V1Y"))
     first = c * frames[..., 0, :] + s * frames[..., 1, :]
     second = c * frames[..., 1, :] - s * frames[..., 0, :]
@@ -179,7 +177,7 @@ class SurfaceAxes:
 
 def is_flat_shell(zone: Zone) -> bool:
     """True for shells of flat cells."""
-    return ELEMENTS[zone.element].family in SHELL_FRAMES
+    return ELEMENTS[zone.element].family in FLAT_SHELLS
 
 
 def shell_support(zone: Zone, field: CellField) -> Support:
@@ -190,7 +188,7 @@ def shell_support(zone: Zone, field: CellField) -> Support:
 def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldBlock:
     """Forces or strains of a zone of flat shells in other axes."""
     names, values, support, strains = strains_or_stresses(zone, field)
-    own = SHELL_FRAMES[ELEMENTS[zone.element].family](zone)[0][:, None]
+    own = flat_frames(zone)[0][:, None]
     Q = _turn(own, axes)
     made = np.empty(np.broadcast_shapes(values.shape, (len(own), 1, Q.shape[1])))
     half = 0.5 if strains else 1.0

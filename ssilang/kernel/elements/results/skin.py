@@ -9,8 +9,9 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.frames import SHELL_FRAMES, strains_or_stresses
+from ssilang.kernel.elements.results.frames import strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Zone
@@ -75,7 +76,7 @@ def in_global_axes(zone: Zone, T: FloatArray) -> FloatArray:
         frames[:, 1, 2] = 1.0
         frames[:, 2, 0], frames[:, 2, 1] = along[:, 1], -along[:, 0]
     else:
-        frames = SHELL_FRAMES[family](zone)[0]
+        frames = flat_frames(zone)[0]
     turned: FloatArray = np.einsum("cki,cpkl,clj->cpij", frames, T, frames)
     return turned
 

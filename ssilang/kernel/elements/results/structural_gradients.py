@@ -19,9 +19,7 @@ from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.elements.shells.mindlin import quadrangle_frames
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames, surface_slopes
 from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
@@ -73,11 +71,8 @@ def _surface(zone: Zone, parameters: ZoneField) -> _Surface:
         derivatives = np.repeat(pair[:, None, None], len(rule), axis=1)
         shares = rule.weights / rule.weights.sum()
         return _Surface(frame.axes[:, :d, :d], derivatives, frame.lengths[:, None] * shares)
-    frames, local = (plate_frames if family == "plate" else quadrangle_frames)(zone)
-    reference = shape_gradients(zone.cells.cell_type, rule.points)
-    J = np.einsum("pki,ckj->cpij", reference, local)
-    derivatives = np.einsum("cpji,pki->cpjk", np.linalg.inv(J), reference)
-    return _Surface(frames, derivatives, np.abs(np.linalg.det(J)) * rule.weights)
+    frames, local = flat_frames(zone)
+    return _Surface(frames, *surface_slopes(zone, local, rule))
 
 
 def _translations(zone: Zone) -> tuple[Layout, list[int]]:

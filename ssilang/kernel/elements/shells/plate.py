@@ -3,8 +3,7 @@
 DKT bends by the discrete Kirchhoff condition: Batoz, Bathe, Ho, "A study of three-node triangular
 plate bending elements" (1980). Rotations of the normal are quadratic; along each side the
 deflection is cubic and Kirchhoff's condition holds at its ends and middle. COQ3 bends by an
-incomplete cubic deflection (see `cubic_plate`). The element's own frame has x along the side from
-node 1 to node 2 and z along the normal.
+incomplete cubic deflection (see `cubic_curvatures`).
 """
 
 from __future__ import annotations
@@ -12,21 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    Layout,
-    ShellFamily,
-    StrainOperator,
-)
 from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.elements.shells.shell_section import (
-    drilled,
-    inertia_off_mesh,
-    own_to_global,
-    section_moduli,
-    strains_off_mesh,
-)
+from ssilang.kernel.elements.shells.flat_shell import FlatShell, flat_frames
+from ssilang.kernel.elements.shells.shell_section import section_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
@@ -81,26 +68,6 @@ def cubic_curvatures(local: FloatArray, points: FloatArray) -> FloatArray:
     return rows.reshape(len(local), 3, len(points), 9)
 
 
-def plate_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
-    """Frames (n, 3, 3), rows being the axes, and coordinates (n, 3, 2) in them.
-
-    Raises
-    ------
-    MeshError
-        If a triangle has no area.
-    """
-    x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
-    first, second = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
-    normal = np.cross(first, second)
-    sizes = [np.linalg.norm(v, axis=1, keepdims=True) for v in (first, normal)]
-    if (sizes[1] <= 1e-14 * sizes[0] ** 2).any():
-        raise MeshError("kernel.elements.triangle-shell-no-area")
-    e1, e3 = first / sizes[0], normal / sizes[1]
-    frames = np.stack([e1, np.cross(e3, e1), e3], axis=1)
-    local = np.einsum("cij,ckj->cki", frames[:, :2], x - x[:, :1])
-    return frames, local
-
-
 def _gradients(local: FloatArray, cell_type: str, points: FloatArray) -> FloatArray:
     """Derivatives (n, p, 2, k) of shape functions on straight triangles."""
     J = np.stack([local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]], axis=1)
@@ -109,7 +76,7 @@ def _gradients(local: FloatArray, cell_type: str, points: FloatArray) -> FloatAr
     return found
 
 
-def _rotations(local: FloatArray) -> FloatArray:
+def kirchhoff_rotations(local: FloatArray) -> FloatArray:
     """Normal's rotations (n, 6 nodes, 2, 9) from w, RX, RY at the corners (own frame)."""
     n = len(local)
     T = np.zeros((n, 6, 2, 9))
@@ -131,17 +98,22 @@ def _rotations(local: FloatArray) -> FloatArray:
     return T
 
 
-def _discrete_kirchhoff(local: FloatArray, points: FloatArray) -> FloatArray:
-    """Curvatures (n, 3, p, 9) from w, RX, RY at the corners (own frame)."""
-    slopes = np.einsum("cpik,ckjm->cpijm", _gradients(local, "TRI6", points), _rotations(local))
+def curvatures_of(rotations: FloatArray, local: FloatArray, points: FloatArray) -> FloatArray:
+    """Curvatures (n, 3, p, 9) of quadratic rotations (n, 6 nodes, 2, 9) of the normal."""
+    slopes = np.einsum("cpik,ckjm->cpijm", _gradients(local, "TRI6", points), rotations)
     mixed = slopes[:, :, 1, 0] + slopes[:, :, 0, 1]
     return np.stack([slopes[:, :, 0, 0], slopes[:, :, 1, 1], mixed], axis=1)
+
+
+def _discrete_kirchhoff(local: FloatArray, points: FloatArray) -> FloatArray:
+    """Curvatures (n, 3, p, 9) from w, RX, RY at the corners (own frame)."""
+    return curvatures_of(kirchhoff_rotations(local), local, points)
 
 
 _CURVATURES = {"DKT": _discrete_kirchhoff, "COQ3": cubic_curvatures}
 
 
-class Plate(ShellFamily):
+class Plate(FlatShell):
     """Thin shell made of flat triangles."""
 
     strains = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
@@ -151,62 +123,8 @@ class Plate(ShellFamily):
         """Membrane and bending moduli."""
         return section_moduli(zone, parameters, support)
 
-    def strain_operator(
-        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
-        """Membrane strains (constant) and curvatures (linear)."""
-        rule = support_rule(zone.element, support)
-        frames, local = plate_frames(zone, cells)
-        n, p = len(local), len(rule)
-        B = np.zeros((n, 6, p, 18))
-        linear = _gradients(local, "TRI3", rule.points)
-        for node in range(3):
-            B[:, 0, :, 6 * node] = B[:, 2, :, 6 * node + 1] = linear[:, :, 0, node]
-            B[:, 1, :, 6 * node + 1] = B[:, 2, :, 6 * node] = linear[:, :, 1, node]
-        columns = [6 * node + k for node in range(3) for k in (2, 3, 4)]
-        B[:, 3:, :, columns] = _CURVATURES[zone.element](local, rule.points)
-        double_area = local[:, 1, 0] * local[:, 2, 1]
-        operator = strains_off_mesh(own_to_global(B, frames), zone, parameters, cells)
-        return StrainOperator(operator, double_area[:, None] * rule.weights)
-
-    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
-        """The usual stiffness and a small one about the normal, which the element lacks."""
-        values = super().stiffness_values(zone, moduli, parameters)
-        normals = np.repeat(plate_frames(zone)[0][:, None, 2], 3, axis=1)
-        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1), normals)
-
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
-        """Linear interpolation: RHO EPAI of the translations, RHO EPAI^3 / 12 of the rotations."""
-        frames, local = plate_frames(zone)
-        n = len(frames)
-        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
-        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
-        area = 0.5 * local[:, 1, 0] * local[:, 2, 1]
-        pair = (np.ones((3, 3)) + np.eye(3)) / 12
-        tangent = np.einsum("cai,caj->cij", frames[:, :2], frames[:, :2])
-        values = np.zeros((n, 3, 6, 3, 6))
-        scalar = (rho * h * area)[:, None, None] * pair
-        inertia = np.einsum("cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent)
-        for k in range(3):
-            values[:, :, k, :, k] = scalar
-        values[:, :, 3:, :, 3:] = inertia
-        normals = np.repeat(frames[:, None, 2], 3, axis=1)
-        whole = inertia_off_mesh(values.reshape(n, 18, 18), zone, parameters, normals)
-        return whole, self.layout(zone)
-
-    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """Effect of the membrane forces on linear translations."""
-        rule = support_rule(zone.element, "STRESSES")
-        frames, local = plate_frames(zone)
-        n = len(frames)
-        G = _gradients(local, "TRI3", rule.points)
-        w = (local[:, 1, 0] * local[:, 2, 1])[:, None] * rule.weights
-        N = np.empty((n, len(rule), 2, 2))
-        N[..., 0, 0], N[..., 1, 1] = stress[:, 0], stress[:, 1]
-        N[..., 0, 1] = N[..., 1, 0] = stress[:, 2]
-        scalar = np.einsum("cp,cpia,cpij,cpjb->cab", w, G, N, G, optimize=True)
-        values = np.zeros((n, 3, 6, 3, 6))
-        for k in range(3):
-            values[:, :, k, :, k] = scalar
-        normals = np.repeat(frames[:, None, 2], 3, axis=1)
-        return inertia_off_mesh(values.reshape(n, 18, 18), zone, parameters, normals)
+    def bending(
+        self, zone: Zone, parameters: ZoneField, cells: slice, points: FloatArray
+    ) -> FloatArray:
+        """Curvatures, linear in the cell."""
+        return _CURVATURES[zone.element](flat_frames(zone, cells)[1], points)

@@ -16,7 +16,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import _moduli, family_of, stiffness
 from ssilang.kernel.elements.family import per_cell
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -144,7 +144,7 @@ def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
     """A zone of flat triangular shells without stress."""
     parameters, family = zone_field(zone, material), family_of(zone)
     whole = slice(0, len(zone.cells))
-    axes, _ = plate_frames(zone)
+    axes, _ = flat_frames(zone)
     T = np.zeros((len(axes), 18, 18))
     for k in range(0, 18, 3):
         T[:, k : k + 3, k : k + 3] = axes

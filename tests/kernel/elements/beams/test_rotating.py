@@ -19,7 +19,7 @@ from tests.kernel.elements.test_every_element import Two, turned
 
 A = np.array([[0.7, -1.2, 0.4], [2.1, 1.3, -0.6], [0.5, 0.9, -1.1]])
 SPACE = Mode.THREE_DIMENSIONAL
-ELEMENTS = [(e, SPACE) for e in ("CUB8", "PR15", "BARR", "TIMO", "DKT", "COQ4", "COQ8")]
+ELEMENTS = [(e, SPACE) for e in ("CUB8", "PR15", "BARR", "TIMO", "DKT", "DST", "COQ4", "COQ8")]
 ELEMENTS += [("QUA8", Mode.PLANE_STRAIN), ("TRI3", Mode.PLANE_STRESS)]
 
 

@@ -9,13 +9,8 @@ import script_runs
 ALPHA, THICKNESS = 1e-5, 0.1
 LOWER, MIDDLE, UPPER = 0.0, 30.0, 60.0
 SKINS = f"'TINF' {LOWER} 'T' {MIDDLE} 'TSUP' {UPPER}"
-CELLS = {
-    "DKT": "TRI3",
-    "COQ3": "TRI3",
-    "COQ4": "QUA4",
-    "COQ6": "TRI6",
-    "COQ8": "QUA8",
-}
+CELLS = dict.fromkeys(("DKT", "DST", "COQ3"), "TRI3")
+CELLS |= {"COQ4": "QUA4", "COQ6": "TRI6", "COQ8": "QUA8"}
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from ssilang.kernel.elements.results.frames import (
     shell_support,
 )
 from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
-from ssilang.kernel.elements.shells.plate import plate_frames
+from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface import family as _joints  # noqa: F401
@@ -127,7 +127,7 @@ FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
 @pytest.mark.parametrize("said", ["plain", "toward", "normal", "otherwise"])
 def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said):
     zone = plate()
-    frames = plate_frames(zone)[0]
+    frames = flat_frames(zone)[0]
     names = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST") if strains else (
         "N11", "N22", "N12", "M11", "M22", "M12")  # fmt: skip
     given = np.random.default_rng(1).standard_normal((6, 2, 1))

@@ -17,7 +17,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode
 from tests.kernel.elements.test_every_element import Two, drawn, turned
 
-CASES = [(e, Mode.THREE_DIMENSIONAL) for e in ("BARR", "POUT", "TIMO", "DKT", "COQ4")]
+CASES = [(e, Mode.THREE_DIMENSIONAL) for e in ("BARR", "POUT", "TIMO", "DKT", "DST", "COQ4")]
 CASES += [("BARR", Mode.PLANE_STRESS), ("POUT", Mode.PLANE_STRESS)]
 
 

@@ -1,0 +1,132 @@
+"""What flat shells of triangles and quadrangles share: own frames, membrane, masses, KSIG.
+
+The own frame has z along the (mean) normal and x along the side from node 1 to node 2; a small warp
+of four nodes is neglected. Translations follow the shapes of the cell.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.family import Layout, ShellFamily, StrainOperator
+from ssilang.kernel.elements.shapes.quadrature import Rule
+from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
+from ssilang.kernel.elements.shells.shell_section import (
+    drilled,
+    inertia_off_mesh,
+    own_to_global,
+    strains_off_mesh,
+)
+from ssilang.kernel.elements.zone_fields import ZoneField
+from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.model import Zone
+
+
+def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
+    """Frames (n, 3, 3), rows being the axes, and coordinates (n, k, 2) in them from node 1.
+
+    Raises
+    ------
+    MeshError
+        If a cell has no area.
+    """
+    x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+    normal = np.cross(x[:, 2] - x[:, 0], x[:, -1] - x[:, 1])
+    side = x[:, 1] - x[:, 0]
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    if (size[:, 0] <= 1e-14 * np.vecdot(side, side)).any():
+        raise MeshError("kernel.elements.flat-shell-no-area")
+    e3 = normal / size
+    e1 = side - np.vecdot(side, e3)[:, None] * e3
+    e1 /= np.linalg.norm(e1, axis=1, keepdims=True)
+    frames = np.stack([e1, np.cross(e3, e1), e3], axis=1)
+    return frames, np.einsum("cij,ckj->cki", frames[:, :2], x - x[:, :1])
+
+
+def surface_slopes(zone: Zone, local: FloatArray, rule: Rule) -> tuple[FloatArray, FloatArray]:
+    """Derivatives (n, p, 2, k) of the cell's shapes in the own frame, and weights (n, p)."""
+    reference = shape_gradients(zone.cells.cell_type, rule.points)
+    J = np.einsum("pki,ckj->cpij", reference, local)
+    slopes = np.einsum("cpji,pki->cpjk", np.linalg.inv(J), reference)
+    return slopes, np.abs(np.linalg.det(J)) * rule.weights
+
+
+class FlatShell(ShellFamily):
+    """Shell of flat cells: a family adds its moduli, and what bends it."""
+
+    @abstractmethod
+    def bending(
+        self, zone: Zone, parameters: ZoneField, cells: slice, points: FloatArray
+    ) -> FloatArray:
+        """Curvatures, then shears (n, 3 or 5, p, 3 k) from w, RX, RY at the nodes (own frame)."""
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> StrainOperator:
+        """Membrane strains of the shapes of the cell, then what bending adds."""
+        rule = support_rule(zone.element, support)
+        frames, local = flat_frames(zone, cells)
+        slopes, weights = surface_slopes(zone, local, rule)
+        n, p, _, k = slopes.shape
+        bent = self.bending(zone, parameters, cells, rule.points)
+        B = np.zeros((n, 3 + bent.shape[1], p, k, 6))
+        B[:, 0, ..., 0] = B[:, 2, ..., 1] = slopes[:, :, 0]
+        B[:, 1, ..., 1] = B[:, 2, ..., 0] = slopes[:, :, 1]
+        B[:, 3:, ..., 2:5] = bent.reshape(*bent.shape[:3], k, 3)
+        own = own_to_global(B.reshape(*B.shape[:3], 6 * k), frames)
+        return StrainOperator(strains_off_mesh(own, zone, parameters, cells), weights)
+
+    def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Areas (n_cells, n_points) of the points of a support, which no parameter changes."""
+        rule = support_rule(zone.element, support)
+        return surface_slopes(zone, flat_frames(zone)[1], rule)[1]
+
+    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
+        """The usual stiffness and a small one about the normal, which the element lacks."""
+        values = super().stiffness_values(zone, moduli, parameters)
+        normals = np.repeat(flat_frames(zone)[0][:, None, 2], zone.cells.kind.n_nodes, axis=1)
+        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1), normals)
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+        """By the shapes of the cell: RHO EPAI of translations, RHO EPAI^3 / 12 of rotations."""
+        frames, local = flat_frames(zone)
+        n = len(frames)
+        rule = support_rule(zone.element, "MASSE")
+        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
+        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
+        N = shape_functions(zone.cells.cell_type, rule.points)
+        w = surface_slopes(zone, local, rule)[1] * (rho * h)[:, None]
+        scalar = np.einsum("cp,pa,pb->cab", w, N, N)
+        tangent = np.einsum("cai,caj->cij", frames[:, :2], frames[:, :2])
+        turning = np.einsum("cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent)
+        return self._by_node(zone, parameters, frames, scalar, turning), self.layout(zone)
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """Effect of the membrane forces on the translations."""
+        frames, local = flat_frames(zone)
+        slopes, w = surface_slopes(zone, local, support_rule(zone.element, "STRESSES"))
+        N = stress[:, [[0, 2], [2, 1]]]
+        scalar = np.einsum("cp,cpia,cijp,cpjb->cab", w, slopes, N, slopes, optimize=True)
+        return self._by_node(zone, parameters, frames, scalar, 0.0)
+
+    @staticmethod
+    def _by_node(
+        zone: Zone,
+        parameters: ZoneField,
+        frames: FloatArray,
+        scalar: FloatArray,
+        turning: FloatArray | float,
+    ) -> FloatArray:
+        """Matrices (n, 6 k, 6 k) of translations (n, k, k) and rotations (n, k, 3, k, 3)."""
+        n, k, _ = scalar.shape
+        values = np.zeros((n, k, 6, k, 6))
+        for i in range(3):
+            values[:, :, i, :, i] = scalar
+        values[:, :, 3:, :, 3:] = turning
+        normals = np.repeat(frames[:, None, 2], k, axis=1)
+        return inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, normals)
