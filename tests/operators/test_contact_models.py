@@ -78,9 +78,8 @@ def test_two_cubes_press_on_each_other(found):
         + "K = MODE F1 CONTACT UNILATERAL F2 MORT ; "
         "U = RESO ((RIGI (M ET K) G) ET B ET D) (DEPI D -.02) ; S = EXCO SMZZ (SIGM M G U) ; "
         "A1 = MINI S ; A2 = MAXI S ;",
-        "A1",
-        "A2",
-    )
+        "A1", "A2",
+    )  # fmt: skip
     assert (low, high) == pytest.approx((-10.0, -10.0), rel=1e-8)
 
 
@@ -91,23 +90,3 @@ def test_two_cubes_do_not_pull(found):
         "E",
     )
     assert size < 1e-9
-
-
-def test_contour_of_cells_of_both_senses_runs_one_way(found):
-    length = found(
-        "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0 0) (0 -1) ; S = (L TRAN 2 (1 0)) ET "
-        "(L TRAN 2 (-1 0)) ; C = CONT S ; T = (COOR 2 S) POIN EGAL 0. ; "
-        "H = C ELEM APPUYE STRICTEMENT T ; E = EVOL CHPO (COOR 1 S) SCAL H ; "
-        "X = EXTR E ABSC ; D = MAXI X ;",
-        "D",
-    )
-    assert length == pytest.approx(2.0)
-
-
-def test_contour_drawn_in_both_senses_is_filled(found):
-    area = found(
-        "OPTI DIME 2 ELEM TRI3 ; A = 0 0 ; B = 1 0 ; C = 0 1 ; "
-        "S = SURF ((DROI 3 A B) ET (DROI 3 C B) ET (DROI 3 C A)) PLAN ; X = MESU S ;",
-        "X",
-    )
-    assert area == pytest.approx(0.5)

@@ -30,34 +30,23 @@ def response(found, model, more="", force="FX", unknown="UX"):
     return np.array(real.values) + 1j * np.array(imaginary.values)
 
 
-def test_voigt_is_a_spring_beside_a_dashpot(found):
-    u = response(
-        found,
-        "MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE VOIGT (MOTS UX) ;"
-        "CA = MATE MO RAID 400. VISC 12. MASS 4. ;",
-        "T1 . 'AMORTISSEMENT' = AMOR MO CA ;",
-    )
-    np.testing.assert_allclose(u, 2.0 / (400.0 + 12.0j * W - 4.0 * W**2), rtol=1e-12)
+AMOR = "T1 . 'AMORTISSEMENT' = AMOR MO CA ;"
 
 
-def test_reuss_is_a_spring_behind_a_dashpot(found):
-    u = response(
-        found,
-        "MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE REUSS (MOTS UX) ;"
-        "CA = MATE MO RAID 400. VISC 12. MASS 4. ;",
-    )
-    series = 1.0 / (1.0 / 400.0 + 1.0 / (12.0j * W))
-    np.testing.assert_allclose(u, 2.0 / (series - 4.0 * W**2), rtol=1e-12)
-
-
-def test_reduced_damping_is_per_cent_of_the_critical_one(found):
-    u = response(
-        found,
-        "MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) ;"
-        "CA = MATE MO RAID 400. MASS 4. AMOR 5. ;",
-        "T1 . 'AMORTISSEMENT' = AMOR MO CA ;",
-    )
-    np.testing.assert_allclose(u, 2.0 / (400.0 + 4.0j * W - 4.0 * W**2), rtol=1e-12)
+@pytest.mark.parametrize(
+    ("law", "parameters", "more", "stiffness"),
+    [
+        ("VOIGT", "VISC 12.", AMOR, 400.0 + 12.0j * W),
+        ("REUSS", "VISC 12.", "", 1.0 / (1.0 / 400.0 + 1.0 / (12.0j * W))),
+        ("", "AMOR 5.", AMOR, 400.0 + 4.0j * W),  # per cent of the critical one
+    ],
+)
+def test_springs_and_dashpots_stand_beside_or_behind_each_other(
+    found, law, parameters, more, stiffness
+):
+    model = f"MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE {law} (MOTS UX) ;"
+    u = response(found, f"{model} CA = MATE MO RAID 400. MASS 4. {parameters} ;", more)
+    np.testing.assert_allclose(u, 2.0 / (stiffness - 4.0 * W**2), rtol=1e-12)
 
 
 # Rocking disc on a cone (Meek and Wolf): S = K [1 + b2/3 (-1 + i b)/(1 + b2)], b = w z0 / c,

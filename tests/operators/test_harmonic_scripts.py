@@ -63,6 +63,11 @@ def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(found):
 
 def test_stability_changes_at_both_limit_points_of_a_converged_series(found):
     T = found("NH = 5 ; " + DUFFING + "T . 'N_PT_TFR' = 6 ; CONTINU T ;", "T")
+    names = T.get("COMPOSANTES")  # of the mean, of cosines (U, F) and of sines (V, G)
+    for word, (cosine, sine) in (("DEPLACEMENT", "UV"), ("FORCE", "FG")):
+        by = [[f"{cosine}1"], *([f"{cosine}{n}", f"{sine}{n}"] for n in range(2, 7))]
+        assert [names.get(f"HARM_{word}").get(k).values for k in range(6)] == by
+        assert names.get(f"{word}_HBM").values == [name for row in by for name in row]
     w = reals(T, "TEMPS_PROG")
     states = reals(T, "RESULTATS_STABILITE", "FLOQ", "STABILITE")
     assert len(states) == len(w) - 1

@@ -20,20 +20,23 @@ LR = PROG 1. 2. 3. ; LE = LECT 4 5 ; LM = MOTS 'AB' 'CD' ; LC = SUIT U U ;
 T = TABL 'KIND' ; T . 1 = S ; T . 'me' = T ; T . 2.5 = TABL ; T . 2.5 . VRAI = LR ;
 TX = TEXTE 'LIST 3' ; W = MOT 'hello' ; I = 7 ; R = 0.1 ; B = FAUX ;
 D = DEFO S U ; V = VECT U 'DEPL' ; A = ANNO 'CATE' 'ROUG' 'soil' ;
-DEBP TWICE X*FLOTTANT ; Y = 2. * X ; FINP Y ;
+DEBM ADD K*ENTIER ; FINM (%V + K) ; DEBM MADE N*ENTIER ; %V = N ; %METHODE SUM ADD ; FINM ;
+OB = OBJE MADE 5 ; DEBP TWICE X*FLOTTANT ; Y = 2. * X ; FINP Y ;
 OPTI SAUV 'state' ;
 """
-OBJECTS = "L S P MO MA K F U E C LR LE LM LC T TX W I R B D V A TWICE"
+OBJECTS = "L S P MO MA K F U E C LR LE LM LC T TX W I R B D V A TWICE OB"
 NAMES = OBJECTS.split()
 
 
 def test_everything_with_a_name_comes_back(tmp_path: Path) -> None:
     first = ran(FIRST + "SAUV ;", tmp_path)
-    second = ran("OPTI REST 'state' ; REST ; Z = TWICE 4. ; DI = VALE 'DIME' ;", tmp_path)
+    second = ran(
+        "OPTI REST 'state' ; REST ; Z = TWICE 4. ; O = OB%SUM 3 ; DI = VALE 'DIME' ;", tmp_path
+    )
     old, new = first.session.root, second.session.root
     assert [type_of(new.find(n)) for n in NAMES] == [type_of(old.find(n)) for n in NAMES]
     assert [new.find(n) for n in "WIRB"] == ["hello", 7, 0.1, False]
-    assert (new.find("Z"), new.find("DI")) == (8.0, 2)
+    assert [new.find(n) for n in ("Z", "O", "DI")] == [8.0, 8, 2]
     table = new.find("T")
     assert table.get("me") is table
     assert table.get(1) is new.find("S")

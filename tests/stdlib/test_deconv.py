@@ -53,26 +53,17 @@ def test_round_soil_moves_as_the_free_field(mode, direction, component, dampers)
     assert lb.values == pytest.approx(given.values, abs=4e-3)
 
 
-def test_plane_half_with_symmetry():
-    # pressure waves: the left side is the axis of symmetry
+@pytest.mark.parametrize(
+    ("held", "component", "options"),
+    [("UX", "UY", "'VERT' ACC1 5. 20. 20. 'LYSMER'"), ("UY", "UX", "'HORI' ACC1 5. 20. 20.")],
+    ids=["pressure waves", "shear waves"],
+)
+def test_a_plane_half(held, component, options):
+    """The left side is the axis of symmetry of pressure waves, of antisymmetry of shear waves."""
     la, lb, given = found(
         PLANE.format(mode="PLAN DEFO") + SOIL + MATRICES + SIGNAL + LAYER
-        + "K1 = K1 ET (BLOQ 'UX' BOR2) ; "
-        + "T2 = DECONV T1 FON1 M1 'VERT' ACC1 5. 20. 20. 'LYSMER' ; "
-        + "COMP1 = MOT 'UY' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
-        "LA", "LB", "LG",
-    )  # fmt: skip
-    assert la.values == pytest.approx(given.values, abs=4e-3)
-    assert lb.values == pytest.approx(given.values, abs=4e-3)
-
-
-def test_plane_half_with_antisymmetry():
-    # shear waves: no vertical motion on the axis
-    la, lb, given = found(
-        PLANE.format(mode="PLAN DEFO") + SOIL + MATRICES + SIGNAL + LAYER
-        + "K1 = K1 ET (BLOQ 'UY' BOR2) ; "
-        + "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. ; "
-        + "COMP1 = MOT 'UX' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
+        + f"K1 = K1 ET (BLOQ '{held}' BOR2) ; T2 = DECONV T1 FON1 M1 {options} ; "
+        + f"COMP1 = MOT '{component}' ; " + RUN + "LG = EXTR ACC1 'ORDO' ;",
         "LA", "LB", "LG",
     )  # fmt: skip
     assert la.values == pytest.approx(given.values, abs=4e-3)

@@ -8,46 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_runs import found, refused
 
-_TRIANGLE = (
-    "OPTI DIME 2 MODE PLAN CONT ELEM TRI3 ; PA = 0. 0. ; PB = 3. 0. ; PC = 0. 6. ; "
-    "S1 = MANU 'TRI3' PA PB PC ; M1 = MODE S1 MECANIQUE ELASTIQUE ; "
-)
 _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
-
-
-def test_centre_of_a_triangle_is_the_mean_of_its_corners():
-    x, y = found(_TRIANGLE + "X1 X2 = @CDG M1 ;", "X1", "X2")
-    assert (x, y) == pytest.approx((1.0, 2.0), rel=1e-12)
-
-
-def test_centre_of_two_densities_is_their_balance():
-    """Unit squares side by side with densities 1 and 3: 0.5 + 3/4."""
-    x, y = found(
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; PA = 0. 0. ; L1 = PA DROI 1 (0. 1.) ; "
-        "SA = L1 TRAN 1 (1. 0.) ; SB = (COTE 3 SA) TRAN 1 (1. 0.) ; "
-        "MA = MODE SA MECANIQUE ELASTIQUE ; MB = MODE SB MECANIQUE ELASTIQUE ; "
-        "X1 X2 = @CDG (MA ET MB) ((MATE MA RHO 1.) ET (MATE MB RHO 3.)) ;",
-        "X1", "X2",
-    )  # fmt: skip
-    assert (x, y) == pytest.approx((1.25, 0.5), rel=1e-12)
-
-
-def test_centre_in_space_has_three_coordinates():
-    values = found(
-        "OPTI DIME 3 ELEM CUB8 ; P = 0. 0. 0. ; S = (P DROI 2 (2. 0. 0.)) TRAN 2 (0. 4. 0.) ; "
-        "V = VOLU 2 S TRAN (0. 0. 6.) ; X Y Z = @CDG (MODE V MECANIQUE ELASTIQUE) ;",
-        "X", "Y", "Z",
-    )  # fmt: skip
-    assert values == pytest.approx((1.0, 2.0, 3.0), rel=1e-12)
-
-
-def test_resultant_counts_the_nodes_of_the_mesh_only():
-    total = found(
-        "OPTI DIME 2 ELEM SEG2 ; L1 = (0. 0.) DROI 4 (1. 0.) ; L2 = L1 ELEM (LECT 1 2) ; "
-        "C = MANU 'CHPO' L1 2 'FX' 2. 'FY' 5. ; X = @TOTAL C L2 'FY' ;",
-        "X",
-    )
-    assert total == 15.0
 
 
 @pytest.mark.parametrize(("turns", "count"), [(1.0, 40), (0.5, 30)])
@@ -61,27 +22,6 @@ def test_helix_of_a_point_has_its_length_and_end(turns, count):
     assert n == count
     assert length == pytest.approx(count * math.hypot(chord, 0.5 * turns / count), rel=1e-9)
     assert (a, b, c) == pytest.approx((math.cos(2 * math.pi * turns), 0.0, 0.5 * turns), abs=1e-9)
-
-
-def test_helix_of_a_line_is_a_surface_and_of_a_surface_a_volume():
-    line = _HELIX.format(element="QUA4") + (
-        "L1 = PA DROI 2 (2. 0. 0.) ; L2 S2 = @HELICE L1 'LIGN' P0 VZ 0.5 90. 8 ; N = NBEL S2 ;"
-    )
-    assert found(line, "N") == 16
-    solid = _HELIX.format(element="CUB8") + (
-        "S1 = (PA DROI 1 (2. 0. 0.)) TRAN 1 (0. 0. 0.1) ; "
-        "S2 V2 = @HELICE S1 'SURF' P0 VZ 0. 90. 60 ; N = NBEL V2 ; X = MESU V2 ; "
-    )
-    count, volume = found(solid, "N", "X")
-    assert count == 60
-    assert volume == pytest.approx(math.pi / 4 * 3 * 0.1, rel=2e-4)
-
-
-def test_box_holds_the_mesh():
-    script = "OPTI DIME {0} ELEM SEG2 ; L = DROI 3 {1} {2} ; B = BOITE L ; X = MESU B ;"
-    assert found(script.format(2, "(1. 2.)", "(3. 7.)"), "X") == pytest.approx(10.0)
-    space = script.format(3, "(1. 2. 0.)", "(3. 7. 4.)")
-    assert found(space, "X") == pytest.approx(40.0)
 
 
 @settings(max_examples=25, deadline=None)
@@ -98,14 +38,6 @@ def test_inside_of_a_folded_contour_agrees_with_its_formula(x, y):
         "R",
     )
     assert bool(answer) == inside
-
-
-def test_points_near_the_contour_count_as_inside_when_told():
-    square = (
-        "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; C = PA DROI 1 (1. 0.) DROI 1 (1. 1.) DROI 1 PA ; "
-        "P = 1.01 0.5 ; A = DEDANS P C ; B = DEDANS P C 0.1 ; D = DEDANS (1. 0.5) C ;"
-    )
-    assert [bool(v) for v in found(square, "A", "B", "D")] == [False, True, True]
 
 
 def test_mean_of_a_curve_cuts_its_ends():

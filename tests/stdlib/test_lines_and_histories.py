@@ -8,27 +8,6 @@ from script_runs import found
 from ssilang.cli.run import run_text
 
 
-def test_spread_force_keeps_its_resultant_and_its_parabola_of_moments():
-    values = found(
-        "OPTI DIME 2 ELEM SEG3 ; L = (DROI 2 (0. 0.) (1. 0.)) ET (DROI 1 (1. 0.) (3. 0.)) ;"
-        "ELIM 1.E-6 L ; F = FREPART (3. -6.) L ; X = COOR 1 L ;"
-        "A = MAXI (RESU (EXCO 'FY' F)) ; B = XTY F X (MOTS 'FY') (MOTS 'SCAL') ;"
-        "C = XTY F (X * X) (MOTS 'FY') (MOTS 'SCAL') ; D = MAXI (RESU (EXCO 'FX' F)) ;",
-        "A", "B", "C", "D",
-    )  # fmt: skip
-    np.testing.assert_allclose(values, (-6, -6 * 1.5, -6 * 3, 3))
-
-
-def test_spread_force_on_unequal_cells_in_space():
-    values = found(
-        "OPTI DIME 3 ELEM SEG2 ; P1 = 0. 0. 0. ; P2 = 0. 1. 0. ; P3 = 0. 4. 0. ;"
-        "L = (DROI 1 P1 P2) ET (DROI 1 P2 P3) ; F = FREPART (0. 0. 8.) L ;"
-        "A = EXTR F 'FZ' P1 ; B = EXTR F 'FZ' P2 ; C = EXTR F 'FZ' P3 ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    np.testing.assert_allclose(values, (1, 4, 3))
-
-
 def catenary(x, z, h, w):
     """Length and integral of the tension of the catenary of horizontal tension h through points."""
     a = h / w

@@ -101,21 +101,6 @@ def test_curves_of_other_abscissas_are_interpolated():
     assert "no curve 4" in refused(_CURVES + "T . 'TEMPS' = PROG 0. 1. 2. 3. ; M C = @AFEVOZT T ;")
 
 
-def test_low_pass_keeps_what_is_below_and_halves_what_is_at_the_cut():
-    """Sines of whole periods in 2**8 points: factors 1, 1/2 and 0."""
-    script = (
-        "T = PROG 0. 'PAS' 0.0078125 'NPAS' 255 ; S = SIN (360. * 4. * T) ; M = SIN (360. * 10. "
-        "* T) ; "
-        "H = SIN (360. * 13. * T) ; E = FILC (EVOL 'MANU' 'time' T 'A' (S + M + H)) 10. 4. ; "
-        "L = EXTR E 'ORDO' ; D = MAXI (ABS (L - S - (0.5 * M))) ; N = DIME L ; "
-        "X = EGA (EXTR E 'LEGX' 1) 'time' ;"
-    )
-    error, count, title = found(script, "D", "N", "X")
-    assert error == pytest.approx(0.0, abs=1e-10)
-    assert count == 256
-    assert title is True
-
-
 def test_low_pass_gives_back_as_many_points_as_it_got():
     script = (
         "T = PROG 0. 'PAS' 0.01 'NPAS' 99 ; E = FILC (EVOL 'MANU' T ((0. * T) + 2.)) 45. 2. ; "

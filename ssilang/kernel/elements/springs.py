@@ -254,13 +254,11 @@ def dynamic_stiffness(
         series = np.where(k + pulsation * c > 0.0, k * share, 0.0)
         return spread_complex(zone, layout, series, parameters), layout
     if law == "COMPLEXE" and (curves := _curves(parameters)):
-        k_at, c_at = (
-            float(np.interp(frequency, curves[n].abscissas, curves[n].ordinates))
-            if n in curves else 0.0
-            for n in ("RAID", "VISC")
-        )  # fmt: skip
-        one = np.full(len(zone.cells), k_at + 1j * pulsation * c_at)
-        return spread_complex(zone, layout, one, parameters), layout
+        moving = np.zeros(len(zone.cells), complex)
+        for name, parts in curves.items():
+            values = [np.interp(frequency, p.abscissas, p.ordinates) for p in parts.values()]
+            moving[[*parts]] += np.multiply(1.0 if name == "RAID" else 1j * pulsation, values)
+        return spread_complex(zone, layout, moving, parameters), layout
     return None
 
 
@@ -286,25 +284,21 @@ def _is_number(parameters: ZoneField, name: str) -> bool:
     return name in parameters and parameters.raw(name)[0].dtype != object
 
 
-def _curves(parameters: ZoneField) -> dict[str, CurvePart]:
-    """Stiffness (RAID) and viscosity (VISC) over the frequency, from MOCO or from themselves."""
-    found: dict[str, CurvePart] = {}
+def _curves(parameters: ZoneField) -> dict[str, dict[int, CurvePart]]:
+    """Stiffness (RAID) and viscosity (VISC) of cells over the frequency, from MOCO or theirs."""
+    found: dict[str, dict[int, CurvePart]] = {}
     for name in ("MOCO", "RAID", "VISC"):
-        if name not in parameters:
+        values = parameters.raw(name)[0] if name in parameters else np.zeros(1)
+        if not isinstance(values.flat[0], Curve):
             continue
-        values = parameters.raw(name)[0]
-        curve = values.ravel()[0] if values.dtype == object else None
-        if not isinstance(curve, Curve):
-            continue
-        if name != "MOCO":
-            found[name] = curve.parts[0]
-            continue
-        for part in curve.parts:
-            said = part.ordinate_name.strip().upper()
+        cells = np.broadcast_to(values, (len(parameters.zone.cells), 1)).ravel()
+        first = None if name == "MOCO" else 1
+        for i, part in ((i, part) for i, c in enumerate(cells) for part in c.parts[:first]):
+            said = part.ordinate_name.strip().upper() if name == "MOCO" else name
             target = {"MOCO": "RAID", "RAID": "RAID", "VISC": "VISC"}.get(said)
             if target is None:
                 raise MaterialError("kernel.elements.curve-moco-named", said=said)
-            found[target] = part
+            found.setdefault(target, {})[i] = part
     return found
 
 

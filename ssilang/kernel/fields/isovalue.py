@@ -85,10 +85,8 @@ def _of_simplices(cells: CellBlock, values: FloatArray) -> _Pieces:
         return _Pieces(cells.connectivity, values, cells.colours)
     if cells.cell_type == "QUA4":
         parts = split_quadrangles(Mesh(cells.nodes, (cells,))).single_block()
-        table, colours = parts.connectivity, parts.colours
     elif cells.cell_type in _TO_TETRAHEDRA:
-        table = tetrahedra(cells)
-        colours = np.zeros(len(table), dtype=np.int8)
+        parts = tetrahedra(cells)
     else:
         raise MeshError(
             "kernel.fields.no-value-looked-cells",
@@ -97,7 +95,7 @@ def _of_simplices(cells: CellBlock, values: FloatArray) -> _Pieces:
         )
     at_node = np.zeros(len(cells.nodes))
     at_node[cells.connectivity] = values
-    return _Pieces(table, at_node[table], colours)
+    return _Pieces(parts.connectivity, at_node[parts.connectivity], parts.colours)
 
 
 @dataclass(frozen=True)

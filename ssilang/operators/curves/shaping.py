@@ -42,9 +42,8 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
         raise call.error("operators.curves.cannot-be-continued")
     order = np.argsort(x, kind="stable")
     low, high = order[:2], order[-1:-3:-1]
-    rows = [(float(a), float(b)) for a, b in zip(x, y, strict=True)]
-    rising = x[0] <= x[-1]
-    for w in sorted(set(wanted)):
+    rising, added = x[0] <= x[-1], list[tuple[float, float]]()
+    for w in sorted(set(wanted), reverse=not rising):
         if x.min() <= w <= x.max():
             continue
         ends = low if w < x.min() else high
@@ -54,10 +53,9 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
             if run == 0.0:
                 raise call.error("operators.curves.last-points-together")
             value += (w - float(x[ends[0]])) * float(y[ends[1]] - y[ends[0]]) / run
-        first = (w < x.min()) == rising
-        rows = [(w, value), *rows] if first else [*rows, (w, value)]
-    if rising:
-        rows.sort(key=lambda r: r[0])
+        added.append((w, value))
+    before = [row for row in added if (row[0] < x.min()) == rising]
+    rows = [*before, *zip(x, y, strict=True), *added[len(before) :]]
     made = np.array(rows)
     return dataclasses.replace(part, abscissas=made[:, 0], ordinates=made[:, 1])
 
@@ -145,7 +143,7 @@ def mapp(
 
 def _at(call: Call, curve: Curve, times: FloatArray) -> FloatArray:
     part = curve.parts[0]
-    if len(part.abscissas) == 0 or (len(times) and times[-1] > part.abscissas[-1]):
+    if len(part.abscissas) == 0 or (np.clip(times, *part.abscissas[[0, -1]]) != times).any():
         raise call.error("operators.curves.times-of-force-not-covered", curve)
     return np.asarray(np.interp(times, part.abscissas, part.ordinates))
 

@@ -111,7 +111,8 @@ def test_objects_and_commands_are_listed_in_both_languages(tmp_path):
     ]  # fmt: skip
     assert any(row.split() == ["%help", "cette", "liste"] for row in out)
     assert "erreur : division par zéro" in out
-    assert "Syntax" in Typed(tmp_path / "out").type("INFO PROG ;")
+    assert "Syntaxe" in french.type("INFO PROG ;")
+    assert "Syntaxe" not in Typed(tmp_path / "out").type("INFO PROG ;")
 
 
 def test_an_error_inside_a_procedure_returns_to_the_top(typed):

@@ -127,18 +127,18 @@ def curve(name, x, y):
 @pytest.mark.parametrize("own", [False, True])
 def test_impedances_over_the_frequency_are_read_between_their_points(points, own):
     zone = zone_of("COMPLEXE", points)
-    k, c = curve("RAID", [1.0, 5.0], [3e5, 7e5]), curve("VISC", [0.0, 4.0, 8.0], [10.0, 50.0, 20.0])
-    if own:
-        values = {"RAID": Curve((k,)), "VISC": Curve((c,))}
-    else:
-        values = {"MOCO": Curve((curve("MOCO", [1.0, 5.0], [3e5, 7e5]), c))}
-    arrays = {n: np.full((2, 1), v, object) for n, v in values.items()}
+    c = curve("VISC", [0.0, 4.0, 8.0], [10.0, 50.0, 20.0])
+    name, stiffer = "RAID" if own else "MOCO", ([3e5, 7e5], [4e5, 9e5])  # a curve each cell
+    k = [curve(name, [1.0, 5.0], y) for y in stiffer]
+    values = {"RAID": [(x,) for x in k], "VISC": [(c,), (c,)]} if own else {
+        "MOCO": [(k[0], c), (c, k[1])]}  # fmt: skip
+    arrays = {n: np.array([[Curve(p)] for p in v], object) for n, v in values.items()}
     field = CellField((CellFieldBlock(zone.cells, arrays, "RIGIDITE", zone.element),))
     made, layout = dynamic_stiffness(zone, zone_field(zone, field), 3.0)
-    one = 5e5 + 1j * 6 * np.pi * 40.0
+    one = np.array([5e5, 6.5e5]) + 1j * 6 * np.pi * 40.0
     u = np.random.default_rng(2).standard_normal(len(layout.unknowns))
     got = np.einsum("cij,j->ci", made, u)
-    wanted = expected(layout.unknowns, points, u, np.full(2, one.real), None) + 1j * expected(
+    wanted = expected(layout.unknowns, points, u, one.real, None) + 1j * expected(
         layout.unknowns, points, u, np.full(2, one.imag), None
     )
     np.testing.assert_allclose(got, wanted)
@@ -155,6 +155,7 @@ def test_named_unknowns_join_unlike_ones_and_modes_have_their_shares():
     zone = zone_of("ELASTIQUE", 2, UNKNOWNS=(("UX", "RZ"), ("UY", "UZ")))
     block = families.stiffness(zone, given(zone, RAID=K))
     assert block.unknowns == ("UX", "RZ", "UY", "UZ")
+    assert block.local.tolist() == [0, 0, 1, 1]
     u = np.array([1.0, 2.0, 5.0, 9.0])
     np.testing.assert_allclose(forces(block, u), np.outer(K, [-4, -7, 4, 7]))
     zone = zone_of("ELASTIQUE", 2, UNKNOWNS=(("UX", "RZ"), ("UY",)))

@@ -83,12 +83,37 @@ def test_existing_nodes_on_the_value_are_kept() -> None:
     table = NodeTable()
     line = Mesh.of(table, "SEG2", np.column_stack([np.arange(3), np.arange(1, 4)]))
     table.add(np.linspace(0, 1, 4)[:, None])
-    field = field_on(line, table.coordinates[:, 0])
-    assert isovalue(field, 1 / 3).node_ids.tolist() == [1]
-    assert isovalue(field, 1 / 3 - 1e-10).node_ids.tolist() == [4]
+    for size in (1.0, 1e-20):
+        field = field_on(line, size * table.coordinates[:, 0])
+        assert isovalue(field, size / 3).node_ids.tolist() == [1]
+    (made,) = isovalue(field, size * (1 / 3 - 1e-10)).node_ids
+    assert made > 3
+
+
+def test_pieces_have_the_colour_of_their_cell_and_new_nodes_the_size_between() -> None:
+    """Two cells of each kind side by side along x, each with a colour of its own."""
+    table = NodeTable()
+    grid = np.array([[x, y, z] for x in (0.0, 1, 2) for y in (0.0, 1) for z in (0.0, 1)])
+    ids = table.add(grid, 1.0 + grid[:, 0]).reshape(3, 2, 2)
+    low, high = ids[:-1], ids[1:]
+    bricks = np.stack([x[:, i, j] for j in (0, 1) for x, i in ((low, 0), (high, 0), (high, 1),
+                                                               (low, 1))], axis=1)  # fmt: skip
+    kinds = {"SEG2": bricks[:, :2], "TRI3": bricks[:, :3], "QUA4": bricks[:, :4], "CUB8": bricks}
+    for kind, cells in kinds.items():
+        mesh = Mesh.of(table, kind, cells, np.array([3, 5], np.int8))
+        field = field_on(mesh, table.coordinates[:, 0] + 0.25 * table.coordinates[:, 1])
+        for side, level in ((0, 0.5), (0, 1.7), (1, 0.5), (-1, 1.5)):
+            found = isovalue(field, level, side)
+            for block in found.blocks:
+                middle = block.coordinates.mean(axis=1)[:, 0]
+                assert block.colours.tolist() == np.where(middle < 1.0, 3, 5).tolist(), kind
+            at = table.coordinates[found.sorted_node_ids]
+            np.testing.assert_allclose(table.density[found.sorted_node_ids], 1.0 + at[:, 0])
 
 
 def test_wrong_fields_are_refused() -> None:
+    with pytest.raises(MeshError, match="empty"):
+        isovalue(CellField(()), 0.0)
     mesh, _ = two_tetrahedra()
     block = mesh.blocks[0]
     ones = np.ones((2, 4))

@@ -13,6 +13,7 @@ from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_proble
 
 K = 2e7
 WIDTH, LENGTH = 4.0, 6.0
+FLAT = np.eye(3)
 
 
 def problem_of(bench: Bench) -> Problem:
@@ -27,23 +28,26 @@ def problem_of(bench: Bench) -> Problem:
     )  # fmt: skip
 
 
-def strip(cells: int = 16, left: float = -WIDTH / 2, bench: Bench | None = None) -> Bench:
-    """A line of joints, upper side first, walked so that it opens upwards."""
+def strip(
+    cells: int = 16, left: float = -WIDTH / 2, bench: Bench | None = None, width: float = WIDTH
+) -> Bench:
+    """A line of joints in three zones, upper side first, walked so that it opens upwards."""
     bench = Bench() if bench is None else bench
-    x = np.linspace(left, left + WIDTH, cells + 1)
+    x = np.linspace(left, left + width, cells + 1)
     upper = [bench.node(v, 0.0) for v in x]
     lower = [bench.node(v, 0.0) for v in x]
     sides = [[upper[i], upper[i + 1], lower[i], lower[i + 1]] for i in range(cells)]
-    bench.joint("RAC2", sides, "JOI2", KN=K, KS=K)
+    for some in (sides[:1], sides[1 : cells // 2], sides[cells // 2 :]):
+        bench.joint("RAC2", some, "JOI2", KN=K, KS=K)
     return bench
 
 
-def raft(cells: int = 24, soil_first: bool = False) -> Bench:
-    """A rectangle of joints, WIDTH along x and LENGTH along y; its structure is above."""
+def raft(cells: int = 24, soil_first: bool = False, turn: npt.NDArray[np.float64] = FLAT) -> Bench:
+    """A rectangle of joints, WIDTH along x and LENGTH along y, then turned; the structure above."""
     bench = Bench(Mode.THREE_DIMENSIONAL)
     x = np.linspace(-WIDTH / 2, WIDTH / 2, cells + 1)
     y = np.linspace(-LENGTH / 2, LENGTH / 2, 5)
-    sides = [[[bench.node(a, b, 0.0) for b in y] for a in x] for _ in range(2)]
+    sides = [[[bench.node(*turn @ (a, b, 0.0)) for b in y] for a in x] for _ in range(2)]
     joints = [
         [s[i + a][j + b] for s in sides for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
         for i in range(cells)
@@ -57,8 +61,8 @@ def raft(cells: int = 24, soil_first: bool = False) -> Bench:
 
 def structure_of(problem: Problem) -> npt.NDArray[np.int64]:
     """Nodes of the side that moves: the one above."""
-    (zone,) = [j.zone for j in interface_of(problem).joints]
-    first, second = np.split(zone.cells.raw, 2, axis=1)
+    raw = np.concatenate([j.zone.cells.raw for j in interface_of(problem).joints])
+    first, second = np.split(raw, 2, axis=1)
     down = interface_of(problem).joints[0].frames[0, 0, -1, -1] < 0.0
     return np.unique(second if down else first)
 
@@ -132,12 +136,86 @@ def interface_of(problem: Problem) -> Interface:
 
 
 def test_joints_that_share_no_node_are_different_footings() -> None:
-    bench = strip(4, left=10.0, bench=strip(8))
+    """The largest is first; two points beside them are a third, and every point belongs to one."""
+    bench = strip(8, bench=strip(4, left=10.0, width=2.0))
+    bench.joint("SEG2", [[bench.node(-9.0, -1.0), bench.node(-9.0, 0.0)]], "JOI1", KN=K, KS=K)
     problem = problem_of(bench)
     found = footings_of(interface_of(problem), problem.numbering)
-    assert [len(f.points) for f in found] == [16, 8]
-    assert [f.centre[0] for f in found] == pytest.approx([0.0, 12.0], abs=1e-12)
-    assert np.intersect1d(found[0].points, found[1].points).size == 0
+    assert [len(f.points) for f in found] == [16, 8, 1]
+    assert [f.centre[0] for f in found] == pytest.approx([0.0, 11.0, -9.0], abs=1e-12)
+    assert sorted(np.concatenate([f.points for f in found])) == list(range(25))
+
+
+TURNS = {
+    "flat": FLAT,
+    "a wall": np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]),
+    "another wall": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    "a slope": np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0], [0.48, 0.64, 0.6]]),
+}
+
+
+@pytest.mark.parametrize("turn", TURNS.values(), ids=TURNS)
+def test_axes_lie_in_the_base_and_a_rigid_rotation_is_read_about_them(turn) -> None:
+    problem = problem_of(raft(2, turn=turn))
+    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    n = turn[:, 2]
+    np.testing.assert_allclose(footing.normal, n, atol=1e-12)
+    np.testing.assert_allclose(footing.axes @ n, 0.0, atol=1e-12)
+    np.testing.assert_allclose(footing.axes @ footing.axes.T, np.eye(2), atol=1e-12)
+    np.testing.assert_allclose(np.cross(*footing.axes), n, atol=1e-12)
+    omega, at = np.array([2e-3, -1e-3, 5e-4]), footing.unknowns
+    numbering = problem.numbering
+    x = numbering.table.coordinates[numbering.nodes[at]]
+    moved = np.cross(omega, x) + np.array([3e-3, 1e-3, -2e-3])
+    axis = np.array(["XYZ".index(name[1]) for name in numbering.unknowns])[numbering.codes[at]]
+    u = moved[np.arange(len(at)), axis]
+    np.testing.assert_allclose(footing.turn @ u, footing.axes @ omega, atol=1e-15)
+
+
+def test_a_ring_does_not_turn() -> None:
+    bench = strip(4, left=1.0, bench=Bench(Mode.AXISYMMETRIC))
+    problem = problem_of(bench)
+    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    assert footing.axes.shape == (0, 3)
+    assert footing.turn.shape[0] == 0
+
+
+def test_pairs_on_a_line_turn_about_the_line_across() -> None:
+    """In space they have one axis, whichever side of a pair is named first."""
+    for first in (0, 1):
+        bench = Bench(Mode.THREE_DIMENSIONAL)
+        places = ((-3.0, -4.0), (0.0, 0.0), (6.0, 8.0))
+        pairs = [[bench.node(*p, z) for z in (-1.0, 0.5)] for p in places]
+        bench.joint("SEG2", [p[::-1] if first else p for p in pairs], "JOI1", KN=K, KS=K)
+        problem = problem_of(bench)
+        (footing,) = footings_of(interface_of(problem), problem.numbering)
+        np.testing.assert_allclose(footing.centre, [1.0, 4 / 3, 0.5], atol=1e-12)
+        np.testing.assert_allclose(np.abs(footing.axes), [[0.8, 0.6, 0.0]], atol=1e-12)
+        assert footing.axes[0, 0] * footing.axes[0, 1] < 0.0
+        moved = np.cross(footing.axes[0], footing.places - footing.centre)[:, 2]
+        u = np.zeros(len(footing.unknowns))
+        up = np.array(problem.numbering.unknowns)[problem.numbering.codes[footing.unknowns]] == "UZ"
+        u[up] = moved
+        np.testing.assert_allclose(footing.turn @ u, [1.0])
+        w, t = np.zeros((2, 1, 3, 3))
+        t[0, footing.points, 2] = [-5.0, 0.0, -2.0]
+        loads = footing.loads(w, t, np.zeros((1, len(footing.unknowns))))
+        about = 5.0 * (-5.0 - 5 / 3) + 2.0 * (10.0 - 5 / 3)  # forces upwards times arms
+        assert abs(loads.moment[0, 0]) == pytest.approx(abs(about))
+
+
+def test_a_macro_element_tells_its_law() -> None:
+    bench = Bench()
+    ends = [bench.node(0.0, -1.0), bench.node(0.0, 0.0)]
+    bench.joint("SEG2", [ends], "JOI1", law="MACRO_SEMELLE", KN=K, KS=K, LARG=WIDTH)
+    for node in ends:
+        bench.spring(1.0, node, unknown="RZ")
+    problem = problem_of(bench)
+    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    loads = footing.loads(np.array([[[2e-3, -1e-3]]]), np.array([[[-7e3, -9e4]]]), np.zeros((1, 0)))
+    assert (loads.force[0], loads.moment[0], loads.rotation[0]) == (9e4, -7e3, 2e-3)
+    assert (loads.share[0], loads.opening[0]) == pytest.approx((0.625, 3e-3))
+    assert loads.pressure[0] == pytest.approx(K / WIDTH * 5e-3)
 
 
 def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() -> None:
@@ -161,7 +239,7 @@ def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() ->
 
 
 def test_a_track_goes_on_from_what_it_held() -> None:
-    problem = problem_of(strip(4, left=10.0, bench=strip(8)))
+    problem = problem_of(strip(8, bench=strip(4, left=10.0, width=2.0)))
     wanted = np.ones(2, bool)
     first, again = footing_track(problem, wanted), footing_track(problem, wanted)
     assert isinstance(first, FootingTrack)

@@ -9,10 +9,12 @@ from references.recorder import Recorder
 from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
-from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.plasticity.points import PointState, plastic_zones
 from ssilang.kernel.plasticity.run import BulkRun, integrate_bulk, step_bulk_statics
+from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
@@ -92,6 +94,35 @@ def test_strip_footing_collapses_at_prandtls_load(tmp_path: Path) -> None:
     load, before = at(result, "R"), at(result, "R0")
     assert load == pytest.approx(before, rel=0.01)  # it has collapsed
     assert 1.0 < load / (2 + np.pi) < 1.12
+
+
+@pytest.mark.parametrize(
+    ("line", "law", "more"),
+    [("DROI 3 (0 0) (3 0)", "BARR", "'SECT' 0.1"), ("(DROI 2 (0 0) (3 0)) TRAN 1 (0 1)", "", "")],
+)
+def test_a_state_goes_through_its_fields_and_back(line: str, law: str, more: str) -> None:
+    result = ran(
+        f"OPTI DIME 2 ELEM {'SEG2' if law else 'QUA4'} MODE PLAN DEFO ; S = {line} ; "
+        f"M = MODE S MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE {law} ; "
+        f"A = MATE M YOUN 2.E5 NU .3 SIGY 100. H 1.E3 {more} ;"
+    )
+    points = plastic_points(at(result, "M").zones[0], at(result, "A"))
+    random, n = np.random.default_rng(7), points.count
+    stress, plastic = np.zeros((2, n, 6))
+    strains = points.B.shape[1]
+    stress[:, points.components[:strains]] = random.normal(size=(n, strains))
+    plastic[:, points.components[:strains]] = random.normal(size=(n, strains))
+    variables = random.normal(size=(n, len(points.law.variables)))
+    state = PointState(stress, plastic, np.zeros((n, 6)), variables)
+    blank = PointState(*np.zeros((3, n, 6)), np.zeros_like(variables))
+    blocks = points.stress_block(state), points.variable_block(state), points.plastic_block(state)
+    assert len(points.law.variables) > 1
+    back, known = points.restored(blank, *(CellField((block,)) for block in blocks))
+    assert known
+    for name in ("stress", "plastic", "variables"):
+        np.testing.assert_allclose(getattr(back, name), getattr(state, name), rtol=1e-12)
+    _, known = points.restored(blank, None, *(CellField((block,)) for block in blocks[1:]))
+    assert not known
 
 
 def test_newton_converges_quadratically() -> None:

@@ -62,8 +62,8 @@ def _split_block(block: CellBlock) -> CellBlock:
     )
 
 
-def tetrahedra(block: CellBlock) -> IntArray:
-    """Tetrahedra (m, 4) on the corners of 3D cells, adjacent cells agreeing on face diagonals.
+def tetrahedra(block: CellBlock) -> CellBlock:
+    """Tetrahedra on the corners of 3D cells, adjacent cells agreeing on face diagonals.
 
     Each cell is the union of the cones from its smallest node over the faces that do not hold it,
     quadrangular faces being cut along the diagonal from their own smallest node: a face is then
@@ -72,16 +72,18 @@ def tetrahedra(block: CellBlock) -> IntArray:
     kind = CELL_TYPES[_CORNER_CELL[block.cell_type]]
     corners = block.connectivity[:, list(block.kind.corners)]
     apex = corners.argmin(axis=1)
-    parts = []
+    parts, colours = [], []
     for local in range(kind.n_nodes):
         rows = corners[apex == local]
         for _, face in kind.faces:
             if local in face or not len(rows):
                 continue
             triangles = _face_triangles(rows[:, list(face)])
-            tip = np.repeat(rows[:, local], len(triangles) // len(rows))
+            each = len(triangles) // len(rows)
+            tip = np.repeat(rows[:, local], each)
             parts.append(np.column_stack([triangles[:, [0, 2, 1]], tip]))
-    return np.concatenate(parts)
+            colours.append(np.repeat(block.colours[apex == local], each))
+    return CellBlock.make(block.nodes, "TET4", np.concatenate(parts), np.concatenate(colours))
 
 
 _CORNER_CELL = {

@@ -226,7 +226,7 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
     from scipy.spatial import cKDTree
 
     xyz = volume.nodes.coordinates
-    tables = [tetrahedra(b) for b in volume.blocks if b.kind.dimension == 3]
+    tables = [tetrahedra(b).connectivity for b in volume.blocks if b.kind.dimension == 3]
     if not tables:
         raise MeshError("kernel.mesh.mesh-volume-cells-needed")
     corners = xyz[np.concatenate(tables)]

@@ -72,9 +72,9 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     if target in _SIMPLEX and block.cell_type == _SIMPLEX[target]:
         return split_quadrangles(alone)
     if target == "TET4" and block.kind.dimension == 3:
-        return Mesh.of(block.nodes, "TET4", tetrahedra(block))
+        return Mesh(block.nodes, (tetrahedra(block),))
     if target == "TE10" and block.kind.dimension == 3:
-        return quadratic(Mesh.of(block.nodes, "TET4", tetrahedra(block)))
+        return quadratic(Mesh(block.nodes, (tetrahedra(block),)))
     if kind.dimension == 2 and block.kind.dimension == 3:
         return changed(faces(alone), target)
     if (target, block.cell_type) in (("QUA4", "TRI3"), ("QUA8", "TRI6")):

@@ -10,8 +10,9 @@ from references.rocking import macro_element_period
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
+from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS
+from ssilang.kernel.interface.laws.macro_law import outline_of
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
@@ -37,20 +38,29 @@ def answer(code, w, p):
     return t[0], D[0]
 
 
+def bed(code, p, n=1201):
+    """Places x, y of equal springs below a footing."""
+    b, length, r = p[0, Parameter.LARG], p[0, Parameter.LONG], p[0, Parameter.RAYO]
+    b1, b2 = (2 * r, 2 * r) if code == DISC else (b, length or 1.0)
+    s = (np.arange(n) + 0.5) / n - 0.5
+    x, y = (a.ravel() for a in np.meshgrid(s * b1, s * b2, indexing="ij"))
+    if code == SPRINGS:
+        return np.array([-0.5, 0.5]) * b, np.zeros(2)
+    inside = x**2 + y**2 < r**2 if code == DISC else np.ones_like(x, bool)
+    return x[inside], y[inside]
+
+
+def openings(w, x, y):
+    """How far footing and bed are apart at places, below 0 where they are pressed together."""
+    return w[1] + w[0] * x if len(w) == 2 else w[2] + w[0] * y - w[1] * x
+
+
 def bed_forces(code, w, p):
     """Forces by a fine grid of springs."""
-    n, b, length, r = 1201, p[0, Parameter.LARG], p[0, Parameter.LONG], p[0, Parameter.RAYO]
-    b1, b2 = (2 * r, 2 * r) if code == DISC else (b, length or 1.0)
-    s1 = (np.arange(n) + 0.5) / n * b1 - b1 / 2
-    s2 = (np.arange(n) + 0.5) / n * b2 - b2 / 2
-    x, y = np.meshgrid(s1, s2, indexing="ij")
-    inside = x**2 + y**2 < r**2 if code == DISC else np.ones_like(x, bool)
-    k = KN / inside.sum()
-    if len(w) == 2:
-        u = k * np.minimum(w[1] + w[0] * x, 0.0) * inside
-        return np.array([(u * x).sum(), u.sum()])
-    u = k * np.minimum(w[2] + w[0] * y - w[1] * x, 0.0) * inside
-    return np.array([(u * y).sum(), -(u * x).sum(), u.sum()])
+    x, y = bed(code, p)
+    u = KN / len(x) * np.minimum(openings(w, x, y), 0.0)
+    levers = (x,) if len(w) == 2 else (y, -x)
+    return np.array([*((u * lever).sum() for lever in levers), u.sum()])
 
 
 CASES = [
@@ -74,9 +84,24 @@ def test_forces_are_those_of_the_bed(code, given, jumps):
         )
 
 
-@pytest.mark.parametrize(
-    ("code", "given", "jumps"), [*CASES, (SPRINGS, {"LARG": 3.0}, CASES[0][2])]
-)
+WITH_SPRINGS = [*CASES, (SPRINGS, {"LARG": 3.0}, [*CASES[0][2], [0.0, 1e-3], [0.0, -1e-3]])]
+
+
+@pytest.mark.parametrize(("code", "given", "jumps"), WITH_SPRINGS)
+def test_what_is_told_of_a_footing_is_that_of_the_bed(code, given, jumps):
+    """Share in contact, largest opening and pressure; turning both ways, pressed and lifted."""
+    p = parameters(**given)
+    x, y = bed(code, p, 601)
+    for w in [s * np.array(w) for w in jumps for s in (1.0, -1.0)]:
+        outline, u = outline_of(LawCode(code), p[0], len(w)), openings(w, x, y)
+        area = {STRIP: 4.0 * given.get("LONG", 1.0), DISC: 4.0 * np.pi, SPRINGS: 2.0}[code]
+        near = {"rel": 5e-3, "abs": 1e-6}
+        assert outline.share(w) == pytest.approx((u < 0.0).mean(), abs=3e-3)
+        assert outline.opening(w) == pytest.approx(max(u.max(), 0.0), **near)
+        assert outline.pressure(w) == pytest.approx(KN / area * max(-u.min(), 0.0), **near)
+
+
+@pytest.mark.parametrize(("code", "given", "jumps"), WITH_SPRINGS)
 def test_tangent_and_energy(code, given, jumps):
     p = parameters(**given)
     for w in np.array(jumps, float):

@@ -65,7 +65,7 @@ def test_quadratic_cells_have_their_middles_in_the_middle(surface: str, cell: st
 @pytest.mark.parametrize("surface", ["QUA4", "TRI3"])
 def test_bricks_and_prisms_split_into_conforming_tetrahedra(surface: str) -> None:
     volume = box(surface)
-    made = Mesh.of(volume.nodes, "TET4", tetrahedra(volume.single_block()))
+    made = Mesh(volume.nodes, (tetrahedra(volume.single_block()),))
     assert (signed_volumes(made.single_block()) > 0).all()
     assert total_measure(made) == pytest.approx(6.0)
     skin = envelope(made)

@@ -10,7 +10,7 @@ from references.soil_block import soil_block
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
-from ssilang.kernel.stepping.rests.reduced.damping import split, square_roots
+from ssilang.kernel.stepping.rests.reduced.damping import States, split, square_roots
 from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
 from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, GROWTH, integrate_reduced
 from ssilang.kernel.stepping.run import integrate
@@ -192,6 +192,24 @@ def test_square_roots_keep_the_sign():
     assert rows.shape == (2, 3)
     assert sorted(sense) == [-1.0, 1.0]
     np.testing.assert_allclose(rows.T @ (sense[:, None] * rows), A, atol=1e-14)
+
+
+def test_states_are_orthonormal_and_hold_all_that_was_added():
+    """Also one nearly along those before it."""
+    random, states, added = np.random.default_rng(4), States(3.0), []
+
+    def whole(u, w):
+        return np.concatenate([np.pad(x, ((0, 7 - len(x)), (0, 0))) for x in (u, w)])
+
+    near = np.pad(first := random.normal(size=(4, 2)), ((0, 1), (0, 0)))
+    near = near + 1e-7 * random.normal(size=near.shape)
+    for u, old in ((first, None), (near, 1e-7 * first), (random.normal(size=(7, 2)), near)):
+        states.add(u, old)
+        added.append(whole(u, u) - (0.0 if old is None else whole(0.0 * old, old / 3.0)))
+    Q = np.hstack([whole(*block) for block in states.blocks])
+    np.testing.assert_allclose(Q.T @ Q, np.eye(6), atol=1e-13)
+    A = np.hstack(added)
+    np.testing.assert_allclose(Q @ (Q.T @ A), A, atol=1e-12)
 
 
 def test_dashpots_are_eliminated_from_the_interface():
