@@ -25,8 +25,8 @@ from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.cells import many_noded
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
-OF_LINES, OF_PROJECTILE = many_noded("MULT", 4), many_noded("MULT", 3)
-"""Cells of possible links."""
+OF_LINES, OF_PROJECTILE = "MULT4", "MULT3"
+"""Cells of possible links, whose types are made with the first of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,17 +82,18 @@ def possible_links(master: Mesh, slave: Mesh) -> Mesh:
     """
     line, table = side_of(master, 2), master.nodes
     if all(b.cell_type == "POI1" for b in slave.blocks):
-        links, kind = _pairs(slave.node_ids[:, None], np.unique(line.cells)), OF_PROJECTILE
+        links = _pairs(slave.node_ids[:, None], np.unique(line.cells))
         unlike = links
     else:
         other = side_of(slave, 2)
         if (line.normals @ other.normals.T > FACING).all():
             raise MeshError("kernel.contact.lines-do-not-face")
-        links, kind = _pairs(line.cells, np.unique(other.cells)), OF_LINES
+        links = _pairs(line.cells, np.unique(other.cells))
         unlike = links[:, -1:]
     _, first, place = np.unique(unlike, axis=0, return_index=True, return_inverse=True)
     multipliers = table.add(table.coordinates[links[first, -1]])
-    return Mesh.of(table, kind, np.column_stack([multipliers[place.ravel()], links]))
+    cells = np.column_stack([multipliers[place.ravel()], links])
+    return Mesh.of(table, many_noded("MULT", cells.shape[1]), cells)
 
 
 def _pairs(cells: IntArray, nodes: IntArray) -> IntArray:
