@@ -161,14 +161,8 @@ def _phrase(code: str, tokens: Sequence[tuple[str, int, int]], end: int, closed:
 
 def _alike(text: str, other: str) -> int:
     """How many letters two texts begin with alike."""
-    low, high = 0, min(len(text), len(other))
-    while low < high:
-        middle = (low + high + 1) // 2
-        if text[low:middle] == other[low:middle]:
-            low = middle
-        else:
-            high = middle - 1
-    return low
+    most = min(len(text), len(other))
+    return bisect_right(range(most), False, key=lambda i: text[: i + 1] != other[: i + 1])
 
 
 def _heading(cut: Cut) -> Iterator[Name]:

@@ -17,7 +17,7 @@ from ssilang.io.errors import InputError
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import find_cell_type
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
@@ -225,7 +225,7 @@ _RULES: dict[Any, Callable[[object, tuple[Any, ...]], bool]] = {
 
 
 def _cell_block(values: Mapping[str, Any]) -> str:
-    kind, raw = CELL_TYPES.get(values["cell_type"]), values["raw"]
+    kind, raw = find_cell_type(values["cell_type"]), values["raw"]
     if kind is None:
         return "cell_type"
     if raw.ndim != 2 or raw.shape[1] != kind.n_nodes:

@@ -6,6 +6,7 @@ corners first as VTK does; `ssilang.io` converts.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 
@@ -230,3 +231,10 @@ def many_noded(family: str, n_nodes: int) -> str:
     name = f"{family}{n_nodes}"
     CELL_TYPES.setdefault(name, CellType(name, 0, n_nodes, 1, tuple(range(n_nodes))))
     return name
+
+
+def find_cell_type(name: str) -> CellType | None:
+    """The type of a name, those of many nodes that are not made yet included; None if none is."""
+    if (match := re.fullmatch("(SUPE|MULT|SURE)([1-9][0-9]{0,5})", name)) is not None:
+        many_noded(match[1], int(match[2]))
+    return CELL_TYPES.get(name)

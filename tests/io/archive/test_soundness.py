@@ -8,6 +8,7 @@ from ssilang.kernel.curves.curve import CurvePart
 from ssilang.kernel.fields.cell_field import CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Relations
+from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -33,7 +34,8 @@ SOUND = {
 DAMAGED = [
     (NodeValues, "nodes", np.array([2, 0, 3])), (NodeValues, "nodes", np.array([0, 2, 2])),
     (NodeValues, "nodes", np.array([[0, 2, 3]])), (NodeValues, "values", np.ones(2)),
-    (CellBlock, "cell_type", "TRI9"), (CellBlock, "raw", np.array([[0, 1], [1, 2]])),
+    (CellBlock, "cell_type", "TRI9"), (CellBlock, "cell_type", "SUPE3333333333"),
+    (CellBlock, "cell_type", "TRI333"), (CellBlock, "raw", np.array([[0, 1], [1, 2]])),
     (CellBlock, "colours", np.zeros(1, int)), (CellBlock, "colours", np.array([0, -1])),
     (CellBlock, "colours", np.array([0, 10**6])),
     (CellFieldBlock, "components", {"V": np.ones((2, 1)), "A": np.ones((3, 1))}),
@@ -51,6 +53,15 @@ DAMAGED = [
     (Relations, "raw_nodes", np.array([3, 0])), (Relations, "coefficients", np.ones(2)),
     (Relations, "sense", np.zeros(3, np.int8)),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["SUPE41", "MULT42", "SURE43"])
+def test_a_cell_of_many_nodes_is_taken_that_this_process_has_not_made(name: str) -> None:
+    assert name not in CELL_TYPES
+    raw = np.arange(int(name[4:]))[None, :]
+    cells = {"nodes": TABLE, "cell_type": name, "raw": raw, "colours": np.zeros(1, int)}
+    assert flaw_of(CellBlock, cells) == ""
+    assert flaw_of(CellBlock, {**cells, "raw": raw[:, 1:]}) == "raw"
 
 
 @pytest.mark.parametrize("cls", SOUND)
