@@ -112,6 +112,7 @@ def test_a_page_is_title_paragraph_and_the_rest_as_it_is():
      ("VIBR", ["SIMULTANE"], "'SIMU")],
 )  # fmt: skip
 def test_the_line_of_the_syntax_is_that_of_the_words_typed(operator, typed, line):
+    load_operators()
     lines, best = signatures(find_operator(operator), typed)
     shown = find_operator(operator).help.syntax
     assert "\n".join(lines) == "\n".join(x.strip() for x in shown.split("\n") if x.strip())
