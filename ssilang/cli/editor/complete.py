@@ -177,7 +177,7 @@ def _files(place: Place, document: Document) -> Iterator[_Found]:
 
 
 def _names(document: Document, offset: int) -> Iterator[_Found]:
-    for name, first in document.names.visible(document.scope_at(offset)).items():
+    for name, first in document.names.visible(document.names.scope_at(offset)).items():
         line = document.source.position(first.start)[0]
         yield name, "name", name, f"{first.kind} ({line})"
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ssilang.cli.editor.names import Names
-from ssilang.cli.editor.tokens import BEGINS, CLOSES, OPENS, Phrase, Token, phrases_of
+from ssilang.cli.editor.tokens import CLOSES, OPENS, Phrase, Token, phrases_of
 from ssilang.language.registry import Operator, find_operator, keywords_of
 from ssilang.language.text.source import Source
 from ssilang.language.vocabulary import words_of
@@ -127,19 +127,6 @@ class Document:
         found = None if defined else find_operator(token.name)
         named = found is not None and (token.kind == "WORD" or len(token.name) > 1)
         return (found, "") if named and found is not None and token.name[0].isalpha() else owner
-
-    def scope_at(self, offset: int) -> int:
-        """Which procedure of the script an offset stands in, 0 if none."""
-        scope = count = 0
-        for phrase in self.phrases:
-            if phrase.start > offset:
-                break
-            word = phrase.cut.first_word
-            if word in BEGINS:
-                scope = count = count + 1
-            elif word in BEGINS.values() and phrase.end <= offset:
-                scope = 0
-        return scope
 
 
 def knows(operator: Operator, word: str) -> bool:

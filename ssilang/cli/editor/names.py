@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -54,13 +55,25 @@ class Names:
 
     def at(self, offset: int) -> Occurrence | None:
         """The name under the cursor."""
-        for phrase, scope in self._scopes:
-            if phrase.end < offset or phrase.start > offset:
-                continue
-            for name in phrase.cut.names:
-                if name.start <= offset - phrase.start <= name.end and name.name in self.defined:
-                    return _occurrence(name, scope, phrase)
+        if (standing := self._standing(offset)) is None:
+            return None
+        phrase, scope = standing
+        for name in phrase.cut.names:
+            if name.start <= offset - phrase.start <= name.end and name.name in self.defined:
+                return _occurrence(name, scope, phrase)
         return None
+
+    def scope_at(self, offset: int) -> int:
+        """Which procedure of the script an offset stands in, 0 if none."""
+        if (standing := self._standing(offset)) is None:
+            return 0
+        phrase, scope = standing
+        return 0 if phrase.cut.first_word in BEGINS.values() and phrase.end <= offset else scope
+
+    def _standing(self, offset: int) -> tuple[Phrase, int] | None:
+        """The last statement that begins at an offset or before it, and its procedure."""
+        i = bisect_right(self._scopes, offset, key=lambda place: place[0].start)
+        return self._scopes[i - 1] if i else None
 
     def alike(self, of: Occurrence) -> list[Occurrence]:
         """All occurrences of what a name means: of a procedure's own name within it only."""

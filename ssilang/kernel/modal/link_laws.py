@@ -97,42 +97,49 @@ def strength(
 
 
 @compiled
+def _flow(k: float, x: float, row: FloatArray, law: FloatArray, size: int, s: FloatArray) -> float:
+    """Force of a spring k at an overlap x, none where it has parted (k = 0), once it has flowed."""
+    force = k * (x - s[XP])
+    for _ in range(2 * size + 2):  # each pass leaves one line of the law, down and up again
+        if row[KINEMATIC] != 0.0:
+            p = abs(s[XP])
+            sign = np.sign(s[XP]) if p > 1e-12 * law[1, 0] else np.sign(force)
+            now, slope, begin, end = strength(p, law, size, True)
+            back = sign * (now - law[1, 1])
+            pushing = np.sign(force - back)
+            over = abs(force - back) - law[1, 1]
+            room = end - p
+            if pushing * sign < 0.0:
+                now, slope, begin, end = strength(p, law, size, False)
+                room = p - begin
+        else:
+            now, slope, begin, end = strength(s[CUMULATED], law, size, True)
+            pushing = np.sign(force)
+            over = abs(force) - now
+            room = end - s[CUMULATED]
+        if over <= 1e-12 * law[1, 1]:
+            break
+        flow = min(over / (k + slope + 1e-300), room)
+        s[XP] += pushing * flow
+        s[CUMULATED] += flow
+        force = k * (x - s[XP])
+    return float(force)
+
+
+@compiled
 def plastic_force(x: float, row: FloatArray, law: FloatArray, size: int, s: FloatArray) -> float:
     """Force of an elastic-plastic spring at an overlap x; its plastic part moves in `s`.
 
     Where it may not pull it parts once its force has gone, flowing until then.
     """
     k = (law[1, 1] - law[0, 1]) / (law[1, 0] - law[0, 0])
-    start, total, force = s[XP], s[CUMULATED], 0.0
-    for parts in (False, True):
-        s[XP], s[CUMULATED] = start, total
-        force = 0.0 if parts else k * (x - start)
-        for _ in range(2 * size + 2):  # each pass leaves one line of the law, down and up again
-            if row[KINEMATIC] != 0.0:
-                p = abs(s[XP])
-                sign = np.sign(s[XP]) if p > 1e-12 * law[1, 0] else np.sign(force)
-                now, slope, begin, end = strength(p, law, size, True)
-                back = sign * (now - law[1, 1])
-                pushing = np.sign(force - back)
-                over = abs(force - back) - law[1, 1]
-                room = end - p
-                if pushing * sign < 0.0:
-                    now, slope, begin, end = strength(p, law, size, False)
-                    room = p - begin
-            else:
-                now, slope, begin, end = strength(s[CUMULATED], law, size, True)
-                pushing = np.sign(force)
-                over = abs(force) - now
-                room = end - s[CUMULATED]
-            if over <= 1e-12 * law[1, 1]:
-                break
-            flow = min(over / ((0.0 if parts else k) + slope + 1e-300), room)
-            s[XP] += pushing * flow
-            s[CUMULATED] += flow
-            force = 0.0 if parts else k * (x - s[XP])
-        if force > 0.0 or row[PERMANENT] != 0.0:
-            break
-    return float(force)
+    start, total = s[XP], s[CUMULATED]
+    force = _flow(k, x, row, law, size, s)
+    if force > 0.0 or row[PERMANENT] != 0.0:
+        return float(force)
+    s[XP], s[CUMULATED] = start, total
+    _flow(0.0, x, row, law, size, s)
+    return 0.0
 
 
 @compiled

@@ -8,6 +8,7 @@ from ssilang.kernel.contact import touching
 from ssilang.kernel.matrices.relations import in_space
 from ssilang.language.values import ANNULE, Annule
 from ssilang.language.vocabulary.terms import Range
+from ssilang.operators.matrices.relations import length_of
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *
 
@@ -72,8 +73,6 @@ def _nose(call: Call, nose: Chosen | None, axis: Point | None) -> touching.Nose 
     if nose is None or axis is None:
         return None
     vector = axis.coordinates[:2]
-    length = float(np.linalg.norm(vector))
-    if length == 0.0:
-        raise call.error("operators.matrices.direction-without-length", axis)
+    unit = vector / length_of(call, axis, vector)
     angle = np.radians(nose["angle"]) if nose.word == "CONE" else 0.0
-    return touching.Nose(nose.word, vector / length, nose["size"], float(angle))
+    return touching.Nose(nose.word, unit, nose["size"], float(angle))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.relations import Term
@@ -63,9 +64,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
         return [[Term(term.factor, name, nodes)] for name in names]
     whole = term.direction.coordinates
     vector = whole[2:] if len(names) == 1 else whole[: len(names)]
-    length = float((vector @ vector) ** 0.5)
-    if length == 0.0:
-        raise call.error("operators.matrices.direction-without-length", term.direction)
+    length = length_of(call, term.direction, vector)
     return [
         [
             Term(term.factor * float(v) / length, name, nodes)
@@ -73,6 +72,14 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
             if v != 0.0
         ]
     ]
+
+
+def length_of(call: Call, direction: Point, vector: FloatArray) -> float:
+    """Length of the part of a direction that counts; it must have one."""
+    length = float((vector @ vector) ** 0.5)
+    if length == 0.0:
+        raise call.error("operators.matrices.direction-without-length", direction)
+    return length
 
 
 def _read_terms(call: Call) -> list[_Sum]:

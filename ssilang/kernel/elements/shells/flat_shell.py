@@ -61,9 +61,12 @@ class FlatShell(ShellFamily):
 
     @abstractmethod
     def bending(
-        self, zone: Zone, parameters: ZoneField, cells: slice, points: FloatArray
+        self, zone: Zone, parameters: ZoneField, cells: slice, local: FloatArray, points: FloatArray
     ) -> FloatArray:
-        """Curvatures, then shears (n, 3 or 5, p, 3 k) from w, RX, RY at the nodes (own frame)."""
+        """Curvatures, then shears (n, 3 or 5, p, 3 k) from w, RX, RY at the nodes.
+
+        `local` (n, k, 2) are the nodes of these cells in their own frames.
+        """
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -73,7 +76,7 @@ class FlatShell(ShellFamily):
         frames, local = flat_frames(zone, cells)
         slopes, weights = surface_slopes(zone, local, rule)
         n, p, _, k = slopes.shape
-        bent = self.bending(zone, parameters, cells, rule.points)
+        bent = self.bending(zone, parameters, cells, local, rule.points)
         B = np.zeros((n, 3 + bent.shape[1], p, k, 6))
         B[:, 0, ..., 0] = B[:, 2, ..., 1] = slopes[:, :, 0]
         B[:, 1, ..., 1] = B[:, 2, ..., 0] = slopes[:, :, 1]

@@ -15,7 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.family import per_cell
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
-from ssilang.kernel.elements.shells.flat_shell import FlatShell, flat_frames
+from ssilang.kernel.elements.shells.flat_shell import FlatShell
 from ssilang.kernel.elements.shells.plate import curvatures_of, kirchhoff_rotations
 from ssilang.kernel.elements.shells.shell_section import section_moduli, transverse_moduli
 from ssilang.kernel.elements.solids.solid_moduli import moduli_from_field
@@ -100,10 +100,9 @@ class Mindlin(FlatShell):
         return D
 
     def bending(
-        self, zone: Zone, parameters: ZoneField, cells: slice, points: FloatArray
+        self, zone: Zone, parameters: ZoneField, cells: slice, local: FloatArray, points: FloatArray
     ) -> FloatArray:
         """Curvatures and shears; those of DST by its moduli, the mean of each cell."""
-        local = flat_frames(zone, cells)[1]
         if zone.element == "COQ4":
             return _assumed_shear(local, points)
         given = moduli_from_field(zone, parameters, "RIGIDITE")

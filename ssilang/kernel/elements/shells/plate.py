@@ -12,7 +12,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.elements.shells.flat_shell import FlatShell, flat_frames
+from ssilang.kernel.elements.shells.flat_shell import FlatShell
 from ssilang.kernel.elements.shells.shell_section import section_moduli
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
@@ -124,7 +124,7 @@ class Plate(FlatShell):
         return section_moduli(zone, parameters, support)
 
     def bending(
-        self, zone: Zone, parameters: ZoneField, cells: slice, points: FloatArray
+        self, zone: Zone, parameters: ZoneField, cells: slice, local: FloatArray, points: FloatArray
     ) -> FloatArray:
         """Curvatures, linear in the cell."""
-        return _CURVATURES[zone.element](flat_frames(zone, cells)[1], points)
+        return _CURVATURES[zone.element](local, points)

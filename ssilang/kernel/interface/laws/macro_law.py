@@ -27,6 +27,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.copies import clear, copy_state
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
+from ssilang.kernel.interface.laws.elastic_law import elastic_energy
 from ssilang.kernel.interface.laws.law import Law, columns_of, refuse
 from ssilang.kernel.interface.laws.places import pressed_at_places
 
@@ -203,9 +204,7 @@ def macro_energy(
     code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray
 ) -> float:
     """Stored energy of a macro-element, without what its ground takes."""
-    half: float = 0.0
-    for i in range(w.shape[0]):
-        half += 0.5 * w[i] * t[i]
+    half: float = elastic_energy(code, w, t, state, p)
     return half if p[Par.COHE] == 0.0 else _energy_over_places(code, w, p, half)
 
 
