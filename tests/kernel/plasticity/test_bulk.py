@@ -327,8 +327,8 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     np.testing.assert_allclose(energies[:, KINETIC], kinetic, atol=1e-8 * size)
     kept = energies[:, [KINETIC, ELASTIC, STORED, DAMPED, LOST]].sum(axis=1)
     loss, conserving = (work - kept) / size, scheme in ("loads", "newmark")
-    # others lose more, and lend by turns what they weigh of the step before
-    assert loss.min() > (-0.02 if conserving else -0.04)
+    # others lose more, and lend in turns, at any length of step, up to 2.6 % (alpha)
+    assert loss.min() > (-0.02 if conserving else -0.028)
     assert loss.max() < (0.02 if conserving else 0.2)
     assert energies[-1, LOST] > 0.05 * size
     assert (np.diff(energies[:, LOST]) >= -1e-3 * size).all()
