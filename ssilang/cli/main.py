@@ -234,23 +234,17 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
     """Values of `--set`, one each."""
     if not settings:
         return {}
-    from ssilang.cli.sweeping.given import GivenError, parse_setting
-    from ssilang.language.say.diagnostics import render
+    from ssilang.cli.sweeping.given import GivenError, axes_of
     from ssilang.language.say.errors import SsiError
 
-    given: dict[str, object] = {}
-    for text in settings:
-        try:
-            name, values = parse_setting(text)
-        except GivenError as problem:
-            sys.stderr.write(render(SsiError.of(problem, None), language) + "\n")
-            raise SystemExit(USAGE) from None
-        if len(values) != 1:
-            several = SsiError("cli.several-values", None, text=text, name=name)
-            sys.stderr.write(render(several, language) + "\n")
-            raise SystemExit(USAGE)
-        given[name] = values[0]
-    return given
+    try:
+        axes = axes_of(settings)
+        if several := [name for name, values in axes.items() if len(values) > 1]:
+            raise GivenError("cli.several-values", name=several[0])
+    except GivenError as problem:
+        _told(SsiError.of(problem, None), language)
+        raise SystemExit(USAGE) from None
+    return {name: values[0] for name, values in axes.items()}
 
 
 def _report(options: argparse.Namespace) -> int:

@@ -529,9 +529,13 @@ def test_run_takes_one_value_of_a_name(deck, tmp_path, capsys):
     assert main([str(deck), "--set", "AG=0.9", "--out", str(tmp_path / "o")]) == 1
     assert "too strong" in capsys.readouterr().err
     assert main([str(deck), "--set", "AG=0.4", "--out", str(tmp_path / "o")]) == 0
-    with pytest.raises(SystemExit) as stopped:
-        main([str(deck), "--set", "AG=1,2"])
-    assert stopped.value.code == 2
+    for settings, said in (
+        (["AG=1,2"], "AG gets several"),
+        (["AG=1", "--set", "ag=2"], "AG is set twice"),
+    ):
+        with pytest.raises(SystemExit) as stopped:
+            main([str(deck), "--set", *settings])
+        assert (stopped.value.code, said in capsys.readouterr().err) == (2, True)
 
 
 @pytest.mark.parametrize("problem", [PermissionError(13, "closed"), ImportError("no sem_open")])

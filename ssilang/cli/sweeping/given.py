@@ -127,6 +127,27 @@ def _shown(value: Value) -> str:
     return str(value)
 
 
+def axes_of(settings: Sequence[str]) -> dict[str, list[Value]]:
+    """The values that each name gets.
+
+    Raises
+    ------
+    GivenError
+        For a setting that cannot be read or is given twice.
+    """
+    axes: dict[str, list[Value]] = {}
+    for text in settings:
+        name, values = parse_setting(text)
+        if name in axes:
+            raise GivenError("cli.set-twice", name=name)
+        if again := [
+            str(v) for (_, v), n in Counter((type(v), v) for v in values).items() if n > 1
+        ]:
+            raise GivenError("cli.value-twice", name=name, values=again)
+        axes[name] = values
+    return axes
+
+
 def cases_of(
     settings: Sequence[str], motions: Path | None, left: list[Path] | None = None
 ) -> list[Case]:
@@ -140,18 +161,11 @@ def cases_of(
     Raises
     ------
     GivenError
-        For a setting that cannot be read or is given twice, a folder without files.
+        As `axes_of`; for a motion that is set beside a folder, a folder without files.
     """
-    axes: dict[str, list[Value]] = {}
-    for text in settings:
-        name, values = parse_setting(text)
-        if name in axes or (name == MOTION and motions is not None):
-            raise GivenError("cli.set-twice", name=name)
-        if again := [
-            str(v) for (_, v), n in Counter((type(v), v) for v in values).items() if n > 1
-        ]:
-            raise GivenError("cli.value-twice", name=name, values=again)
-        axes[name] = values
+    axes = axes_of(settings)
+    if motions is not None and MOTION in axes:
+        raise GivenError("cli.set-twice", name=MOTION)
     if motions is not None:
         axes[MOTION] = [*motions_in(motions, [] if left is None else left)]
     return combined(axes)
