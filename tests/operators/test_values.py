@@ -6,6 +6,7 @@ coordinates of where a value stands. Curves are two, of other lengths, and go ba
 
 import io
 import math
+import re
 import tomllib
 from pathlib import Path
 
@@ -304,3 +305,18 @@ def test_objects_are_listed_as_they_are(group, tmp_path):
         begin = output.tell()
         execute(session, Source("statement", f"LIST {phrase} ;"))
         script_runs.assert_says(output.getvalue()[begin:], wanted)
+
+
+def test_a_long_list_loses_its_middle_alone(tmp_path):
+    output = io.StringIO()
+    text = "N = PROG 1. 'PAS' 1. {} ; LIST (EVOL 'MANU' N (2. * N)) ;"
+    session_after(text.format("200."), tmp_path, output)
+    _, *kept, last = output.getvalue().split("ordinate")[1].splitlines()
+    assert (len(kept), last.split()) == (199, ["2.00000E+02", "4.00000E+02"])
+    output = io.StringIO()
+    session_after(text.format("205."), tmp_path, output)
+    rows = output.getvalue().split("ordinate")[1].splitlines()[1:]
+    told = re.search(r"\d+", rows.pop(100))
+    assert told is not None
+    assert int(told.group()) == 5
+    assert [float(r.split()[0]) for r in rows] == [*range(1, 101), *range(106, 206)]

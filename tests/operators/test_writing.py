@@ -108,6 +108,30 @@ def test_fields_written_for_avs_are_read_again(tmp_path: Path) -> None:
     assert (found.find("A"), found.find("N")) == (1.25, 8)
 
 
+def test_values_of_avs_are_those_of_their_cells_where_kinds_alternate(tmp_path: Path) -> None:
+    points = [(1, 0, 0), (2, 1, 0), (3, 2, 0), (4, 0, 1), (5, 1, 1), (6, 2, 1)]
+    lines = [
+        "6 4 0 2 0", *(f"{n} {x} {y} 0" for n, x, y in points),
+        "10 1 tri 1 2 4", "4 1 quad 2 3 6 5", "7 1 tri 2 5 4", "2 1 quad 1 2 5 4",
+        "2 1 1", "HEAT, -", "COLD, -", "10 1.5 -1", "4 2.5 -2", "7 3.5 -3", "2 4.5 -4",
+    ]  # fmt: skip
+    (tmp_path / "m.inp").write_text("\n".join(lines) + "\n")
+    text = "OPTI LECT 'm.inp' ; T = LIRE 'AVS' ; G = T . 'LEMCHAML' ; M = T . 'LEMAILLA' ;"
+    root = run(text, tmp_path).session.root
+    seen = {
+        (block.cells.cell_type, name): values.ravel().tolist()
+        for block in root.find("G").blocks
+        for name, values in block.components.items()
+    }
+    assert seen == {
+        ("TRI3", "HEAT"): [1.5, 3.5], ("TRI3", "COLD"): [-1.0, -3.0],
+        ("QUA4", "HEAT"): [2.5, 4.5], ("QUA4", "COLD"): [-2.0, -4.0],
+    }  # fmt: skip
+    assert [b.cell_type for b in root.find("M").blocks] == [
+        b.cells.cell_type for b in root.find("G").blocks
+    ]
+
+
 def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path: Path) -> None:
     from scipy.io import mmread
 

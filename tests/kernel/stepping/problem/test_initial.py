@@ -1,0 +1,46 @@
+"""Accelerations and reactions of the first instant against the conditions that define them."""
+
+import numpy as np
+import pytest
+from references.assembled import Bench
+
+from ssilang.kernel.stepping.problem.initial import closed_at_start, with_contact
+from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
+
+COUNT, ROWS = 5, 4
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_touches_is_pushed_apart_or_opens(seed):
+    """Reactions push, nothing accelerates through, and what opens is not pushed."""
+    rng = np.random.default_rng(seed)
+    bench = Bench()
+    nodes = [bench.node(float(i), 0.0) for i in range(COUNT)]
+    masses, loads = rng.uniform(1.0, 9.0, COUNT), rng.normal(size=COUNT)
+    rows, senses = rng.normal(size=(ROWS, COUNT)), rng.choice([-1, 1], ROWS)
+    rows[rng.random(rows.shape) < 0.4] = 0.0
+    rows[:, 0] += 0.3
+    for mass, node in zip(masses, nodes, strict=True):
+        bench.mass(mass, node, ("UX",))
+        bench.spring(1.0, node, unknown="UX")
+    for row, sense in zip(rows, senses, strict=True):
+        bench.relate([(c, "UX", n) for c, n in zip(row, nodes, strict=True) if c], int(sense))
+    load = bench.load(bench.field(*((n, "FX", f) for n, f in zip(nodes, loads, strict=True))))
+    problem = make_problem(
+        Inputs(bench.stiffness, np.array([0.0, 0.1]), bench.mass_matrix, load=load)
+    )
+    at = [problem.numbering.index_of(n, "UX") for n in nodes]
+    free = np.zeros(len(problem.u))
+    free[at] = loads / masses
+    touching = closed_at_start(problem)
+    a, pushing = with_contact(problem, problem.v, free, touching)
+    signed = senses[:, None] * rows
+    opens = signed @ a[at]
+    assert touching.all()
+    assert (pushing > 1e-9).any() == (signed @ free[at] < 0.0).any()
+    assert pushing.min() >= 0.0
+    assert opens.min() > -1e-9
+    np.testing.assert_allclose(pushing * opens, 0.0, atol=1e-9)
+    np.testing.assert_allclose(masses * a[at] - loads, signed.T @ pushing, atol=1e-9)
+    still, none = with_contact(problem, problem.v, free, ~touching)
+    assert (still is free, none.tolist()) == (True, [0.0] * ROWS)
