@@ -93,6 +93,22 @@ def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage: Stage) -> None
     assert list(above.shows(middle, near, bounds)) == [False, True, True]
 
 
+def test_a_stage_that_was_closed_opens_again_and_looks_for_depths_on_demand(stage: Stage) -> None:
+    red, made = (1.0, 0, 0, 1), []
+    for deep in (True, False):
+        painter = Painter(view_along(np.array([0.0, 0, 1])))
+        painter.add(_LINES[None] + (0, 0, 0.25), red, red, 0, 1, "")
+        with drawing(2, 2) as figure:
+            axes, bounds = figure.add_axes((0, 0, 1, 1)), np.array([[-1.0, -1], [2, 2]])
+            made.append(painter.photograph(axes, stage, bounds, deep))
+        stage.close()
+    assert np.array_equal(made[0].image, made[1].image)
+    assert (made[0].depth.shape, made[1].depth.shape) == (made[0].image.shape[:2], (1, 1))
+    assert made[0].depth.min() < made[0].depth.max() == 1.0
+    at_0, at_1 = made[0].reach
+    assert at_0 + float(made[0].depth.min()) * (at_1 - at_0) == pytest.approx(0.25, abs=1e-4)
+
+
 def test_the_faces_of_a_cube_have_a_shade_each(stage: Stage) -> None:
     layer = Layer(cube(), colour=index_of("ROUG"), edges=False)
 
