@@ -25,7 +25,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.constraints import split_damping
 
 ROUNDING = 1e-15  # of the largest eigenvalue of C': a direction without dashpot
-DEPENDENT = 1e-20  # squared length, of one, below which what is left of a state is rounding
+DEPENDENT = 1e-10  # length, of one, below which what is left of a state is rounding
 ASYMMETRIC = 1e-10  # of the largest term
 
 
@@ -121,8 +121,5 @@ class States:
 
 
 def _whitened(x: FloatArray) -> FloatArray:
-    gram = np.einsum("hrb,hrc->bc", x, x)
-    values, vectors = np.linalg.eigh(0.5 * (gram + gram.T))
-    kept = values > DEPENDENT
-    found: FloatArray = (x @ vectors[:, kept]) / np.sqrt(values[kept])
-    return found
+    found, lengths, _ = np.linalg.svd(np.concatenate(x), full_matrices=False)
+    return np.stack(np.split(found[:, lengths > DEPENDENT], 2))

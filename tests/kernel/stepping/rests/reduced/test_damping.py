@@ -212,6 +212,18 @@ def test_states_are_orthonormal_and_hold_all_that_was_added():
     np.testing.assert_allclose(Q @ (Q.T @ A), A, atol=1e-12)
 
 
+@pytest.mark.parametrize("seed", [0, 2, 5])
+def test_states_that_hang_together_count_once(seed):
+    """Squared lengths would have told 1e-8 alone from rounding."""
+    random, states = np.random.default_rng(seed), States(2.0)
+    u = random.normal(size=(30, 4))
+    states.add(np.hstack([u, u @ random.normal(size=(4, 3))]), None)
+    Q = np.concatenate(states.last)
+    np.testing.assert_allclose(Q.T @ Q, np.eye(4), atol=1e-13)
+    states.add(u @ random.normal(size=(4, 2)), None)
+    assert states.last.shape == (2, 30, 0)
+
+
 def test_dashpots_are_eliminated_from_the_interface():
     random = np.random.default_rng(2)
     r, q, d, dt = 7, 2, 3, 0.01
