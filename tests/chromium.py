@@ -24,6 +24,13 @@ _OPTIONS = (
 )  # fmt: skip
 
 
+_LEFT = "navigated or closed"
+
+
+class _LeftError(Exception):
+    """The page that was asked is being left for another."""
+
+
 class Chromium:
     """A browser with one page.
 
@@ -75,6 +82,8 @@ class Chromium:
         while True:
             found = self._message()
             if found.get("id") == number:
+                if _LEFT in str(found.get("error")):
+                    raise _LeftError(found)
                 assert "error" not in found, found
                 return found["result"]
             self._event(found)
@@ -99,11 +108,13 @@ class Chromium:
         return found["result"].get("value")
 
     def until(self, script: str, seconds: float = 60.0) -> None:
-        """Wait for an expression to hold."""
-        end = time.monotonic() + seconds
-        while not self.run(script):
+        """Wait for an expression to hold, on the page that a link leads to as well."""
+        end, held = time.monotonic() + seconds, False
+        while not held:
             assert time.monotonic() < end, (script, self.console)
-            time.sleep(0.05)
+            with contextlib.suppress(_LeftError):
+                held = bool(self.run(script))
+            time.sleep(0.0 if held else 0.05)
 
     def picture(self, selector: str = "", whole: bool = False) -> npt.NDArray[np.uint8]:
         """Pixels (rows, columns, 3) of the window, of an element, or of the whole page."""
