@@ -143,7 +143,7 @@ def of_objects(sign: str, a: Any, b: Any, objects: ObjectRule) -> Values:
 
 
 def _pair_key(item: object) -> object:
-    return item if isinstance(item, float) else id(item)
+    return item if isinstance(item, float | np.generic) else id(item)
 
 
 def united(a: CellField, b: CellField) -> CellField:

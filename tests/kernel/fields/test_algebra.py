@@ -347,7 +347,10 @@ def test_parts_and_unions_of_cell_fields(zones):
     assert with_numbers.blocks[0].components["O"].ravel().tolist() == ["p/2.0", "q/3.0", "p/5.0"]
     joined = cells.added(held, held, -1.0, lambda sign, p, q: p + sign + q)
     assert joined.blocks[0].components["O"].ravel().tolist() == ["p-p", "q-q", "p-p"]
-    rule = lambda sign, p, q: f"{p}{sign}{q}"  # noqa: E731
-    assert cells.of_objects("*", np.array([["p"], ["q"]], object), np.array([[2.0, 3.0]]), rule
-                            ).tolist() == [["p*2.0", "p*3.0"], ["q*2.0", "q*3.0"]]  # fmt: skip
+    for kind in (float, int, np.float32, bool):
+        y, taken = np.array([[2, 0, 2]], kind), []
+        rule = lambda sign, p, q: f"{p}{sign}{taken.append(q) or q}"  # noqa: B023, E731
+        found = cells.of_objects("*", np.array([["p"], ["q"]], object), y, rule)
+        assert found.tolist() == [[f"{p}*{q}" for q in y[0]] for p in "pq"]
+        assert len(taken) == 4
     assert cells.united(held, held).blocks[0].components["O"].shape == (3, 1)
