@@ -1,6 +1,7 @@
 """Multigrid gives the answers of the direct solvers, where memory holds no factor or if asked."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -20,7 +21,16 @@ from ssilang.kernel.solvers import backends
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.factor import Ordering
+from ssilang.kernel.solvers.multigrid.hierarchy import (
+    Level, _polynomial, aggregates_of, tentative,
+)  # fmt: skip
 from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
+from ssilang.kernel.solvers.multigrid.products import (
+    Backwards, galerkin, product, restricted, smoothed,
+)  # fmt: skip
+from ssilang.kernel.solvers.multigrid.rows import (
+    Diagonal, diagonal_of, divided, grouped, relaxed, rest_of,
+)  # fmt: skip
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 
@@ -191,6 +201,62 @@ def test_a_size_and_a_shape_that_multigrid_finds_hard_are_factorised(monkeypatch
     assert factorise(K, True, ordering=once).name == backends.DISSECTION
 
 
+def dense(rows, columns):
+    """The whole matrix of rows by groups."""
+    found = np.zeros((rows.first[-1], columns))
+    for g, (low, high) in enumerate(pairwise(rows.first)):
+        own = rows.columns[rows.ptr[g] : rows.ptr[g + 1]]
+        assert len(np.unique(own)) == len(own)
+        found[low:high, own] = rows.values[rows.at[g] : rows.at[g + 1]].reshape(-1, len(own))
+    return found
+
+
+@pytest.mark.parametrize(("kind", "threads"), [(float, 3), (np.float32, 1)])
+def test_rows_of_uneven_groups_act_as_their_dense_matrices(kind, threads, monkeypatch):
+    monkeypatch.setattr("ssilang.kernel.base.threads.thread_count", lambda: threads)
+    monkeypatch.setattr("ssilang.kernel.base.threads.LEAST", 1)
+    rng, k, count = np.random.default_rng(3), 2, 4
+    first = np.array([0, 1, 4, 6, 9, 10, 12, 15])
+    group = np.repeat(np.arange(7), np.diff(first))
+    A = np.where(rng.random((15, 15)) < 0.4, rng.standard_normal((15, 15)), 0) + 4 * np.eye(15)
+    A[7], A[:, 7] = 0.0, 0.0  # without stiffness
+    D = np.where(group[:, None] == group, A, 0.0) + np.diag(np.arange(15) == 7)
+    D = np.linalg.inv(D) - np.diag(np.arange(15) == 7)
+    met = np.repeat(rng.random((7, count)) < 0.5, k, axis=1)[group]
+    start, wide = (np.where(met, rng.standard_normal(met.shape), 0.0) for _ in range(2))
+    rows, P, Q = (grouped(sp.csr_array(x), first, kind) for x in (A, start, wide))
+    own = diagonal_of(rows)
+    x, b, d = rng.standard_normal((3, 15)).astype(kind)
+    moved = 0.3 * d + 0.7 * D @ (b - A @ x)
+    smooth = smoothed(rows, own, P, k, count, 0.4)
+    back = Backwards(Q, k, count)
+    pairs = [
+        (dense(rows, 15), A), (rest_of(rows, x, b), b - A @ x),
+        (relaxed(rows, own, x, b, d, 0.3, 0.7), x + moved), (d, moved),
+        (divided(rows, own, b, 3.0), 3.0 * D @ b),
+        (dense(smooth, k * count), start - 0.4 * D @ A @ start),
+        (dense(product(rows, P, k, count), k * count), A @ start),
+        (dense(galerkin(Q, back, smooth, k), k * count), wide.T @ dense(smooth, k * count)),
+        (restricted(Q, back, b, k), wide.T @ b),
+    ]  # fmt: skip
+    for found, wanted in pairs:
+        np.testing.assert_allclose(found, wanted, atol=100 * np.finfo(kind).eps)
+
+
+def test_a_level_is_smoothed_by_chebyshevs_polynomials_of_the_fourth_kind():
+    own, largest = np.array([0.1, 0.7, 1.3, 2.4, 2.9]), 3.0
+    A = grouped(sp.csr_array(np.diag(own)), np.arange(6), float)
+    level = Level(A, Diagonal(np.ones(5), np.arange(6)), largest)
+    angle = np.arccos(1.0 - 2.0 * own / largest)
+    x, wanted = np.array([[3.0, -1.0, 2.0, 5.0, 4.0], [1.0, 2.0, 3.0, 4.0, -2.0]])
+    for degree in (1, 2, 3):
+        left = np.sin((degree + 0.5) * angle) / np.sin(angle / 2) / (2 * degree + 1)
+        for begun in (None, x):
+            found = _polynomial(level, begun, own * wanted, degree)
+            before = wanted - (0.0 if begun is None else begun)
+            np.testing.assert_allclose(wanted - found, left * before, atol=1e-13)
+
+
 def test_unknowns_of_one_node_go_together():
     K, order = bar(6)
     turned = MultigridFactor(K, True, order.rigid, order.nodes)
@@ -201,3 +267,8 @@ def test_unknowns_of_one_node_go_together():
     for found in (turned, apart):
         np.testing.assert_allclose(found.solve(b), x, atol=1e-9 * np.abs(x).max())
     assert turned.turns <= apart.turns
+    A = turned.hierarchy.levels[0].A
+    start, motions = tentative(A, *aggregates_of(A), order.rigid)
+    whole = dense(start, len(motions))
+    np.testing.assert_allclose(whole @ motions, order.rigid, atol=1e-5)
+    np.testing.assert_allclose(whole.T @ whole, np.diag(motions.any(axis=1)), atol=1e-5)
