@@ -11,8 +11,10 @@ from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
 from ssilang.kernel.continuation.floquet import exponents, monodromy
-from ssilang.kernel.continuation.harmonics import Oscillators, basis_of, derivative_matrix
-from ssilang.kernel.continuation.response import forced_response, normal_mode
+from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
+from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
+from ssilang.kernel.modal import links as law
+from ssilang.kernel.modal.links import Link, link_arrays
 from ssilang.kernel.stepping.problem.loading import Loading
 
 DAMPING, CUBIC, LOAD = 0.1, 0.25, 0.5
@@ -85,20 +87,6 @@ def test_slopes_of_a_balance_in_motion_and_in_time_are_those_of_differences():
     np.testing.assert_allclose(R, T.T @ ((K + w * C + w * w * M) @ U - F - f), rtol=1e-10)
 
 
-def test_an_unbalance_drives_by_the_square_of_the_frequency():
-    """Balance is that of a load w^2 times as large; its derivative is that of differences."""
-    system = replace(duffing(2), unbalance=True)
-    Q = np.linspace(-0.4, 0.3, 5)
-    for w in (0.5, 1.0, 1.7):
-        rest, _, by_w = system.at(Q, w)
-        plain, _, _ = duffing(2).at(Q, w)
-        load = system.load.ravel()
-        np.testing.assert_allclose(rest, plain + load - w * w * load, atol=1e-14)
-        ends = [system.at(Q, w + s * 1e-6)[0] for s in (1.0, -1.0)]
-        np.testing.assert_allclose(by_w, (ends[0] - ends[1]) / 2e-6, atol=1e-8)
-        assert system.force(w) == pytest.approx(LOAD * w * w)
-
-
 def test_several_harmonics_are_the_motion_that_time_integration_settles_on():
     found = branch(duffing(7))
     stable = [i for i, u in enumerate(found.unstable) if not u]
@@ -156,11 +144,19 @@ def test_exponents_of_constant_coefficients_are_eigenvalues():
     )
 
 
-def test_monodromy_keeps_the_volume_that_damping_leaves():
-    angles = 2 * np.pi * np.arange(32) / 32
-    K = (1.0 + 0.6 * np.cos(angles))[:, None, None]
-    P = monodromy(np.eye(1), np.full((32, 1, 1), 0.2), K, 1.3)
-    assert np.linalg.det(P) == pytest.approx(np.exp(-0.2 * 2 * np.pi / 1.3), rel=1e-10)
+def test_monodromy_is_what_a_period_makes_of_each_perturbation():
+    rng, w, angles = np.random.default_rng(5), 1.3, 2 * np.pi * np.arange(32) / 32
+    M, *parts = rng.standard_normal((7, 2, 2)) + 2.0 * np.eye(2)
+    at = lambda t, i: parts[i] + np.cos(t) * parts[i + 1] + np.sin(2 * t) * parts[i + 2]  # noqa: E731
+    C, K = (np.array([at(t, i) for t in angles]) for i in (0, 3))
+
+    def rates(t, y):
+        q, v = y.reshape(2, 2, 4)
+        return np.ravel([v, -np.linalg.solve(M, at(w * t, 0) @ v + at(w * t, 3) @ q)])
+
+    run = solve_ivp(rates, (0, 2 * np.pi / w), np.eye(4).ravel(), rtol=1e-11, atol=1e-12)
+    wanted = run.y[:, -1].reshape(4, 4)
+    np.testing.assert_allclose(monodromy(M, C, K, w), wanted, atol=1e-6 * np.abs(wanted).max())
 
 
 def test_normal_mode_of_a_cubic_spring_has_the_period_of_the_elliptic_integral():
@@ -179,37 +175,70 @@ def test_normal_mode_of_a_cubic_spring_has_the_period_of_the_elliptic_integral()
     assert max(e.real.max() for e in found.exponents) < 1e-3  # of a centre: none grows
 
 
-def test_velocity_dependent_forces_have_their_derivatives():
-    class Drag:
-        """f = -c v |v|, written smooth."""
+class Coupled:
+    """Forces on each of two unknowns by motion and velocity of both, with no symmetry."""
 
-        def at(self, q, v):
-            s = np.sqrt(v**2 + 1e-2)
-            return (
-                -0.3 * v * s,
-                np.zeros((*v.shape, v.shape[1])),
-                (-0.3 * (s + v**2 / s))[..., None] * np.eye(v.shape[1]),
-            )
-
-    system = duffing(3, forces=Drag())
-    rng = np.random.default_rng(1)
-    u, w = rng.normal(size=system.size), 1.3
-    _, J, Rw = system.at(u, w)
-    h = 1e-6
-    for i in range(system.size):
-        e = np.eye(system.size)[i]
-        column = (system.at(u + h * e, w)[0] - system.at(u - h * e, w)[0]) / (2 * h)
-        np.testing.assert_allclose(J[:, i], column, atol=1e-7)
-    by_w = (system.at(u, w + h)[0] - system.at(u, w - h)[0]) / (2 * h)
-    np.testing.assert_allclose(Rw, by_w, atol=1e-7)
+    def at(self, q, v):
+        (x, y), (a, b) = q.T, v.T
+        f = np.stack([-x * y**2 - 0.3 * a**2 * b, 0.2 * x * b - y**3], axis=1)
+        fq = np.array([[-(y**2), -2 * x * y], [0.2 * b, -3 * y**2]])
+        fv = np.array([[-0.6 * a * b, -0.3 * a**2], [0.0 * x, 0.2 * x]])
+        return f, np.moveaxis(fq, -1, 0), np.moveaxis(fv, -1, 0)
 
 
-def test_derivative_matrix_turns_cosines_into_sines():
-    basis = basis_of(4, 32)
-    Q = np.random.default_rng(0).normal(size=9)
+@pytest.mark.parametrize("unbalance", [False, True])
+def test_a_balance_is_that_of_motions_in_time_and_its_slopes_those_of_differences(unbalance):
+    """Two unknowns with full matrices; the balance of free motions, with its energy, too."""
+    rng, w, n = np.random.default_rng(1), 1.3, 64
+    M, C, K = rng.standard_normal((3, 2, 2)) + 3.0 * np.eye(2)
+    load = rng.standard_normal((7, 2))
+    system = Oscillators(M, C, K, basis_of(3, n), Coupled(), load, unbalance)
+    u = rng.standard_normal(14)
+
+    def in_time(coefficients):
+        Q = coefficients.reshape(7, 2)
+        terms = np.vstack([Q[:1], Q[1::2] - 1j * Q[2::2]])
+        turns = np.exp(1j * np.outer(2 * np.pi * np.arange(n) / n, np.arange(4)))
+        return [(turns * (1j * w * np.arange(4)) ** k @ terms).real for k in range(3)]
+
+    q, v, a = in_time(u)
+    force = in_time(load)[0] * (w * w if unbalance else 1.0)
+    left = np.fft.rfft(a @ M.T + v @ C.T + q @ K.T - Coupled().at(q, v)[0] - force, axis=0)[:4] / n
+    wanted = [left[0].real, *(x for c in left[1:] for x in (2 * c.real, -2 * c.imag))]
+    np.testing.assert_allclose(system.at(u, w)[0], np.concatenate(wanted), atol=1e-12)
+    rows = load * (w * w if unbalance else 1.0)
+    assert system.force(w) == pytest.approx(np.sqrt((rows**2).sum()))
+    own = replace(system, M=M + M.T, K=K + K.T)  # have an energy
+    free, h = FreeMotion(own, 1), 1e-6
+    for problem, x, t in ((system, u, w), (free, np.append(u, [w, 0.3]), 0.7)):
+        _, J, by_t = problem.at(x, t)
+        for step, slope in zip(h * np.eye(len(x)), J.T, strict=True):
+            by = (problem.at(x + step, t)[0] - problem.at(x - step, t)[0]) / (2 * h)
+            np.testing.assert_allclose(slope, by, atol=1e-7 * np.abs(J).max())
+        by = (problem.at(x, t + h)[0] - problem.at(x, t - h)[0]) / (2 * h)
+        np.testing.assert_allclose(by_t, by, atol=1e-7 * np.abs(J).max())
+    linear = replace(own, C=0 * C, forces=LinkForces(link_arrays([], 2)))
+    for mode in (0, 1):
+        motion = FreeMotion(linear, mode)
+        assert np.abs(motion.at(motion.guess(0.7), 0.7)[0]).max() < 1e-12
+
+
+def test_links_are_sampled_with_their_slopes():
+    rng, n = np.random.default_rng(4), 3
+    rows = rng.standard_normal((4, n))
+    links = [
+        Link(law.POWER, rows[:1], rows[1:2], {law.FACTOR: 1.7, law.EXPONENT: 3.0}),
+        Link(law.VELOCITY, rows[2:3], rows[3:], {law.FACTOR: -0.6}),
+    ]
+    q, v = rng.standard_normal((2, 5, n))
+    f, fq, fv = LinkForces(link_arrays(links, n)).at(q, v)
     np.testing.assert_allclose(
-        basis.values @ (derivative_matrix(4) @ Q), basis.rates @ Q, atol=1e-12
+        f, np.outer(1.7 * (q @ rows[1]) ** 3, rows[0]) - 0.6 * np.outer(v @ rows[3], rows[2])
     )
+    slope = np.einsum("t,i,j->tij", 5.1 * (q @ rows[1]) ** 2, rows[0], rows[1])
+    np.testing.assert_allclose(fq, slope, rtol=1e-6, atol=1e-6)
+    drag = np.tile(-0.6 * np.outer(rows[2], rows[3]), (5, 1, 1))
+    np.testing.assert_allclose(fv, drag, rtol=1e-6, atol=1e-6)
 
 
 def test_a_period_doubling_is_found_and_named():
