@@ -142,7 +142,7 @@ ONE_MODE = """
 OPTI DIME 2 ELEM SEG2 MODE PLAN DEFO ; P1 = 0. 0. ; A1 = 0. 0. ;
 TM = TABL 'BASE_MODALE' ; TM . 'MODES' = TABL 'BASE_DE_MODES' ;
 T1 = TABL 'MODE' ; TM . 'MODES' . 1 = T1 ; T1 . 'POINT_REPERE' = A1 ; T1 . 'NUMERO_MODE' = 1 ;
-T1 . 'FREQUENCE' = {frequency} ; T1 . 'MASSE_GENERALISEE' = 1. ;
+T1 . 'FREQUENCE' = {frequency} ; T1 . 'MASSE_GENERALISEE' = {mass} ;
 T1 . 'DEFORMEE_MODALE' = MANU 'CHPO' P1 2 'UX' 0. 'UY' 1. 'NATURE' 'DIFFUS' ;
 TA = TABL 'AMORTISSEMENT' ;
 TA . 'AMORTISSEMENT' = MANU 'RIGI' 'TYPE' 'AMORTISSEMENT' A1 (MOTS 'ALFA') (PROG {damping}) ;
@@ -159,23 +159,34 @@ TN . 'DSMIN' = 1.E-4 ;
 """
 
 
+def one_mode(load, damping, mass=1.0, frequency=0.5 / np.pi):
+    return ONE_MODE.format(frequency=frequency, damping=damping, load=load, mass=mass)
+
+
 def test_dync_follows_duffings_closed_form_and_finds_its_limit_points(found):
-    text = ONE_MODE.format(frequency=1 / (2 * np.pi), damping=DAMPING, load=LOAD) + CUBIC_LINK
+    text = one_mode(LOAD, DAMPING, 1.3, 0.4 / np.pi) + CUBIC_LINK  # K = 0.8^2 m
     text += """R = DYNC TM TC TL TA TI TN 1 64 ; C = R . 'REPONSE' . 'COEFFICIENTS' ;
     C1 = C . 1 . A1 ; S1 = C . (-1) . A1 ; W = R . 'REPONSE' . 'FREQUENCE' ;
     N = R . 'REPONSE' . 'NORME_DEPLACEMENT' ; K = R . 'BIFURCATION' . 'TYPE' ;
-    Q = R . 'BIFURCATION' . 'NORME_DEPLACEMENT' ;"""
-    c, s, w, n, kinds, q = (x.values for x in found(text, "C1", "S1", "W", "N", "K", "Q"))
+    Q = R . 'BIFURCATION' . 'NORME_DEPLACEMENT' ; TN . 'TYPE' = MOT 'NNM' ;
+    TI . 'MODE' = 1 ; TI . 'ENERGIE' = 1.E-3 ; TN . 'VAL_FIN' = 2. ;
+    F = DYNC TM TC TL TA TI TN 1 64 ; F = F . 'REPONSE' ;
+    W0 = F . 'FREQUENCE' ; A0 = F . 'COEFFICIENTS' . 1 . A1 ; E0 = F . 'ENERGIE' ;"""
+    names = ("C1", "S1", "W", "N", "K", "Q", "W0", "A0", "E0")
+    c, s, w, n, kinds, q, w0, a0, energy = (x.values for x in found(text, *names))
     A = np.hypot(c, s)
-    left = ((1 + 0.75 * CUBIC * A**2 - np.square(w)) ** 2 + (DAMPING * np.array(w)) ** 2) * A**2
-    np.testing.assert_allclose(left, LOAD**2, rtol=1e-6)
+    rest = 0.832 + 0.75 * CUBIC * A**2 - 1.3 * np.square(w)
+    np.testing.assert_allclose((rest**2 + (DAMPING * np.array(w)) ** 2) * A**2, LOAD**2, rtol=1e-6)
     np.testing.assert_allclose(n, A, atol=1e-7)
     assert [k.strip() for k in kinds] == ["LP", "LP"]
     assert max(q) <= max(A) + 1e-3
+    a0, w0 = np.square(a0), np.square(w0)  # without load and damping, whatever is given
+    np.testing.assert_allclose(1.3 * w0, 0.832 + 0.75 * CUBIC * a0, rtol=1e-6)
+    np.testing.assert_allclose(energy, 0.416 * a0 + 0.25 * CUBIC * a0**2, rtol=1e-6)
 
 
 def test_dync_takes_an_unbalance_that_grows_with_the_square_of_frequency(found):
-    text = ONE_MODE.format(frequency=1 / (2 * np.pi), damping=DAMPING, load=LOAD) + CUBIC_LINK
+    text = one_mode(LOAD, DAMPING) + CUBIC_LINK
     text += """TC . 'BALOURD' = 1 ; TN . 'VAL_FIN' = 0.9 ;
     R = DYNC TM TC TA TI TN 1 64 ; W = R . 'REPONSE' . 'FREQUENCE' ;
     N = R . 'REPONSE' . 'NORME_DEPLACEMENT' ;"""
@@ -210,7 +221,7 @@ V = EXTR (EVOL 'TEMP' R 'DEPL' 'UY' P) 'ORDO' ;
 
 def test_uplift_on_a_one_sided_spring_is_what_dynamic_settles_on(found):
     """A mass that its weight holds on a spring which only pushes, shaken until it lifts off."""
-    text = ONE_MODE.format(frequency=0.0, damping=1.0, load=8.0) + UPLIFT
+    text = one_mode(8.0, 1.0, frequency=0.0) + UPLIFT
     w, c0, c1, s1, unstable = (
         np.asarray(x.values) for x in found(text, "W", "C0", "C1", "S1", "U")
     )
@@ -231,7 +242,7 @@ def test_uplift_on_a_one_sided_spring_is_what_dynamic_settles_on(found):
 
 
 def test_links_with_a_past_are_refused(refused):
-    text = ONE_MODE.format(frequency=0.2, damping=0.1, load=1.0) + CUBIC_LINK
+    text = one_mode(1.0, 0.1) + CUBIC_LINK
     text += """
     TL = TABL 'LIAISON' ; TL . 'LIAISON_B' = TABL 'LIAISON_B' ; TL . 'LIAISON_B' . 1 = L1 ;
     L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN_FROTTEMENT' ; L1 . 'SUPPORT' = P1 ;

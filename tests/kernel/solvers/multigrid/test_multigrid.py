@@ -21,16 +21,8 @@ from ssilang.kernel.solvers import backends
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.factor import Ordering
-from ssilang.kernel.solvers.multigrid.hierarchy import (
-    Level, _polynomial, aggregates_of, tentative,
-)  # fmt: skip
+from ssilang.kernel.solvers.multigrid import hierarchy, products, rows
 from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
-from ssilang.kernel.solvers.multigrid.products import (
-    Backwards, galerkin, product, restricted, smoothed,
-)  # fmt: skip
-from ssilang.kernel.solvers.multigrid.rows import (
-    Diagonal, diagonal_of, divided, grouped, relaxed, rest_of,
-)  # fmt: skip
 from ssilang.kernel.statics.linear_motion import rigid_motions
 
 
@@ -201,13 +193,13 @@ def test_a_size_and_a_shape_that_multigrid_finds_hard_are_factorised(monkeypatch
     assert factorise(K, True, ordering=once).name == backends.DISSECTION
 
 
-def dense(rows, columns):
+def dense(A, columns):
     """The whole matrix of rows by groups."""
-    found = np.zeros((rows.first[-1], columns))
-    for g, (low, high) in enumerate(pairwise(rows.first)):
-        own = rows.columns[rows.ptr[g] : rows.ptr[g + 1]]
+    found = np.zeros((A.first[-1], columns))
+    for g, (low, high) in enumerate(pairwise(A.first)):
+        own = A.columns[A.ptr[g] : A.ptr[g + 1]]
         assert len(np.unique(own)) == len(own)
-        found[low:high, own] = rows.values[rows.at[g] : rows.at[g + 1]].reshape(-1, len(own))
+        found[low:high, own] = A.values[A.at[g] : A.at[g + 1]].reshape(-1, len(own))
     return found
 
 
@@ -224,20 +216,20 @@ def test_rows_of_uneven_groups_act_as_their_dense_matrices(kind, threads, monkey
     D = np.linalg.inv(D) - np.diag(np.arange(15) == 7)
     met = np.repeat(rng.random((7, count)) < 0.5, k, axis=1)[group]
     start, wide = (np.where(met, rng.standard_normal(met.shape), 0.0) for _ in range(2))
-    rows, P, Q = (grouped(sp.csr_array(x), first, kind) for x in (A, start, wide))
-    own = diagonal_of(rows)
+    R, P, Q = (rows.grouped(sp.csr_array(x), first, kind) for x in (A, start, wide))
+    own = rows.diagonal_of(R)
     x, b, d = rng.standard_normal((3, 15)).astype(kind)
     moved = 0.3 * d + 0.7 * D @ (b - A @ x)
-    smooth = smoothed(rows, own, P, k, count, 0.4)
-    back = Backwards(Q, k, count)
+    smooth = products.smoothed(R, own, P, k, count, 0.4)
+    back, whole = products.Backwards(Q, k, count), dense(smooth, k * count)
     pairs = [
-        (dense(rows, 15), A), (rest_of(rows, x, b), b - A @ x),
-        (relaxed(rows, own, x, b, d, 0.3, 0.7), x + moved), (d, moved),
-        (divided(rows, own, b, 3.0), 3.0 * D @ b),
-        (dense(smooth, k * count), start - 0.4 * D @ A @ start),
-        (dense(product(rows, P, k, count), k * count), A @ start),
-        (dense(galerkin(Q, back, smooth, k), k * count), wide.T @ dense(smooth, k * count)),
-        (restricted(Q, back, b, k), wide.T @ b),
+        (dense(R, 15), A), (rows.rest_of(R, x, b), b - A @ x),
+        (rows.relaxed(R, own, x, b, d, 0.3, 0.7), x + moved), (d, moved),
+        (rows.divided(R, own, b, 3.0), 3.0 * D @ b),
+        (whole, start - 0.4 * D @ A @ start),
+        (dense(products.product(R, P, k, count), k * count), A @ start),
+        (dense(products.galerkin(Q, back, smooth, k), k * count), wide.T @ whole),
+        (products.restricted(Q, back, b, k), wide.T @ b),
     ]  # fmt: skip
     for found, wanted in pairs:
         np.testing.assert_allclose(found, wanted, atol=100 * np.finfo(kind).eps)
@@ -245,14 +237,14 @@ def test_rows_of_uneven_groups_act_as_their_dense_matrices(kind, threads, monkey
 
 def test_a_level_is_smoothed_by_chebyshevs_polynomials_of_the_fourth_kind():
     own, largest = np.array([0.1, 0.7, 1.3, 2.4, 2.9]), 3.0
-    A = grouped(sp.csr_array(np.diag(own)), np.arange(6), float)
-    level = Level(A, Diagonal(np.ones(5), np.arange(6)), largest)
+    A = rows.grouped(sp.csr_array(np.diag(own)), np.arange(6), float)
+    level = hierarchy.Level(A, rows.Diagonal(np.ones(5), np.arange(6)), largest)
     angle = np.arccos(1.0 - 2.0 * own / largest)
     x, wanted = np.array([[3.0, -1.0, 2.0, 5.0, 4.0], [1.0, 2.0, 3.0, 4.0, -2.0]])
     for degree in (1, 2, 3):
         left = np.sin((degree + 0.5) * angle) / np.sin(angle / 2) / (2 * degree + 1)
         for begun in (None, x):
-            found = _polynomial(level, begun, own * wanted, degree)
+            found = hierarchy._polynomial(level, begun, own * wanted, degree)
             before = wanted - (0.0 if begun is None else begun)
             np.testing.assert_allclose(wanted - found, left * before, atol=1e-13)
 
@@ -268,7 +260,7 @@ def test_unknowns_of_one_node_go_together():
         np.testing.assert_allclose(found.solve(b), x, atol=1e-9 * np.abs(x).max())
     assert turned.turns <= apart.turns
     A = turned.hierarchy.levels[0].A
-    start, motions = tentative(A, *aggregates_of(A), order.rigid)
+    start, motions = hierarchy.tentative(A, *hierarchy.aggregates_of(A), order.rigid)
     whole = dense(start, len(motions))
     np.testing.assert_allclose(whole @ motions, order.rigid, atol=1e-5)
     np.testing.assert_allclose(whole.T @ whole, np.diag(motions.any(axis=1)), atol=1e-5)
