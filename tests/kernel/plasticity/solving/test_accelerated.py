@@ -1,5 +1,6 @@
 """Steps that keep their factor against Newton's method on all unknowns."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -9,10 +10,14 @@ from references.keeper import Ending
 from references.tower_on_clay import stepped_tower
 
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.solving import accelerated, part
 from ssilang.kernel.plasticity.solving.accelerated import Acceleration
+from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import backward_runs, forward_runs
+from ssilang.kernel.solvers.factor import Solver
+from ssilang.kernel.stepping.problem.problem import Problem
 
 STEPS = 56
 
@@ -104,12 +109,25 @@ def test_runs_repeat_to_the_last_bit_and_go_on_to_it(tmp_path: Path) -> None:
 def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not(monkeypatch) -> None:
     assert stepped("DRUCKER_PARFAIT", steps=3)[0].loop.startswith("kept factor")
     assert stepped("DRUCKER_PRAGER", steps=3)[0].loop.startswith("full Newton")
+    choose = accelerated.is_accelerated
     asked: list[np.ndarray] = []  # of the whole body, held: it is positive
     monkeypatch.setattr(
         accelerated, "factor_pays", lambda A, order, solves: asked.append(A.toarray()) or solves < 9
     )
+    chosen: list[tuple[Problem, Bulk, sp.csr_array]] = []
+    monkeypatch.setattr(accelerated, "is_accelerated", lambda *of: chosen.append(of) or choose(*of))
     assert stepped(steps=3)[0].loop.startswith("full Newton")
     assert np.linalg.eigvalsh(asked[0])[0] > 1e-6 * np.diag(asked[0]).min()
+    monkeypatch.setattr(accelerated, "factor_pays", lambda A, order, solves: solves > 9)
+    problem, bulk, A = chosen[0]
+    sided = SimpleNamespace(**{**vars(problem.constraints), "associated": False})
+    others = [
+        (problem, True), (replace(problem, solver=Solver(DISSECTION)), True),
+        (replace(problem, solver=Solver("SuperLU")), False),
+        (replace(problem, contact=object()), False), (replace(problem, constraints=sided), False),
+    ]  # fmt: skip
+    assert [choose(p, bulk, A) for p, _ in others] == [wanted for _, wanted in others]
+    assert not choose(problem, replace(bulk, zones=()), A)
 
 
 def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
