@@ -195,10 +195,11 @@ class JointPoints:
         made = rows.reshape(*self.shape, self.dimension)[..., self.order]
         return np.ascontiguousarray(made.transpose(0, 2, 1))
 
-    def stiffness(self) -> FloatArray:
-        """Elastic stiffness (m, d)."""
+    def jumps(self, traction: FloatArray) -> FloatArray:
+        """Elastic jumps (m, d) of tractions, none where there is no stiffness."""
         shear = (Parameter.KS1, Parameter.KS2)[: self.dimension - 1]
-        return np.stack([self.table[:, c] for c in (*shear, Parameter.KN)], axis=1)
+        k = np.stack([self.table[:, c] for c in (*shear, Parameter.KN)], axis=1)
+        return np.divide(traction, k, out=np.zeros_like(traction), where=k > 0.0)
 
 
 def joint_points(zone: Zone, material: CellField) -> JointPoints:
@@ -217,24 +218,22 @@ def joint_state(points: JointPoints, variables: ZoneField) -> FloatArray:
 def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: int) -> FloatArray:
     """The jump (m, d) that tractions and internal variables belong to.
 
-    It is unique but for open points, which start from the opening that their variables hold.
+    It is unique but for open points, which start from the opening that their variables hold, and
+    for shear without stiffness, which starts from none. In tension shear's stiffness has faded.
     """
-    k = points.stiffness()
-    w = traction / k
+    w, p = points.jumps(traction), points.table
     slips = (Variable.SLIP1, Variable.SLIP2)[: points.dimension - 1]
-    if code in (LawCode.SDM, LawCode.MOHR):
-        for i, column in enumerate(slips):
-            w[:, i] += state[:, column]
-    if code == LawCode.MOHR:
-        w[:, -1] += state[:, Variable.XI] + state[:, Variable.OPENING]
+    t, xi, limit = traction[:, -1], state[:, Variable.XI], p[:, Parameter.FC]
     if code == LawCode.SDM:
-        t, xi, limit = traction[:, -1], state[:, Variable.XI], points.table[:, Parameter.FC]
-        closing = (t > limit) & (xi > 0) & (t < 0)
-        ratio = np.divide(np.abs(limit), np.abs(limit) + k[:, -1] * xi,
-                          out=np.ones_like(xi), where=np.abs(limit) > 0)  # fmt: skip
-        open_ = (t >= 0) & (xi > 0)
-        w[:, -1] = np.where(closing, xi + t / (k[:, -1] * ratio), w[:, -1])
-        w[:, -1] = np.where(open_, xi + t / k[:, -1], w[:, -1])
+        fades = (t >= 0.0) & (p[:, Parameter.FU] > 0.0) & (p[:, Parameter.SHEAR] != 1.0)
+        spent = p[fades, Parameter.FU] / p[fades, Parameter.GF] * xi[fades]
+        w[fades, :-1] *= np.exp(spent)[:, None]
+        closed = np.divide(t, limit, out=(t < 0.0).astype(float), where=limit < 0.0)
+        w[:, -1] += xi * (1.0 - closed.clip(0.0, 1.0))
+    if code in (LawCode.SDM, LawCode.MOHR):
+        w[:, :-1] += state[:, slips]
+    if code == LawCode.MOHR:
+        w[:, -1] += xi + state[:, Variable.OPENING]
     return w
 
 
@@ -245,7 +244,7 @@ def _joint_probe(
     raised = points.local(stress) * precision
     raised[:, -1] = np.maximum(raised[:, -1], 0.0)
     step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
-    step[:, : points.dimension] = points.named(raised / points.stiffness())
+    step[:, : points.dimension] = points.named(points.jumps(raised))
     return step
 
 
@@ -293,7 +292,7 @@ def _joint_answer(
         turned[:, :d], after, tangent = after, turned, whole
         after[:, :d] = points.named(t)
     inner = shown_variables(law_of(zone.behaviour), new.reshape(n, g, -1), d)
-    elastic = (t - points.local(stress)) / points.stiffness()
+    elastic = points.jumps(t - points.local(stress))
     rest = points.named(points.local(step) - elastic)
     names = plastic_strain_names(zone)[:d]
     inelastic = {name: rest[:, k] for k, name in enumerate(names)}

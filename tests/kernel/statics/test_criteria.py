@@ -8,12 +8,14 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface import family as _joints  # noqa: F401
-from ssilang.kernel.interface.laws.columns import N_STATE
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law_table import LAWS as LAW_TABLE
 from ssilang.kernel.interface.laws.law_table import shown_variables, state_of
+from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.statics import constitutive
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from tests.kernel.elements.samples import cell_zone
 
@@ -190,3 +192,42 @@ def test_states_are_what_their_variables_show(word):
             own = [columns for columns in law.variables.values() if columns[0] == first][-1]
             total = state[0][:, list(own)].sum(axis=1) - back[:, list(own[1:])].sum(axis=1)
             np.testing.assert_allclose(back[:, first], total)
+
+
+@pytest.mark.parametrize("code", [LawCode.SDM, LawCode.MOHR])
+def test_jumps_are_those_that_tractions_and_variables_came_from(code):
+    """By the law itself, after paths of points that open, soften, close, slip and have no shear."""
+    rng, m = np.random.default_rng(2), 600
+    table, state = np.zeros((m, len(Parameter))), np.zeros((m, N_STATE))
+    size = {"KN": 2e3, "KS1": 7e2, "KS2": 5e2, "FU": 1.5, "GF": 6e-3, "FC": -0.8, "FROT": 0.6,
+            "TPHI": 0.6, "TPSI": 0.2, "COHE": 0.7, "FTRC": 0.5}  # fmt: skip
+    for name, value in size.items():
+        table[:, Parameter[name]] = value * rng.uniform(0.7, 1.4, m)
+    for k, names in enumerate((("FU", "GF"), ("FC",), ("KS1",))):
+        table[k::5, [Parameter[n] for n in names]] = 0.0
+    for _ in range(8):
+        w, before = rng.standard_normal((m, 3)) * [1e-3, 1e-3, 1.2e-3], state
+        t, state, D = np.zeros((m, 3)), np.zeros_like(state), np.zeros((m, 3, 3))
+        respond(np.full(m, code), w, before, table, t, state, D)
+    found = constitutive._jump(constitutive.JointPoints(None, table, 3, (m, 1)), t, state, code)
+    one = (t[:, 2] != 0.0) | (state[:, Variable.XI] <= 0.0)  # what is open may be anywhere
+    assert np.mean(one) > 0.7
+    one = one[:, None] & (table[:, [Parameter.KS1, Parameter.KS2, Parameter.KN]] > 0.0)
+    np.testing.assert_allclose(found[one], w[one], rtol=1e-9, atol=1e-15)
+    assert np.isfinite(found).all()
+
+
+@pytest.mark.parametrize("shear", [0.0, 700.0])
+def test_a_joint_that_does_not_move_keeps_its_tractions(shear):
+    """Three points: in cohesive tension, closing, closed."""
+    zone, field = joint("JOINT_SDM", True, KN=2e3, KS=shear, FU=1.5, GF=6e-3, FC=-0.8)
+    stress = np.array([[[0.2, 0.3, -0.4], [-0.1, 0.2, 0.3], [0.5, -0.4, -2.0]]])
+    stress[:, :2] *= shear > 0.0
+    seen = zone_field(zone, field_of(zone, {"SAUT": np.array([[1e-3, 2e-3, 3e-3]])}))
+    answer = constitutive.respond(zone, field, stress, seen, np.zeros_like(stress))
+    np.testing.assert_allclose(answer.stress, stress, rtol=1e-9)
+    np.testing.assert_allclose(list(answer.inelastic.values()), 0.0, atol=1e-15)
+    probe = constitutive.probing_step(zone, field, stress, seen, 0.01)
+    normal = stress[:, 2].clip(0.0) / 2e3
+    np.testing.assert_allclose(probe[:, 2], 0.01 * normal)
+    np.testing.assert_allclose(probe[:, :2], 0.01 * stress[:, :2] / (shear or 1.0))

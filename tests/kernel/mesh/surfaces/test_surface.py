@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from references.straight_line import straight_line
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, Delaunay
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
@@ -18,7 +18,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, surface_normals
 from ssilang.kernel.mesh.queries.measure import total_measure
 from ssilang.kernel.mesh.surfaces.charts import plane_chart, sphere_chart
-from ssilang.kernel.mesh.surfaces.surface import _convex, contour_chart_data, fill_surface
+from ssilang.kernel.mesh.surfaces.surface import _convex, _pairs, contour_chart_data, fill_surface
 
 
 def square(nodes: NodeTable, side: float, cuts: int, quadratic: bool = False) -> Mesh:
@@ -112,6 +112,29 @@ def test_polygons_that_turn_one_way_alone_are_convex() -> None:
         assert _convex(corners.copy()) == convex
         seen.add(convex)
     assert seen == {True, False}
+
+
+def test_triangles_with_a_common_side_make_one_quadrangle_each() -> None:
+    """By the neighbours that Delaunay's triangulation tells, in any order of triangles."""
+    rng = np.random.default_rng(4)
+    points = rng.random((30, 2))
+    made = Delaunay(points)
+    first, second, quads = _pairs(made.simplices)
+    wanted = {frozenset((i, j)) for i, row in enumerate(made.neighbors) for j in row if j >= 0}
+    pairs = list(zip(first, second, strict=True))
+    assert len(pairs) == len(wanted)
+    assert {frozenset(map(int, pair)) for pair in pairs} == wanted
+    for pair, quad in zip(pairs, quads, strict=True):
+        both = [made.simplices[i] for i in pair]
+        assert set(quad) == set(np.concatenate(both))
+        sizes = [_signed(points[corners]) for corners in (*both, quad)]
+        assert sizes[0] + sizes[1] == pytest.approx(sizes[2])
+
+
+def _signed(x: np.ndarray) -> float:
+    """Area of a polygon (k, 2), positive anticlockwise."""
+    y = np.roll(x, -1, axis=0)
+    return float(0.5 * (x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]).sum())
 
 
 def test_open_contour_is_refused() -> None:
