@@ -11,12 +11,14 @@ from references.recorder import Recorder
 from references.rocking_beam import rocking
 from references.soil_block import soil_block
 
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.rows import FrictionRows
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.factor import Solver
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping import choose
 from ssilang.kernel.stepping.choose import only
-from ssilang.kernel.stepping.keeping import leaves, put_back, rebuilt, stride_of
+from ssilang.kernel.stepping.keeping import digest_of, leaves, put_back, rebuilt, stride_of
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
 from ssilang.kernel.stepping.run import integrate
@@ -189,3 +191,34 @@ def test_records_of_arrays_are_taken_apart_and_made_again():
     motion[0][:] = 0.0
     put_back(motion, values)
     assert np.array_equal(motion[0], np.arange(3.0))
+
+
+def test_a_digest_tells_every_number_that_steps_depend_on():
+    problem = Awkward(3, unilateral=True).problem()
+    row = sp.csr_array(np.ones((1, problem.numbering.size)))
+    one = np.ones(1)
+    rubs = FrictionRows(row, 1, np.array([0]), 0.3 * one, one, 2.0 * row, one)
+    problem = replace(problem, contact=replace(problem.contact, friction=rubs))
+    held, load, joints, stops = (
+        problem.constraints, problem.loading, problem.interface, problem.contact,
+    )  # fmt: skip
+    held.D = held.D.copy()  # else those of C
+    matrices = [problem.K, problem.M, problem.C, held.C, held.D, held.T, joints.J, stops.G,
+                rubs.H, rubs.watched]  # fmt: skip
+    arrays = [
+        problem.numbering.nodes, problem.numbering.codes, load.forces, load.imposed,
+        *(x for curve in load.curves for x in curve), problem.u, problem.v, problem.state,
+        problem.times, joints.codes, joints.parameters, joints.weights, joints.B, stops.imposed,
+        stops.sense, rubs.normal, rubs.coefficient, rubs.constant, rubs.offset,
+        *(part for A in matrices for part in (A.data, A.indices, A.indptr)),
+    ]  # fmt: skip
+    known = digest_of(problem)
+    for i, array in enumerate(arrays):
+        for place in {0, array.size - 1}:
+            was = array.flat[place]
+            array.flat[place] = was + 1
+            assert digest_of(problem) != known, (i, place)
+            array.flat[place] = was
+    assert digest_of(problem) == known
+    for other in ({"scheme": hht(0.1)}, {"contact_options": PENALTY}):
+        assert digest_of(replace(problem, **other)) != known
