@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
-from ssilang.kernel.continuation.floquet import exponents, monodromy
+from ssilang.kernel.continuation.floquet import monodromy
 from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
 from ssilang.kernel.modal import links as law
@@ -103,15 +103,6 @@ def test_several_harmonics_are_the_motion_that_time_integration_settles_on():
     assert np.abs(run.y[0] - (system.basis.values @ Q)[:, 0]).max() < 2e-6
 
 
-def test_motions_between_the_limit_points_are_unstable():
-    found = branch(duffing(5))
-    w, unstable = np.array(found.frequencies), np.array(found.unstable)
-    back = np.flatnonzero(np.diff(w) < 0)
-    assert unstable[back[1:]].all()
-    assert not unstable[: back[0]].any()
-    assert not unstable[back[-1] + 2 :].any()
-
-
 def test_exponents_are_those_that_perturbations_of_the_motion_show():
     found = branch(duffing(5), end=1.4)
     i = next(j for j, w in enumerate(found.frequencies) if w > 1.2)
@@ -133,15 +124,6 @@ def test_exponents_are_those_that_perturbations_of_the_motion_show():
     multipliers = np.linalg.eigvals(end.reshape(2, 2).T)
     expected = np.sort_complex(np.log(multipliers.astype(complex)) / period)
     np.testing.assert_allclose(np.sort_complex(system.exponents(Q, w)), expected, atol=1e-8)
-
-
-def test_exponents_of_constant_coefficients_are_eigenvalues():
-    M, C, K = np.diag([1.0, 2.0]), np.array([[0.2, 0.1], [0.1, 0.3]]), np.diag([0.04, 0.3])
-    A = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(M, K), -np.linalg.solve(M, C)]])
-    found = exponents(M, C[None], K[None], 2.0)
-    np.testing.assert_allclose(
-        np.sort_complex(found), np.sort_complex(np.linalg.eigvals(A)), atol=1e-9
-    )
 
 
 def test_monodromy_is_what_a_period_makes_of_each_perturbation():
