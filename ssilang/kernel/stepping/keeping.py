@@ -281,17 +281,16 @@ def digest(matrices: Iterable[sp.csr_array], arrays: Iterable[NDArray[Any]]) -> 
 def digest_of(problem: Problem) -> str:
     """A digest of all that the steps of a problem depend on."""
     p = problem
+    stops = [] if p.contact is None else list(_leaves(p.contact))
     matrices = [p.K, p.M, p.C, p.constraints.C, p.constraints.D, p.constraints.T]
+    matrices += [x for x in stops if isinstance(x, sp.csr_array)]
     arrays: list[NDArray[Any]] = [
         p.numbering.nodes, p.numbering.codes, p.loading.forces, p.loading.imposed,
         *(x for curve in p.loading.curves for x in curve), p.u, p.v, p.state, p.times,
+        *(x for x in stops if isinstance(x, np.ndarray)),
     ]  # fmt: skip
     if p.interface is not None:
         matrices.append(p.interface.J)
         arrays += [p.interface.codes, p.interface.parameters, p.interface.weights, p.interface.B]
-    if p.contact is not None:
-        parts = list(_leaves(p.contact))
-        matrices += [x for x in parts if isinstance(x, sp.csr_array)]
-        arrays += [x for x in parts if isinstance(x, np.ndarray)]
     words = f"{p.scheme} {p.contact_options}".encode()
     return digest(matrices, [*arrays, np.frombuffer(words, np.uint8)])
