@@ -199,6 +199,7 @@ def test_a_balance_is_that_of_motions_in_time_and_its_slopes_those_of_difference
             np.testing.assert_allclose(slope, by, atol=1e-7 * np.abs(J).max())
         by = (problem.at(x, t + h)[0] - problem.at(x, t - h)[0]) / (2 * h)
         np.testing.assert_allclose(by_t, by, atol=1e-7 * np.abs(J).max())
+    assert free.at(np.append(u, [w, 0.3]), 0.7)[0][-2] == u.reshape(7, 2)[2, 1]  # its first sine
     linear = replace(own, C=0 * C, forces=LinkForces(link_arrays([], 2)))
     for mode in (0, 1):
         motion = FreeMotion(linear, mode)
