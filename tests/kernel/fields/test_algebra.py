@@ -1,6 +1,7 @@
 """Sums, products and choices of fields against dictionaries, on supports that overlap in part."""
 
 from collections import defaultdict
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -354,3 +355,33 @@ def test_parts_and_unions_of_cell_fields(zones):
         assert found.tolist() == [[f"{p}*{q}" for q in y[0]] for p in "pq"]
         assert len(taken) == 4
     assert cells.united(held, held).blocks[0].components["O"].shape == (3, 1)
+
+
+def test_each_cell_has_the_curve_of_its_own_values(zones):
+    """At points, and of one value where a field has no more; equal ones are one object."""
+    rng, x = np.random.default_rng(6), [-1.0, 0.5, 2.0]
+    fields = [of_cells(rng, zones[:2], ("A",), n) for n in (2, 1, 2)]
+    for field in fields:
+        for block in field.blocks:
+            block.components["A"][-1] = block.components["A"][0]
+    found = cells.through("T", x, fields)
+    for block, *of in zip(found.blocks, *(f.blocks for f in fields), strict=True):
+        made = block.components["A"]
+        rows = np.stack(np.broadcast_arrays(*(b.components["A"] for b in of)), axis=-1)
+        assert made.shape == rows.shape[:2]
+        for place in np.ndindex(made.shape):
+            (part,) = made[place].parts
+            assert (part.abscissa_name, part.ordinate_name) == ("T", "A")
+            np.testing.assert_array_equal([part.abscissas, part.ordinates], [x, rows[place]])
+        assert (made[-1] == made[0]).all()
+    two, fewer = of_cells(rng, zones[:2], ("A", "B")), of_cells(rng, zones[:1], ("A",))
+    moved = CellField(tuple(replace(b, support="MASSE") for b in fields[0].blocks))
+    for at, given, code in (
+        ([0.0, 0.0], fields[:2], "curves.abscissas-must-increase-follows"),
+        ([0.0, 1.0], [fields[0], two], "fields.curves-of-one-component"),
+        ([0.0, 1.0], [fields[0], fewer], "fields.curves-of-other-cells"),
+        ([0.0, 1.0], [fields[0], moved], "fields.curves-of-other-cells"),
+    ):
+        with pytest.raises(FieldError) as caught:
+            cells.through("T", at, given)
+        assert caught.value.code == f"kernel.{code}"

@@ -201,9 +201,9 @@ def test_shear_stress_falls_with_the_pressure_and_does_not_come_back() -> None:
         ([1e-5, 1e-4], [1.0, -0.1], "reduction-negative", {"ratio": -0.1}),
         ([0.0, 1e-4, 1e-3], [1.0, 0.9, 0.3], "reduction-begins", {"strain": 1e-4}),
         ([1e-5, 1e-4, 2e-4], [1, 0.6, 0.7], "reduction-rises", {"before": 0.6, "after": 0.7}),
-        # the stress 0.05 G 1e-3 is below 0.6 G 1e-4: at least 0.06
-        ([1e-5, 1e-4, 1e-3], [1, 0.6, 0.05], "reduction-softens", {"least": 0.06}),
-        ([1e-5, 1e-4, 2e-4], [1, 0.2, 0.2], "reduction-stiffens", {}),
+        # the stress 0.05 G 1e-3 is below 0.3 G 2e-4, which that at 1e-4 was: at least 0.06
+        ([1e-5, 1e-4, 2e-4, 1e-3], [1, 0.6, 0.3, 0.05], "reduction-softens", {"least": 0.06}),
+        ([1e-5, 1e-4, 2e-4], [1, 0.2, 0.2], "reduction-stiffens", {"least": 0.1 + 0.9 * 3 / 19}),
     ],
 )
 def test_curves_that_no_soil_has_are_refused(
