@@ -111,11 +111,9 @@ def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldB
     forces, support = components_at_home(zone, field, names)
     parameters = zone_field(zone, material)
 
-    def term(force: str, lever: str, constant: str) -> np.ndarray | float:
-        if force not in names:
-            return 0.0
+    def term(force: str, lever: str, constant: str) -> FloatArray:
         ratio = parameters.at(lever, support, 0.0) / parameters.at(constant, support)
-        return forces[:, names.index(force)] * ratio
+        return np.asarray(forces[:, names.index(force)] * ratio)
 
     stress = forces[:, 0] / parameters.at("SECT", support)
     stress = stress - term("MOMZ", "DY", "INRZ")
