@@ -161,17 +161,20 @@ def _shear_energies(
     w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray, tn: float
 ) -> None:
     """Stored energy of the shear and the energy that it has lost, into `new`."""
-    stored, lost = 0.0, 0.0
-    closes = state[Var.DAMAGE] > 0.0 and new[Var.DAMAGE] == 0.0
+    stored, lost, trial, left = 0.0, 0.0, 0.0, 1.0 - state[Var.DAMAGE]
     for i in range(w.shape[0] - 1):
         elastic = w[i] - (0.0 if p[Par.SHEAR] == 1.0 else new[Var.SLIP1 + i])
         stored += 0.5 * t[i] * elastic
-        before, damaged = w[i] - state[Var.SLIP1 + i], state[Var.DAMAGE]
-        if closes and p[Par.KS1 + i] > 0.0:
-            lost += 0.5 * p[Par.KS1 + i] * before**2 * (1.0 - damaged) * damaged
-            before *= 1.0 - damaged
+        before = w[i] - state[Var.SLIP1 + i]
+        if new[Var.DAMAGE] == 0.0:  # closes
+            lost += 0.5 * p[Par.KS1 + i] * before**2 * left * (1.0 - left)
+            before *= left
+        trial += 0.5 * p[Par.KS1 + i] * before**2
         lost += t[i] * (before - w[i] + new[Var.SLIP1 + i])
-        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * max(new[Var.DAMAGE] - damaged, 0.0)
+        lost += 0.5 * p[Par.KS1 + i] * elastic**2 * max(new[Var.DAMAGE] - 1.0 + left, 0.0)
+    if new[Var.DAMAGE] == 0.0:  # slips at once where its bound is below what it had
+        had = math.sqrt(min(trial, left * state[Var.SHEAR_ENERGY]))
+        lost += max(had - math.sqrt(stored), 0.0) ** 2
     opened = (tn >= 0.0 and state[Var.HELD] != CLOSED_SHEAR) or state[Var.HELD] == OPEN_SHEAR
     if opened and p[Par.FU] == 0.0 and p[Par.SHEAR] != 1.0:  # the stored shear is given up
         lost = state[Var.SHEAR_ENERGY]
@@ -201,8 +204,7 @@ def _closed_shear(
         D[i, i] = p[Par.KS1 + i]
         size += t[i] * t[i]
     size = math.sqrt(size)
-    bound = -p[Par.FROT] * tn
-    if p[Par.FROT] < 0.0 or size <= bound:
+    if p[Par.FROT] < 0.0 or size <= -p[Par.FROT] * tn:
         return
     _slide(w, p, t, new, D, dtn, size)
 

@@ -14,6 +14,7 @@ LAWS = {
     "elastic": (LawCode.ELASTIC, {}),
     "opens": (LawCode.SDM, {"FU": 0.0, "FC": 0.0, "FROT": -1.0}),
     "bonded": (LawCode.SDM, {"FU": 2e4, "GF": 15.0, "FC": -1e4, "FROT": -1.0}),
+    "bonded, rubs": (LawCode.SDM, {"FU": 1e4, "GF": 20.0, "FC": -2e4, "FROT": 0.7}),
     "rubs": (LawCode.SDM, {"FU": 0.0, "FC": 0.0, "FROT": 0.4}),
     "Mohr": (LawCode.MOHR, {"TPHI": 0.6, "TPSI": 0.2, "COHE": 1e4, "FTRC": 5e3}),
     "Mohr, dilatant": (LawCode.MOHR, {"TPHI": 0.6, "TPSI": 0.5, "COHE": 5e4, "FTRC": 5e3}),

@@ -92,25 +92,6 @@ def test_second_normal_stiffness_beyond_a_closing():
 
 
 @pytest.mark.parametrize(
-    "extra", [{}, {"TPSI": 0.4, "COHE": 2.0}, {"FTRC": 1.0, "COHE": 3.0}, {"FNE": 6.0, "QT": 9.0}]
-)
-@pytest.mark.parametrize("d", [2, 3])
-def test_tangent_is_the_derivative(extra, d):
-    rng = np.random.default_rng(7)
-    p = parameters(300, **extra)
-    state = np.zeros((300, N_STATE))
-    state[:, Variable.SLIP1] = rng.uniform(-0.1, 0.1, 300)
-    w = rng.uniform(-0.2, 0.1, (300, d))
-    _, _, D = answer(w, state, p)
-    h = 1e-7
-    for j in range(d):
-        step = np.zeros(d)
-        step[j] = h
-        slope = (answer(w + step, state, p)[0] - answer(w - step, state, p)[0]) / (2 * h)
-        assert np.quantile(np.abs(slope - D[:, :, j]).max(axis=1), 0.98) < 1e-4
-
-
-@pytest.mark.parametrize(
     ("path", "given", "plastic"),
     [
         # slip of 0.1 - 0.01 / 0.5 at the pressure 1: dilatancy lifts by its tangent times the slip
