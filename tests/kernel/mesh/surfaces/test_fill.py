@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from scipy.spatial import Delaunay
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
@@ -97,6 +98,26 @@ def test_a_size_is_linear_between_points_and_never_below_the_least():
     assert 1.4 > far[1] > far[0] >= 0.2
     found = fill.boundary_sizes(p[:3], np.array([[0, 1], [1, 2], [2, 0]]))
     np.testing.assert_allclose(found, [3.5, 4.5, 4.0])
+
+
+@pytest.mark.parametrize("squares", [True, False])
+def test_centres_of_large_triangles_are_told_the_largest_first(squares):
+    """By a linear system each; sizes differ from place to place."""
+    p = 5.0 * np.random.default_rng(3).random((60, 2))
+    size = fill.SizeField(p, 0.4 + 0.05 * p[:, 0])
+    triangles = Delaunay(p).simplices
+    rows = []
+    for a, b, c in p[triangles]:
+        centre = np.linalg.solve(2 * np.array([b - a, c - a]), [b @ b - a @ a, c @ c - a @ a])
+        wanted = size((a + b + c)[None] / 3)[0] / (2.0 if squares else 3.0) ** 0.5
+        rows.append((np.linalg.norm(a - centre) / wanted, *centre))
+    excess, centres = np.split(np.array(sorted(rows, reverse=True)), [1], axis=1)
+    of = [(excess > low) & (excess < high) for low, high in ((1.4, 8.0), (1.9, 4.0))]
+    np.testing.assert_allclose(fill._large_centres(p, triangles, size, squares),
+                               centres[of[0].ravel()])  # fmt: skip
+    made = fill._proposals(p, triangles, size, squares)
+    assert 0 < of[1].sum() < of[0].sum()
+    np.testing.assert_allclose(made[len(made) - of[1].sum() :], centres[of[1].ravel()])
 
 
 @pytest.mark.parametrize("h", [1.0, 0.02])
