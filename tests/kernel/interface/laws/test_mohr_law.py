@@ -80,34 +80,9 @@ def test_tension_stops_at_the_strength_and_its_opening_stays():
     assert t[1, 1] == pytest.approx(-3.0)
 
 
-def test_compression_yields_and_hardens():
-    p = parameters(FNE=5.0, QT=10.0)
-    t, _ = walk([[0, -0.04], [0, -0.15], [0, -0.1]], p)
-    np.testing.assert_allclose(t[:, 1], [-4.0, -5.0 - 10.0 * 0.1, -1.0], rtol=1e-12)
-
-
 def test_second_normal_stiffness_beyond_a_closing():
     t, _ = walk([[0, -0.05], [0, -0.2]], parameters(ECN=0.1, EF=500.0))
     np.testing.assert_allclose(t[:, 1], [-5.0, -10.0 - 50.0], rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    "extra", [{}, {"TPSI": 0.4, "COHE": 2.0}, {"FTRC": 1.0, "COHE": 3.0}, {"FNE": 6.0, "QT": 9.0}]
-)
-@pytest.mark.parametrize("d", [2, 3])
-def test_tangent_is_the_derivative(extra, d):
-    rng = np.random.default_rng(7)
-    p = parameters(300, **extra)
-    state = np.zeros((300, N_STATE))
-    state[:, Variable.SLIP1] = rng.uniform(-0.1, 0.1, 300)
-    w = rng.uniform(-0.2, 0.1, (300, d))
-    _, _, D = answer(w, state, p)
-    h = 1e-7
-    for j in range(d):
-        step = np.zeros(d)
-        step[j] = h
-        slope = (answer(w + step, state, p)[0] - answer(w - step, state, p)[0]) / (2 * h)
-        assert np.quantile(np.abs(slope - D[:, :, j]).max(axis=1), 0.98) < 1e-4
 
 
 @pytest.mark.parametrize(

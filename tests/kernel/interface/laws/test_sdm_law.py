@@ -1,7 +1,5 @@
 """The SDM law: closed form, path, energies, tangent, limits; refused parameters."""
 
-import itertools
-
 import numpy as np
 import pytest
 from references.sdm_arrays import normal_arrays, shear_arrays
@@ -92,15 +90,6 @@ def test_points_take_the_tractions_and_slips_of_the_arrays(d):
     assert slip[stiffness > 0.0].any()
 
 
-def test_path_does_not_depend_on_the_steps():
-    p = parameters(FU=1e5, GF=20.0, FC=-2e4)
-    corners = np.array([0.0, 3e-4, -1e-4, 6e-4, 1e-5, 9e-4, -5e-4, 2e-4])
-    fine = np.concatenate([np.linspace(a, b, 400)[1:] for a, b in itertools.pairwise(corners)])
-    coarse, _ = walk(np.stack([0 * corners, corners], 1)[1:], p)
-    detailed, _ = walk(np.stack([0 * fine, fine], 1), p)
-    np.testing.assert_allclose(detailed[398::399], coarse, rtol=1e-9, atol=1e-4)
-
-
 def test_closed_cycle_in_compression_gives_back_its_energy():
     p = parameters(FU=1e5, GF=20.0, FC=-3e4)
     _, opened = walk(np.array([[0.0, 6e-4], [0.0, 0.0]]), p)
@@ -113,48 +102,6 @@ def test_closed_cycle_in_compression_gives_back_its_energy():
     ends = [answer(x[None], state, p)[0][0] for x in at]
     stored = [point_energies(SDM, x, e, state[0], p[0])[0] for x, e in zip(at, ends, strict=True)]
     assert stored[1] - stored[0] == pytest.approx(down, rel=1e-6)
-
-
-def test_without_strength_it_is_the_unilateral_spring():
-    p = parameters()
-    w = np.stack([np.zeros(41), np.linspace(-1e-3, 1e-3, 41)], 1)
-    t, _ = walk(np.concatenate([w, w[::-1]]), p)
-    expected = 1e9 * np.minimum(np.concatenate([w, w[::-1]])[:, 1], 0.0)
-    np.testing.assert_allclose(t[:, 1], expected, atol=1e-12 * 1e6)
-
-
-@pytest.mark.parametrize(
-    "extra",
-    [
-        {},
-        {"FROT": 0.4},
-        {"FU": 1e5, "GF": 20.0, "FC": -2e4},
-        {"FU": 1e5, "GF": 20.0, "FC": -2e4, "FROT": 0.7},
-    ],
-)
-@pytest.mark.parametrize("d", [2, 3])
-def test_tangent_is_the_derivative(extra, d):
-    rng = np.random.default_rng(5)
-    p = parameters(200, **extra)
-    state = np.zeros((200, N_STATE))
-    state[:, Variable.XI] = rng.uniform(0, 2e-4, 200)
-    if "FU" in extra:  # points that were bonded, some of them closing
-        a = p[:, Parameter.FU] / p[:, Parameter.GF]
-        state[::2, Variable.DAMAGE] = -np.expm1(-a * state[:, Variable.XI])[::2]
-    if "FROT" in extra:  # points that slid before, some of them back
-        state[:, Variable.SLIP1] = rng.uniform(-2e-4, 2e-4, 200)
-        state[:, Variable.SLIP2] = rng.uniform(-2e-4, 2e-4, 200) * (d == 3)
-    w = rng.uniform(-4e-4, 4e-4, (200, d))
-    _, _new, D = answer(w, state, p)
-    h = 1e-10
-    for j in range(d):
-        step = np.zeros(d)
-        step[j] = h
-        up, _n1, _ = answer(w + step, state, p)
-        down, _n2, _ = answer(w - step, state, p)
-        slope = (up - down) / (2 * h)
-        error = np.abs(slope - D[:, :, j]).max(axis=1)
-        assert np.quantile(error, 0.97) < 1e-5 * 1e9  # the rest sits on a kink
 
 
 def test_friction_bounds_the_shear_and_counts_its_loss():
