@@ -44,16 +44,6 @@ def test_type_and_constituent_change(found):
     assert field.blocks[0].constituent == "SOIL"
 
 
-def test_curves_in_cells_add_up(found):
-    y = found(
-        LINE + "E = EVOL 'MANU' 'T' (PROG 0. 1.) 'YOUN' (PROG 2. 3.) ; "
-        "D = MANU 'CHML' L 'YOUN' E ; F = D + D - (MANU 'CHML' L 'YOUN' (E * 0.5)) ; "
-        "Y = EXTR (EXTR F 'YOUN' 1 1 1) 'ORDO' ;",
-        "Y",
-    )
-    assert y.values.tolist() == [3.0, 4.5]
-
-
 def test_zero_hooke_matrices_make_no_stiffness(found):
     block = found(
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "

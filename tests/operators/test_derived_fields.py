@@ -85,10 +85,6 @@ def test_filter_is_a_weighted_mean(found):
     np.testing.assert_allclose(dense(none), np.eye(5))
 
 
-def test_free_plate_has_three_motions(found):
-    assert found(PLATE + "N = DIMN K ;", "N") == 3
-
-
 def test_orthogonal_field(found):
     script = PLATE + (
         "MS = MASS M A ; B = VIBR 'SIMU' 0.01 5 (K ET (BLOQ 'DEPL' L)) MS ; "

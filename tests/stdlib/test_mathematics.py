@@ -13,10 +13,6 @@ def test_remainder_is_that_of_python(a):
     assert found(f"X = @MOD {a}.5 3 ;", "X") == pytest.approx((a + math.copysign(0.5, a)) % 3)
 
 
-def test_remainder_of_a_list():
-    assert found("X = @MOD (LECT 5 -1 4) 2 ;", "X").values.tolist() == [1, 1, 0]
-
-
 @pytest.mark.parametrize(
     ("phrase", "expected"),
     [
@@ -44,10 +40,6 @@ def test_regression_line_is_that_of_least_squares():
     slope, level = np.polyfit(x, y, 1)
     expected = (x.mean(), x.std(), y.mean(), y.std(), slope, level, np.corrcoef(x, y)[0, 1])
     assert values == pytest.approx(expected, rel=1e-10)
-
-
-def test_polynomial_by_its_coefficients():
-    assert found("X = POLYNO 2. 1. 0. 3. -1. ;", "X") == 1 + 12 - 8
 
 
 def test_zero_of_functions_within_the_tolerance():
@@ -79,15 +71,6 @@ def test_quadrature_is_exact_up_to_twice_its_points(law, moment):
     assert value == pytest.approx(moment, rel=1e-8)
 
 
-def test_lognormal_points_have_the_mean_asked_for():
-    value = found(
-        "T = QUADRATU 'LOGN' 2. 0.5 8 ; S = 0. ; "
-        "REPE B 8 ; S = S + ((T . &B . 'POIDS') * (T . &B . 'POINT')) ; FIN B ;",
-        "S",
-    )
-    assert value == pytest.approx(2.0, rel=1e-10)
-
-
 def test_corrected_accelerogram_ends_at_rest():
     v, d = found(
         "E = EVOL 'MANU' 'T' (PROG 0. PAS 0.1 NPAS 50) 'A' (BRUI 'BLAN' 'GAUS' 0.3 1. 51) ; "
@@ -102,10 +85,6 @@ def test_corrected_accelerogram_ends_at_rest():
 def test_product_of_fields_by_component():
     script = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 3. 'UY' 4. ; "
     assert found(script + "X = MAXI (MULC C C) ; Y = MINI (MULC C C) ;", "X", "Y") == (16.0, 9.0)
-
-
-def test_interpolation_between_two_lists():
-    assert found("Y = @INTLIN (PROG 0. 2.) (PROG 1. 5.) 0.5 ;", "Y") == 2.0
 
 
 def test_remainders_by_the_items_of_a_list():

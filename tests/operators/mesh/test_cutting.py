@@ -75,15 +75,6 @@ def test_vectors_of_shells_and_beams(found) -> None:
     assert lone == pytest.approx(2.0)  # half the length
 
 
-def test_normals_of_a_meridian(found) -> None:
-    radial = found(
-        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 3 (2. 0.) (2. 6.) ; "
-        "V = VSUR (MODE L MECANIQUE ELASTIQUE COQ2) 'NORM' ; A = MAXI (EXCO 'VR' V) ;",
-        "A",
-    )
-    assert radial == pytest.approx(-1.0)
-
-
 def test_polygons_are_picked_by_their_family_name(found) -> None:
     count, total = found(
         "OPTI DIME 2 ELEM POLY ; L = (0. 0.) DROI 8 (2. 0.) DROI 6 (2. 1.) DROI 8 (0. 1.) "
