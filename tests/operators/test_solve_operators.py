@@ -1,4 +1,4 @@
-"""RESO, REAC, DIAG and matrix algebra on small structures with closed solutions."""
+"""What RESO refuses or leaves out; parts of a matrix."""
 
 import pytest
 from script_runs import failed, ran

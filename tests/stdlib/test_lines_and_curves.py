@@ -1,4 +1,4 @@
-"""@FRENET @LISSE @COUPLE @POMI ZIGZAG CONTSEG3 @DEDUIRE @CORIGI @SYSLIN against closed forms."""
+"""@FRENET @LISSE @POMI ZIGZAG @DEDUIRE @SYSLIN against closed forms."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""@INTLIN @MOD @ARR @FIX @STAT POLYNO FZERO QUADRATU MULC SIGNDERI against closed forms."""
+"""@STAT FZERO QUADRATU against closed forms."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""CONVT @PALETTE CHPR0 @EXCEL1 PECHE @MESU @STBL @GLOBAL."""
+"""CONVT @PALETTE CHPR0 @EXCEL1 PECHE."""
 
 import pytest
 from script_runs import ran, refused

@@ -1,4 +1,4 @@
-"""COUP FUIT VSUR and sets of polygons."""
+"""FUIT, and what COUP and FUIT refuse."""
 
 import pytest
 
