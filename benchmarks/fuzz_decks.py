@@ -41,8 +41,8 @@ if __name__ == "__main__":  # threads do not follow into a child process
     os.environ |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
 
 import ssilang.cli.run as running
+from ssilang.cli.interrupts import interrupt
 from ssilang.cli.run import RunOptions, RunResult, run_source
-from ssilang.cli.signals import interrupt
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree

@@ -16,8 +16,8 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
+from ssilang.cli.interrupts import interrupt
 from ssilang.cli.run import RunOptions, run_source
-from ssilang.cli.signals import interrupt
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.run.session import Limits

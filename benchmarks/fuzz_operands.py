@@ -19,8 +19,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from ssilang.cli.interrupts import interrupt
 from ssilang.cli.run import RunOptions, execute, make_session
-from ssilang.cli.signals import interrupt
 from ssilang.language.registry import OPERATORS, Operator, keywords_of
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session

@@ -19,8 +19,8 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
+from ssilang.cli.interrupts import interrupt
 from ssilang.cli.run import RunOptions, RunResult, execute, make_session, run_source
-from ssilang.cli.signals import interrupt
 from ssilang.language.run.session import Limits
 from ssilang.language.text.source import Source
 from ssilang.language.values import Table

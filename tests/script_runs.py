@@ -1,6 +1,7 @@
 """Running a script in a test and looking at what it made."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,11 @@ def found(script: str, *names: str, folder: Path | None = None) -> Any:
     root = ran(script, folder).session.root
     values = tuple(root.find(n) for n in names)
     return values[0] if len(values) == 1 else values
+
+
+def finder(script: str, folder: Path | None = None) -> Callable[[str], Any]:
+    """What finds the objects of a script by their names; the script must succeed."""
+    return ran(script, folder).session.root.find
 
 
 def printed(script: str, folder: Path | None = None) -> list[str]:

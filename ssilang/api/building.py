@@ -35,7 +35,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces.grid import grid_cells
 from ssilang.kernel.mesh.volumes.block import brick_cells
 from ssilang.kernel.statics.linear import product, solve
-from ssilang.kernel.stepping.node_track import NodeTrack
+from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import History, integrate
 from ssilang.language.say.errors import SsiError
@@ -347,7 +347,7 @@ class Builder:
         """
         with _one_error(self.language):
             problem = make_problem(self.inputs(times, start))
-            track = NodeTrack(np.ones(len(problem.times), dtype=bool), problem=problem)
+            track = NodeHistories(np.ones(len(problem.times), dtype=bool), problem=problem)
             history = integrate(problem, [track])
         return Motion(self, track, history)
 
@@ -390,14 +390,14 @@ class Motion:
     Attributes
     ----------
     builder : Builder
-    track : NodeTrack
+    track : NodeHistories
         What the kernel kept: all nodes and joints at all steps.
     account : History
         The kernel's account: energies, imbalance, solver, loop.
     """
 
     builder: Builder
-    track: NodeTrack
+    track: NodeHistories
     account: History
 
     @property

@@ -13,8 +13,8 @@ from ssilang.api.errors import Error, Notice, refused
 from ssilang.api.objects import held
 from ssilang.api.result import Result
 from ssilang.cli.check import check_source
+from ssilang.cli.interrupts import listening
 from ssilang.cli.run import RunOptions, RunResult, run_source
-from ssilang.cli.signals import listening
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source

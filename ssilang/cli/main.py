@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="replace")
     if not getattr(options, "debug", False):
         warnings.simplefilter("ignore")  # of libraries; the language's own are messages
-    from ssilang.cli.signals import listening
+    from ssilang.cli.interrupts import listening
 
     if getattr(options, "allow_geo", False):
         from ssilang.io.mesh_files.geo import FREE
@@ -145,7 +145,7 @@ def _told(problem: Exception, language: str) -> None:
 
 def _leave_quietly() -> int:
     """The reader of our output left (`ssilang case.ssi | head -1`): nothing more is written."""
-    from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE
+    from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE
 
     _silence()
     return ENDED_BY_CLOSED_PIPE

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from ssilang import private
-from ssilang.cli.signals import ENDED_BY_CLOSED_PIPE, holding, take
+from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.cli.terminal.screen import coloured
 from ssilang.language.run.forms_ran import FormsRan

@@ -26,8 +26,8 @@ from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.information import Reader
 from ssilang.cli.editor.problems import Findings
 from ssilang.cli.interactive import UNFINISHED, listed, run_shown
+from ssilang.cli.interrupts import listening
 from ssilang.cli.run import RunOptions, make_session
-from ssilang.cli.signals import listening
 from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.say.diagnostics import render

@@ -12,8 +12,46 @@ from ssilang.cli.main import _compile_ahead
 from ssilang.kernel.base.compiled import beside, cache
 from ssilang.language.text.source import Source
 
+NO_FILE = "no_such_file.ssi"
+# arguments, {} being the script's file; the script; exit code; words on standard output, on error
+COMMANDS = [
+    ("run {} --debug", "y = 1 / 0 ;", 1, [], ["Traceback"]),
+    ("run {} --lang fr", "y = 1 / 0 ;", 1, [], ["division par zéro"]),
+    ("{}", "OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;", 1, [], ["division par zéro"]),
+    ("run {} --lang fr", "SI (EGA 'ABC' 1) ; FINSI ;", 0, [],
+     ["avertissement : le mot ABC est comparé à un nombre"]),
+    ("run {} --max-statements 500", "REPE b ; x = &b ; FIN b ;", 1, [], ["500"]),
+    (NO_FILE, "", 2, [], [NO_FILE]),
+    (f"check {NO_FILE}", "", 2, [], [NO_FILE]),
+    (f"check {NO_FILE} {{}}", "X = 1 2 ;\nY = ;", 2, ["deck.ssi:1:"], []),
+    ("check {}", "MESS 'never said' ;\ny = PORG 1. 2. ;", 1, ["did you mean PROG?"], []),
+    ("check {}", "x = FLUX 1 2 3 ; MESS x ;", 1, [], []),
+    ("check --syntax-only {}", "x = FLUX 1 2 3 ; MESS x ;", 0, [], []),
+    ("check {}", "x = 1 / 2 ;\nMESS x ;", 0, ["warning"], []),
+    ("help prog", "", 0, ["PROG", "Syntax"], []),
+    ("help", "", 0, ["PROG", "DIME", "@VERIFIE"], []),
+    ("help ZZZZ", "", 1, ["ZZZZ"], []),
+    ("help CAPACITE", "", 1, ["CAPA is a Cast3M operator (heat)"], []),
+    ("--lang fr help RESO", "", 0, ["RESO : opérateur"], []),
+]  # fmt: skip
 
-def test_a_file_alone_is_run(ssilang, script):
+
+@pytest.mark.parametrize(("arguments", "text", "code", "out", "err"), COMMANDS)
+def test_a_command_ends_with_its_code_and_says_what_it_should(
+    ssilang, script, arguments, text, code, out, err
+):
+    done = ssilang(*arguments.format(script(text + "\n")).split())
+    assert done.code == code
+    assert [w for w in out if w not in done.out] == [w for w in err if w not in done.err] == []
+    assert "never said" not in done.out
+
+
+def test_commands_that_say_one_thing_alone(ssilang, script):
+    from ssilang import __version__
+
+    assert ssilang("version").out == f"ssilang {__version__}\n"
+    sound = ssilang("check", script("y = PROG 1. 2. ;\nMESS (DIME y) ;\n"))
+    assert (sound.code, sound.out) == (0, "")
     done = ssilang(script("MESS 'sum ' (1 + 2) ;\n"))
     assert (done.code, done.out, done.err) == (0, "sum 3\n", "")
 
@@ -41,10 +79,6 @@ def test_the_process_ends_without_a_search_through_all_that_is_left(script, tmp_
     assert int(done.stdout.split(":")[1]) < 1000  # of more than a hundred thousand
 
 
-def test_debug_shows_the_traceback_too(ssilang, script):
-    assert "Traceback" in ssilang("run", script("y = 1 / 0 ;\n"), "--debug").err
-
-
 MASS_ON_A_SPRING = OSCILLATOR + "T2 = DYNAMIC T1 ;\n"
 
 
@@ -53,12 +87,6 @@ def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script
     assert "compiled" not in ssilang("run", deck).err
     assert "DYNAMIC: compiled, one mode: linear while" in ssilang("run", deck, "-v").err
     assert "DYNAMIC: compilé, un mode : linéaire" in ssilang("run", deck, "-v", "--lang", "fr").err
-
-
-def test_a_missing_file_is_wrong_usage(ssilang):
-    done = ssilang("no_such_file.ssi")
-    assert done.code == 2
-    assert "no_such_file.ssi" in done.err
 
 
 def test_a_folder_is_no_script(ssilang, tmp_path):
@@ -78,10 +106,6 @@ def test_standard_input_may_be_latin1(process):
 def test_a_terminal_without_accents_does_not_stop_a_run(process, script):
     done = process(script("MESS 'déjà' ;\n"), PYTHONIOENCODING="ascii", LC_ALL="C")
     assert done.code == 0
-
-
-def test_messages_in_french(ssilang, script):
-    assert "division par zéro" in ssilang("run", script("y = 1 / 0 ;\n"), "--lang", "fr").err
 
 
 FREE = (
@@ -107,28 +131,11 @@ def test_what_does_not_stop_a_run_is_called_a_warning(ssilang, script, language,
     assert "error" not in done.err
 
 
-def test_warnings_speak_the_language_of_the_run(ssilang, script):
-    done = ssilang("run", script("SI (EGA 'ABC' 1) ; FINSI ;\n"), "--lang", "fr")
-    assert done.code == 0
-    assert done.err.startswith("avertissement : le mot ABC est comparé à un nombre")
-
-
 def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, capsys):
     with pytest.raises(SystemExit) as left:
         ssilang("run", script("A = 1 ;\n"), "--set", "A", "--lang", "fr")
     assert left.value.code == 2
     assert capsys.readouterr().err.startswith("erreur : 'A' n'est pas NOM=VALEUR")
-
-
-def test_opti_lang_switches_the_messages(ssilang, script):
-    assert "division par zéro" in ssilang(script("OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;\n")).err
-
-
-def test_limits_are_options(ssilang, script):
-    endless = script("REPE b ; x = &b ; FIN b ;\n")
-    done = ssilang("run", endless, "--max-statements", "500")
-    assert done.code == 1
-    assert "500" in done.err
 
 
 def test_memory_is_bounded_by_option(process, script):
@@ -144,60 +151,11 @@ def test_i_keeps_the_session(ssilang, script):
     assert "42" in done.out
 
 
-def test_check_finds_errors_without_running(ssilang, script):
-    done = ssilang("check", script("MESS 'not run' ;\ny = PORG 1. 2. ;\n"))
-    assert done.code == 1
-    assert "did you mean PROG?" in done.out
-    assert "not run" not in done.out
-
-
-def test_check_of_a_sound_script_says_nothing(ssilang, script):
-    done = ssilang("check", script("y = PROG 1. 2. ;\nMESS (DIME y) ;\n"))
-    assert (done.code, done.out) == (0, "")
-
-
 def test_check_of_several_files(ssilang, script):
     done = ssilang("check", script("x = 1 ; MESS x ;\n", "a.ssi"), script("x = (1 ;\n", "b.ssi"))
     assert done.code == 1
     assert "b.ssi" in done.out
     assert "a.ssi" not in done.out
-
-
-def test_syntax_only_passes_operators_out_of_scope(ssilang, script):
-    deck = script("x = FLUX 1 2 3 ; MESS x ;\n")
-    assert ssilang("check", deck).code == 1
-    assert ssilang("check", "--syntax-only", deck).code == 0
-
-
-def test_warnings_do_not_fail_a_check(ssilang, script):
-    done = ssilang("check", script("x = 1 / 2 ;\nMESS x ;\n"))
-    assert done.code == 0
-    assert "warning" in done.out
-
-
-def test_help_of_an_operator(ssilang):
-    done = ssilang("help", "prog")
-    assert done.code == 0
-    assert "PROG" in done.out
-    assert "Syntax" in done.out
-
-
-def test_help_lists_every_operator_and_procedure(ssilang):
-    out = ssilang("help").out
-    for word in ("PROG", "DIME", "@VERIFIE"):
-        assert word in out
-
-
-def test_help_of_an_unknown_word(ssilang):
-    done = ssilang("help", "ZZZZ")
-    assert done.code == 1
-    assert "ZZZZ" in done.out
-
-
-def test_help_of_a_word_of_cast3m_that_is_not_built(ssilang):
-    done = ssilang("help", "CAPACITE")
-    assert done.code == 1
-    assert "CAPA is a Cast3M operator (heat)" in done.out
 
 
 def test_version(process):
@@ -233,26 +191,6 @@ def test_deep_blocks_run_in_a_fresh_process(process, tmp_path):
     (tmp_path / "deep.ssi").write_text(text)
     done = process("deep.ssi")
     assert (done.code, done.out) == (0, "2\n"), done.err[-500:]
-
-
-def test_the_version_is_a_command_and_an_option(ssilang, capsys):
-    from ssilang import __version__
-
-    done = ssilang("version")
-    assert (done.code, done.out) == (0, f"ssilang {__version__}\n")
-
-
-def test_a_missing_file_is_wrong_usage_of_check_too(ssilang, script):
-    done = ssilang("check", "no_such_file.ssi")
-    assert done.code == 2
-    assert "no_such_file.ssi" in done.err
-    both = ssilang("check", "no_such_file.ssi", script("X = 1 2 ;\nY = ;\n"))
-    assert both.code == 2
-    assert "deck.ssi:1:" in both.out
-
-
-def test_the_language_may_stand_before_the_command(ssilang):
-    assert "RESO : opérateur" in ssilang("--lang", "fr", "help", "RESO").out
 
 
 def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):

@@ -105,15 +105,6 @@ def test_strains_in_percent_are_suspected(given):
         assert [w.code for w in result.session.warnings] == wanted
 
 
-def test_parameters_in_two_fields_wait_for_each_other(found):
-    """KAPA < LAMD cannot be known of one alone."""
-    script = MODEL.replace("IWAN", "CAM_CLAY") + (
-        "MA = (MATE M 'YOUN' 9. 'NU' 0. 'KAPA' 0.3) ET (MATE M 'LAMD' 0.4 'M' 1.) ; "
-        "N = MAXI (EXCO 'KAPA' MA) ; "
-    )
-    assert found(SQUARE + script, "N") == pytest.approx(0.3)
-
-
 TRIAXIAL = (
     "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = MA ; "
     "T . 'BLOCAGES_MECANIQUES' = HELD ET MOVED ; "

@@ -52,19 +52,6 @@ def test_relations_condensed_on_their_multipliers(found):
     assert numbering_of(s).unknowns == ("LX",)
 
 
-def test_matrix_condensed_by_relations_answers_as_the_whole(found):
-    script = PLATE + (
-        "P1 = S POIN 'PROC' (3. 2.) ; P2 = S POIN 'PROC' (3. 0.) ; "
-        "B = (BLOQ 'DEPL' (S POIN 'DROI' (0. 0.) (0. 1.) 1.E-6)) ; "
-        "C = RELA 1. 'UX' P1 '-' 2. 'UX' P2 ; F = FORC 'FY' 1. P2 ; "
-        "U1 = RESO (K ET B ET C) F ; KC = CMCT K C ; U2 = RESO (KC ET B) F ; "
-        "Y1 = EXTR U1 'UY' P2 ; Y2 = EXTR U2 'UY' P2 ; N = DIMN (KC ET B) ; "
-    )
-    y1, y2, n = found(script, "Y1", "Y2", "N")
-    assert y2 == pytest.approx(y1, rel=1e-10)
-    assert n == 0
-
-
 def test_cable_is_a_bar_along_its_segments(found):
     k = found("OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (3. 4.) ; K = CABL L 10. 2. ;", "K")
     c = np.array([-0.6, -0.8, 0.6, 0.8])
@@ -83,10 +70,6 @@ def test_filter_is_a_weighted_mean(found):
     assert y.components["SCAL"].values[list(AT).index(2)] == pytest.approx(smooth)
     none = found(LINE + "F = MFIL (X + 1.) ;", "F")
     np.testing.assert_allclose(dense(none), np.eye(5))
-
-
-def test_free_plate_has_three_motions(found):
-    assert found(PLATE + "N = DIMN K ;", "N") == 3
 
 
 def test_orthogonal_field(found):

@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.statics.linear import product
-from ssilang.kernel.stepping.node_track import NodeTrack
+from ssilang.kernel.stepping.node_histories import NodeHistories
 
 BLOCK = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
@@ -174,9 +174,9 @@ CURVES = {
 def test_curves_in_time_read_rows_without_making_fields(name, table, monkeypatch):
     asked, value = CURVES[name]
     made = []
-    given = NodeTrack.node_field
+    given = NodeHistories.node_field
     monkeypatch.setattr(
-        NodeTrack, "node_field", lambda s, row, name: made.append(row) or given(s, row, name)
+        NodeHistories, "node_field", lambda s, row, name: made.append(row) or given(s, row, name)
     )
     find = ran(BLOCK.format(step="") + f"E = EVOL 'TEMP' {table} {asked} ;")
     assert set(made) <= {0}  # the first says what components there are

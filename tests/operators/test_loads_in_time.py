@@ -17,10 +17,6 @@ def test_loading_is_its_field_times_its_curve(time, expected, found):
     assert found(script, "X") == pytest.approx(expected)
 
 
-def test_loading_without_curve_is_constant(found):
-    assert found(LOAD + "C = CHAR 'MECA' F ; X = EXTR (TIRE C 7.) 'FY' P ;", "X") == -10.0
-
-
 def test_joined_loadings_add_up_or_are_taken_by_name(found):
     script = LOAD + "C = (CHAR 'MECA' F E) ET (CHAR 'SEIS' G E) ; "
     values = found(

@@ -31,12 +31,3 @@ def test_words_that_are_spelt_like_keywords_are_operands_where_operands_stand(
     printed, statement, says
 ):
     assert printed(statement)[-1] == says
-
-
-def test_a_file_may_be_called_like_an_option(found):
-    read = found(
-        "OPTI SORT 'debut.csv' ; SORT 'EXCE' (PROG 1. 2.) (PROG 3. 4.) ; "
-        "T = LIRE 'CSV' 'debut.csv' 'DEBU' 2 'LIGN' ; X = EXTR (T . 1) 2 ;",
-        "X",
-    )
-    assert read == 4.0

@@ -51,10 +51,6 @@ def test_without_conditions_a_variable_of_any_sign_goes_down_to_its_bound(found,
     assert found(script, "X") == pytest.approx(-3.0 if slope > 0.0 else 5.0)
 
 
-def test_a_variable_without_influence_stays(found):
-    assert found(LINE.format(x=0.5, slope=0.0) + "T = EXCE T ; X = T . 'VX0' . 1 ;", "X") == 0.5
-
-
 def test_tangents_give_up_what_cannot_be_met(found):
     script = LINE.format(x=1.0, slope=1.0) + (
         "T . 'METHODE' = 'LIN' ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; T . 'MC' . 1 . 0 = 0. ;"

@@ -1,7 +1,8 @@
 """What a phrase gives is the value beside it (`test_phrases.toml`), reckoned without the package.
 
-A group is said behind its `before` in one session. What stands before the last `;` of a phrase is
-said first, what stands behind it gives the value: numbers, words and lists as they are, a point by
+A group is said behind its `before` in one session, without it each phrase in one of its own. What
+stands before the last `;` of a phrase is said first, what stands behind it gives the value:
+numbers, words and lists as they are, a point by
 its coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
 tables by what they hold, fields by functions of x, y and z for each component.
 """
@@ -47,7 +48,7 @@ def sessions(tmp_path_factory):
     made = {}
 
     def of(group):
-        if group not in made:
+        if group not in made or "before" not in GROUPS[group]:
             folder = tmp_path_factory.mktemp(group)
             made[group] = make_session(Source("before", ""), RunOptions(folder), io.StringIO())
             execute(made[group], Source("before", GROUPS[group].get("before", "")))

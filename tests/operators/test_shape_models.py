@@ -83,13 +83,3 @@ def test_joined_tables_number_their_shapes_through(found):
     )
     assert count == 7 + 10
     assert last
-
-
-def test_unit_forces_of_a_table(found):
-    value = found(
-        "OPTI DIME 2 ; P = 1. 0. ; T = TABLE 'LIAISONS_STATIQUES' ; T . 1 = TABLE ; "
-        "T . 1 . 'POINT_LIAISON' = P ; T . 1 . 'DDL_LIAISON' = 'FX' ; FORC T ; "
-        "F = EXTR (T . 1 . 'FORCE') FX P ;",
-        "F",
-    )
-    assert value == 1.0

@@ -281,7 +281,7 @@ def test_footings_that_nobody_follows_are_counted(
     rocking: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert "smaller footing" not in Sections(page(rocking)).text["header"]
-    monkeypatch.setattr("ssilang.kernel.stepping.node_track.MOST", 0)
+    monkeypatch.setattr("ssilang.kernel.stepping.node_histories.MOST", 0)
     options = RunOptions(output_directory=tmp_path / "out", summary=True, report=True)
     run_file(rocking.parent / "deck.ssi", options)
     assert "Left out: 1 smaller footing." in Sections(page(tmp_path / "out")).text["header"]

@@ -1,4 +1,4 @@
-"""CONVT @PALETTE CHPR0 @EXCEL1 PECHE @MESU @STBL @GLOBAL."""
+"""CONVT @PALETTE CHPR0 @EXCEL1 PECHE."""
 
 import pytest
 from script_runs import ran, refused
@@ -6,24 +6,6 @@ from script_runs import ran, refused
 
 def found(script, name):
     return ran(script).session.root.find(name)
-
-
-@pytest.mark.parametrize(
-    ("call", "text"),
-    [
-        ("5400.", "1.50h"),
-        ("0.25 1", "250.0ms"),
-        ("86400. 1 'H'", "24.0h"),
-        ("59.999 1", "59.9s"),
-        ("172800. 0 'D'", "2d"),
-        ("31557600. 1", "1.0a"),
-        ("31557600. 1 'y'", "1.0y"),
-        ("3.E-8 0", "30ns"),
-        ("0.", "0"),
-    ],
-)
-def test_times_are_written_in_the_fitting_unit(call, text):
-    assert str(found(f"T = CONVT {call} ;", "T")).strip() == text
 
 
 def test_unknown_units_are_named():
@@ -89,27 +71,3 @@ def test_times_without_result_are_refused():
     assert "add IPOL" in refused(_RUN + "X = PECHE T 'DEPLACEMENTS' 1.4 ;")
     assert "not between" in refused(_RUN + "X = PECHE T 'DEPLACEMENTS' 3. 'IPOL' ;")
     assert "no index" in refused(_RUN + "X = PECHE T 'NONSENSE' ;")
-
-
-def test_mesu_with_its_old_name():
-    text = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 3.) ; A = @MESU S ;"
-    assert found(text, "A") == pytest.approx(6.0)
-
-
-def test_stbl_joins_the_objects_of_a_table_up_to_the_first_gap():
-    text = "T = TABL ; T . 1 = PROG 1. ; T . 2 = PROG 2. 3. ; T . 4 = PROG 9. ; L = @STBL T ;"
-    assert list(found(text, "L").values) == [1.0, 2.0, 3.0]
-
-
-def test_global_gives_the_force_of_a_support_over_its_motion():
-    text = (
-        "OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 1.) ;"
-        "M = MODE S MECANIQUE ; A = MATE M YOUN 50. NU 0. ; B = BLOQ UX (S COTE 2) ;"
-        "E = EVOL MANU (PROG 0. 4.) (PROG 0. 0.8) ; T = TABL ; T . 'MODELE' = M ;"
-        "T . 'CARACTERISTIQUES' = A ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B 1.) E ;"
-        "T . 'BLOCAGES_MECANIQUES' = B ET (BLOQ UX (S COTE 4)) ET (BLOQ UY (S COTE 1)) ;"
-        "T . 'TEMPS_CALCULES' = PROG 0. 1. 4. ; PASAPAS T ;"
-        "G = @GLOBAL T B E 'FX' ; X = EXTR G 'ABSC' ; Y = EXTR G 'ORDO' ;"
-    )
-    assert list(found(text, "X").values) == pytest.approx([0.0, 0.2, 0.8])
-    assert list(found(text, "Y").values) == pytest.approx([0.0, 50.0 * 0.1, 50.0 * 0.4])

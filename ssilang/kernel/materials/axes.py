@@ -13,6 +13,7 @@ from ssilang.kernel.elements.results.frames import is_flat_shell
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.materials.elasticity import two_axes
 from ssilang.kernel.materials.model import Mode, Zone
 
 
@@ -58,7 +59,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
         n = len(zone.cells)
         first = np.broadcast_to(given.first, (n, 1, 3))
         second = _second(given, flat, first)
-    v1, v2 = _turned(_frame(first, second), given.angle)
+    v1, v2 = _turned(two_axes(first, second), given.angle)
     out = {f"V{i}{a}": v[..., k] for i, v in ((1, v1), (2, v2)) for k, a in enumerate("XYZ")}
     return out, support
 
@@ -90,7 +91,7 @@ def _on_joint(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     else:
         normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
     first = np.broadcast_to(given.first, (len(x), 3))[:, None]
-    v1, _ = _turned(_frame(first, np.cross(normal[:, None], first)), given.angle)
+    v1, _ = _turned(two_axes(first, np.cross(normal[:, None], first)), given.angle)
     return {f"V1{a}": v1[..., k] for k, a in enumerate("XYZ")}
 
 
@@ -124,15 +125,6 @@ def _radial(zone: Zone, given: Directions, flat: bool) -> tuple[FloatArray, Floa
     out = x - given.first
     radius = out - (out @ along)[..., None] * along
     return np.broadcast_to(along, radius.shape), -radius
-
-
-def _frame(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray]:
-    third = np.cross(first, second)
-    norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
-    if min(float(n.min()) for n in norms) <= 0:
-        raise MaterialError("kernel.materials.vectors-axes-zero-parallel")
-    v1, v3 = first / norms[0], third / norms[1]
-    return v1, np.cross(v3, v1)
 
 
 def _turned(frame: tuple[FloatArray, FloatArray], angle: float) -> tuple[FloatArray, FloatArray]:

@@ -67,6 +67,22 @@ def isotropic_moduli(young: FloatArray, poisson: FloatArray) -> FloatArray:
     return D
 
 
+def two_axes(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors (..., 3) along `first`, and across it in the plane of both.
+
+    Raises
+    ------
+    MaterialError
+        If a vector is zero or parallel to the other.
+    """
+    third = np.cross(first, second)
+    norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
+    if min(float(n.min()) for n in norms) <= 0:
+        raise MaterialError("kernel.materials.vectors-axes-zero-parallel")
+    v1, v3 = first / norms[0], third / norms[1]
+    return v1, np.cross(v3, v1)
+
+
 def orthotropic_compliance(constants: dict[str, FloatArray]) -> FloatArray:
     """Compliance (..., 6, 6) in the axes of orthotropy.
 

@@ -14,6 +14,7 @@ of the ends against the chord, is small and meets the stiffness of small displac
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -153,7 +154,7 @@ def finite_beam(zone: Zone, material: CellField, points: int) -> FiniteBeam:
 Array = NDArray[Any]
 """Real, or complex where it is differentiated by a step along the imaginary axis."""
 
-STEP = 1e-30
+_STEP = 1e-30
 SMALL = 1e-3
 """Squared angle below which functions of an angle are their series."""
 # displacements of both nodes in the cell's axes for one unit of lengthening and end turns
@@ -218,6 +219,17 @@ def vector_of(R: Array) -> Array:
     sine = np.sqrt(np.where(near, 0.25, s))
     series = 1 + s / 6 + 3 * s**2 / 40 + 15 * s**3 / 336 + 105 * s**4 / 3456
     return axial * np.where(near, series, np.arcsin(sine) / sine)[:, None]
+
+
+def derivative(forces: Callable[[Array], Array], u: FloatArray) -> FloatArray:
+    """Derivative (n, m, m) of an energy's forces (n, m): steps along the imaginary axis."""
+    n, size = u.shape
+    K = np.empty((n, size, size))
+    for k in range(size):
+        moved = u.astype(complex)
+        moved[:, k] += 1j * _STEP
+        K[:, :, k] = forces(moved).imag / _STEP
+    return 0.5 * (K + np.swapaxes(K, 1, 2))
 
 
 # --- the cells -----------------------------------------------------------------------------------
@@ -314,13 +326,8 @@ class FiniteSpaceBeam:
         return np.asarray(self._balanced(u), dtype=float)
 
     def tangent(self, u: FloatArray) -> FloatArray:
-        """Their derivative, exact to rounding: a step along the imaginary axis."""
-        K = np.empty((len(u), 12, 12))
-        for k in range(12):
-            moved = u.astype(complex)
-            moved[:, k] += 1j * STEP
-            K[:, :, k] = self._balanced(moved).imag / STEP
-        return 0.5 * (K + np.swapaxes(K, 1, 2))
+        """Their derivative, exact to rounding."""
+        return derivative(self._balanced, u)
 
     def stored(self, u: FloatArray) -> float:
         """Elastic energy."""

@@ -15,7 +15,7 @@ sqrt(2 S df) the signal is Gaussian as N grows and has the spectrum in the mean.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -24,10 +24,9 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.power import EULER
+from ssilang.kernel.records.power import gumbel_mean
 
 _GAUSS = np.polynomial.legendre.leggauss(4)
-_FRACTILES = (0.05, 0.95)
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,16 +195,6 @@ def _below(level: float, times: FloatArray, moments: FloatArray) -> float:
     return float(start * np.exp(-np.trapezoid(rate, times)))
 
 
-def _level(probability: float, law: Callable[[float], float], start: float, tol: float) -> float:
-    low, high = 0.0, start
-    while law(high) < probability:
-        low, high = high, 2.0 * high
-    while high - low > tol * high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if law(middle) < probability else (low, middle)
-    return 0.5 * (low + high)
-
-
 def largest_value(times: FloatArray, moments: FloatArray, precision: float = 1e-3) -> float:
     """Mean of the largest absolute value of a random motion of which moments are known.
 
@@ -219,12 +208,7 @@ def largest_value(times: FloatArray, moments: FloatArray, precision: float = 1e-
     size = float(np.sqrt(moments[:, 0].max()))
     if size == 0.0:
         return 0.0
-    low, high = (
-        _level(p, lambda x: _below(x, times, moments), size, precision) for p in _FRACTILES
-    )
-    rank_low, rank_high = (-np.log(-np.log(p)) for p in _FRACTILES)
-    scale = (high - low) / (rank_high - rank_low)
-    return float(low - scale * rank_low + EULER * scale)
+    return gumbel_mean(lambda x: _below(x, times, moments), size, precision)
 
 
 def modulated_response_spectrum(

@@ -87,24 +87,41 @@ def _below(level: float, moments: tuple[float, float, float], duration: float) -
     return float(start * np.exp(-rate * duration * clump / np.expm1(0.5 * level**2)))
 
 
-def _level(probability: float, law: Callable[[float], float]) -> float:
-    low, high = 1e-6, 4.0
+def _level(probability: float, law: Callable[[float], float], start: float, tol: float) -> float:
+    low, high = 0.0, start
     while law(high) < probability:
-        high *= 2.0
-        if high > 1e3:
+        low, high = high, 2.0 * high
+        if high > 1e3 * start:
             raise FieldError("kernel.records.largest-response-spectrum-no")
-    for _ in range(80):
+    while high - low > tol * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if law(middle) < probability else (low, middle)
     return 0.5 * (low + high)
 
 
-def mean_peak(moments: tuple[float, float, float], duration: float) -> float:
-    """Mean of the Gumbel law through the 5 % and 95 % fractiles of Vanmarcke's law."""
-    low, high = (_level(p, lambda x: _below(x, moments, duration)) for p in (0.05, 0.95))
-    rank_low, rank_high = (-np.log(-np.log(p)) for p in (0.05, 0.95))
+def gumbel_mean(law: Callable[[float], float], start: float, tol: float) -> float:
+    """Mean of Gumbel's law through the fractiles of 5 % and 95 % of another.
+
+    Parameters
+    ----------
+    law : callable
+        Probability to stay below a level, by the level.
+    start : float
+        A level of the size of the fractiles.
+    tol : float
+        Relative precision of the fractiles.
+    """
+    fractiles = (0.05, 0.95)
+    low, high = (_level(p, law, start, tol) for p in fractiles)
+    rank_low, rank_high = (-np.log(-np.log(p)) for p in fractiles)
     scale = (high - low) / (rank_high - rank_low)
-    return float(np.sqrt(moments[0]) * (low - scale * rank_low + EULER * scale))
+    return float(low - scale * rank_low + EULER * scale)
+
+
+def mean_peak(moments: tuple[float, float, float], duration: float) -> float:
+    """Mean of the largest value by Vanmarcke's law."""
+    mean = gumbel_mean(lambda x: _below(x, moments, duration), 4.0, 1e-14)
+    return float(np.sqrt(moments[0])) * mean
 
 
 PEAKS = {"CRAM": median_peak, "NEWG": mean_peak}

@@ -13,7 +13,7 @@ from ssilang.language.search import nearest
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.node_histories import NodeHistories
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,12 +75,12 @@ class _Recorded(MadeFields[MadeField]):
 
     Attributes
     ----------
-    track : NodeTrack
+    track : NodeHistories
     name : str
         `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
     """
 
-    track: NodeTrack
+    track: NodeHistories
     name: str
 
 

@@ -60,7 +60,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         import ssilang.kernel.stepping.run  # noqa: F401 - used further down
         from ssilang.kernel.base.compiled.cache import is_compiled
         from ssilang.kernel.stepping.extremes import Extremes
-        from ssilang.kernel.stepping.node_track import NodeTrack
+        from ssilang.kernel.stepping.node_histories import NodeHistories
         from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries = Entries(call, table, "DYNAMIC")
@@ -76,7 +76,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     warn_resolution(entries, problem)
     asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
-    results = TableObserver(NodeTrack(saved, problem=problem, nodes=asked), whole)
+    results = TableObserver(NodeHistories(saved, problem=problem, nodes=asked), whole)
     vtk, csv = vtk_observer(entries, problem), csv_observer(entries, problem)
     forces = force_track(entries, problem, saved)
     line = ProgressLine("DYNAMIC", entries.call.session.told)

@@ -23,7 +23,7 @@ from ssilang.operators.dynamics.motion_observers import restricted
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_track import ForceTrack, NodeTrack
+    from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 PARQUET = ".parquet"
@@ -71,7 +71,7 @@ class TableObserver:
     problems that change, or with plastic bodies, instants are kept instead.
     """
 
-    track: NodeTrack
+    track: NodeHistories
     whole: bool = False
     table: LazyRows = field(init=False)
 
@@ -165,7 +165,7 @@ class TableObserver:
 class CsvObserver:
     """Lists of values in time at the nodes of a mesh, and a file of them, CSV or Parquet."""
 
-    track: NodeTrack
+    track: NodeHistories
     components: list[str] | None = None
     path: Path | None = None
     units: UnitSystem | None = None
@@ -225,7 +225,7 @@ class CsvObserver:
         return made
 
 
-def forces_table(track: ForceTrack) -> Table:
+def forces_table(track: ForceHistories) -> Table:
     """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
     made, entries = Table(), {name: Table() for name in track.named}
     for name, entry in entries.items():

@@ -21,7 +21,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_track import ForceTrack
+    from ssilang.kernel.stepping.node_histories import ForceHistories
     from ssilang.kernel.stepping.problem.problem import Problem
 
 
@@ -92,12 +92,12 @@ def stress_of(entries: Entries) -> Callable[[NodeField], CellField | None] | Non
     return of
 
 
-def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceTrack | None:
+def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHistories | None:
     """What RELATIONS_SAUVEES asks for."""
     asked = entries.inside("RELATIONS_SAUVEES")
     if asked is None:
         return None
-    from ssilang.kernel.stepping.node_track import ForceTrack
+    from ssilang.kernel.stepping.node_histories import ForceHistories
 
     known, named = problem.multipliers, {}
     if problem.contact is not None:
@@ -110,11 +110,11 @@ def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceTr
         if (lost := int(np.isin(nodes, known, invert=True).sum())) > 0:
             raise entries.error("operators.dynamics.relations-not-in-stiffness", name=name, n=lost)
         named[name] = nodes
-    return ForceTrack(saved, problem=problem, named=named)
+    return ForceHistories(saved, problem=problem, named=named)
 
 
 def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
-    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.node_histories import NodeHistories
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         idle = [n for n in ("MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV") if entries.has(n)]
@@ -135,5 +135,5 @@ def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     if lacking := [c for c in chosen or () if c not in problem.numbering.unknowns]:
         known = [*problem.numbering.unknowns]
         entries.warn("operators.dynamics.csv-of-no-unknown", names=lacking, known=known)
-    track = NodeTrack(wanted, problem=problem, nodes=nodes)
+    track = NodeHistories(wanted, problem=problem, nodes=nodes)
     return CsvObserver(track, chosen, path, workspace(entries.call.session).units)

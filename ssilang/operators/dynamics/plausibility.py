@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
@@ -141,7 +141,7 @@ OF_STIFFNESS = (_masses_alone, _loose, _swings)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
-def warn_of_motion(entries: Entries, problem: Problem, track: NodeTrack) -> None:
+def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> None:
     """Warn where the last instant kept has displacements of many times the model's size."""
     from ssilang.kernel.stepping.problem.plausibility import AXES
 

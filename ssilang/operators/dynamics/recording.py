@@ -23,7 +23,7 @@ from ssilang.operators.workspace import units_in_si
 if TYPE_CHECKING:
     from ssilang.kernel.interface.footing import Footing, Loads
     from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_track import FootingTrack
+    from ssilang.kernel.stepping.node_histories import FootingHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
     from ssilang.kernel.stepping.snapshot import Observer
@@ -53,7 +53,7 @@ class CalculationRecord:
     recording: Recording
     entries: Entries
     problem: Problem
-    footings: FootingTrack | None
+    footings: FootingHistories | None
     scene: VtkObserver | None
 
     @property
@@ -101,13 +101,13 @@ def calculation_record(
     entries: Entries, problem: Problem, inputs: Inputs
 ) -> CalculationRecord | None:
     """What takes the calculation down; None if nobody asked, or enough have been."""
-    from ssilang.kernel.stepping.node_track import footing_track
+    from ssilang.kernel.stepping.node_histories import footing_histories
 
     output = run_output(entries.call.session)
     recording = output.recording
     if recording is None or not recording.takes_more:
         return None
-    footings = footing_track(problem, even(len(problem.times), INSTANTS))
+    footings = footing_histories(problem, even(len(problem.times), INSTANTS))
     return CalculationRecord(recording, entries, problem, footings, _scene(entries, inputs))
 
 

@@ -15,7 +15,7 @@ from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import tell_no_unknown
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_track import NodeTrack
+    from ssilang.kernel.stepping.node_histories import NodeHistories
 
 MOST_VALUES = 1 << 20
 """Values of element vectors held at a time."""
@@ -56,7 +56,7 @@ def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]
         yield layout.gather(made)[None]
 
 
-def _recorded(layout: Layout, track: NodeTrack) -> Iterator[FloatArray]:
+def _recorded(layout: Layout, track: NodeHistories) -> Iterator[FloatArray]:
     """As `_vectors`, of what was recorded: no field is made."""
     numbering = track.problem.numbering
     nodes = layout.table.resolve(layout.raw_nodes)[:, layout.local]

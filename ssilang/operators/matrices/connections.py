@@ -115,7 +115,7 @@ def _warn_swapped_joints(
     characteristics: CellField | None,
 ) -> None:
     from ssilang.kernel.mesh.nodes import told_coordinates
-    from ssilang.kernel.statics.sides import swapped_joints
+    from ssilang.kernel.statics.swapped_joints import swapped_joints
 
     for found in swapped_joints(matrix, model, characteristics):
         place = told_coordinates(matrix.table.shown(np.round(found.middle, 9)))
@@ -124,7 +124,7 @@ def _warn_swapped_joints(
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.sides import hinges
+    from ssilang.kernel.statics.swapped_joints import hinges
 
     joints = tuple(z for z in model.zones if is_joint(z)) if model is not None else ()
     found = hinges(matrix, joints)

@@ -14,6 +14,7 @@ from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
+from ssilang.operators.statics.pasapas_contact import joined_matrix
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -108,8 +109,8 @@ def _inputs(entries: Entries) -> HarmonicInputs:
     supports = entries.get("BLOCAGES_MECANIQUES")
     constant = entries.get("RIGIDITE_CONSTANTE")
     return HarmonicInputs(
-        _joined(entries, blocks["RIGIDITE"], (constant, supports), "RIGIDITE"),
-        _joined(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE"),), "MASSE"),
+        joined_matrix(entries, blocks["RIGIDITE"], (constant, supports), "RIGIDITE"),
+        joined_matrix(entries, blocks["MASSE"], (entries.get("MASSE_CONSTANTE"),), "MASSE"),
         damping,
         with_pressures(entries.get("CHARGEMENT"), () if model is None else loaded_sides(model)),
         tuple(springs),
@@ -124,14 +125,3 @@ def _check_linear(entries: Entries, zone: Zone) -> None:
         raise KernelError(
             "operators.statics.law-has-no-harmonic-response", behaviour=zone.behaviour
         )
-
-
-def _joined(
-    entries: Entries, blocks: list[ElementMatrices], parts: tuple[Matrix | None, ...], kind: str
-) -> Matrix:
-    given = [m for m in parts if m is not None]
-    if not blocks and not given:
-        return Matrix(entries.needed("MODELE").mesh.nodes, (), (), kind)
-    table = blocks[0].table if blocks else given[0].table
-    all_blocks = (*blocks, *(b for m in given for b in m.blocks))
-    return Matrix(table, all_blocks, tuple(r for m in given for r in m.relations), kind)

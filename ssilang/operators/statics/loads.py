@@ -51,6 +51,11 @@ def _by_vector(call: Call, vector: Point, names: tuple[str, ...], place: Mesh | 
     return _shared(call, values, place)
 
 
+def _by_name(names: tuple[str, ...], unit: str) -> Any:
+    value = arg("value", "FLOTTANT", unit=unit, range=ANY_NUMBER)
+    return Key(names, value, optional=False, repeated=True, en="components")
+
+
 @operator("FORC", family="load", full_name="FORCE")
 def forc(
     call: Call, vector: Point = Arg("POINT", en="force", unit="N"), place: Mesh | Point = _PLACE
@@ -62,13 +67,7 @@ def forc(
 @forc.form()
 def named_forces(
     call: Call,
-    values: list[tuple[str, float]] = Key(
-        FORCES,
-        arg("value", "FLOTTANT", unit="N", range=ANY_NUMBER),
-        optional=False,
-        repeated=True,
-        en="components",
-    ),
+    values: list[tuple[str, float]] = _by_name(FORCES, "N"),
     place: Mesh | Point = _PLACE,
 ) -> NodeField:
     """A force by its components."""
@@ -105,13 +104,7 @@ def mome(
 @mome.form()
 def named_moments(
     call: Call,
-    values: list[tuple[str, float]] = Key(
-        MOMENTS,
-        arg("value", "FLOTTANT", unit="N m", range=ANY_NUMBER),
-        optional=False,
-        repeated=True,
-        en="components",
-    ),
+    values: list[tuple[str, float]] = _by_name(MOMENTS, "N m"),
     place: Mesh | Point = _PLACE,
 ) -> NodeField:
     """A moment by its components."""

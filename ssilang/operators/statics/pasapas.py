@@ -13,7 +13,6 @@ from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
@@ -45,6 +44,7 @@ from ssilang.operators.statics.bodies import (
 )
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies, pressure_law, procedure_law
 from ssilang.operators.statics.pasapas_contact import (
+    joined_matrix,
     linear_blocks,
     offset_load,
     sides_of,
@@ -392,8 +392,8 @@ def _inputs(
     supports = entries.get("BLOCAGES_MECANIQUES")
     masses: Matrix | None = None
     if dynamic:
-        masses = _joined(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
-    stiffnesses = _joined(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE")
+        masses = joined_matrix(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
+    stiffnesses = joined_matrix(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE")
     damping, velocity = entries.get("AMORTISSEMENT"), start.of("VITESSES")
     inputs = Inputs(
         stiffnesses, times, masses, damping if dynamic else None, load, displacement,
@@ -402,22 +402,6 @@ def _inputs(
         solver_of(entries.call.session),
     )  # fmt: skip
     return inputs, stresses
-
-
-def _joined(
-    entries: Entries, blocks: list[ElementMatrices], parts: tuple[Matrix | None, ...], kind: str
-) -> Matrix:
-    given = [m for m in parts if m is not None]
-    all_blocks = (*blocks, *(b for m in given for b in m.blocks))
-    relations = tuple(r for m in given for r in m.relations)
-    if blocks:
-        table = blocks[0].table
-    elif given:
-        table = given[0].table
-    else:
-        model = entries.needed("MODELE")
-        table = model.mesh.nodes
-    return Matrix(table, all_blocks, relations, kind)
 
 
 def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:

@@ -20,6 +20,7 @@ from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.operators.models.contact import FROCABLE, model_relations
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.pasapas_results import Stresses
+from ssilang.operators.tables.entries import Entries
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,3 +186,15 @@ def linear_blocks(
         shapes = shape_matrix(tuple(z for z, _ in zones), zones[0][1], kind)
         blocks += [] if shapes is None else [shapes]
     return blocks
+
+
+def joined_matrix(
+    entries: Entries, blocks: list[ElementMatrices], parts: tuple[Matrix | None, ...], kind: str
+) -> Matrix:
+    """The blocks of a model's zones and the matrices that a table gives, as one matrix."""
+    given = [m for m in parts if m is not None]
+    if not blocks and not given:
+        return Matrix(entries.needed("MODELE").mesh.nodes, (), (), kind)
+    table = blocks[0].table if blocks else given[0].table
+    all_blocks = (*blocks, *(b for m in given for b in m.blocks))
+    return Matrix(table, all_blocks, tuple(r for m in given for r in m.relations), kind)

@@ -8,7 +8,7 @@ from references.assembled import Bench
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.stepping.node_track import FootingTrack, footing_track
+from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
 
 K = 2e7
@@ -241,9 +241,9 @@ def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() ->
 def test_a_track_goes_on_from_what_it_held() -> None:
     problem = problem_of(strip(8, bench=strip(4, left=10.0, width=2.0)))
     wanted = np.ones(2, bool)
-    first, again = footing_track(problem, wanted), footing_track(problem, wanted)
-    assert isinstance(first, FootingTrack)
-    assert isinstance(again, FootingTrack)
+    first, again = footing_histories(problem, wanted), footing_histories(problem, wanted)
+    assert isinstance(first, FootingHistories)
+    assert isinstance(again, FootingHistories)
     first.instants.append(np.array([0.5]))
     for number in range(2):
         parts = (np.array([10.0 * number + i]) for i in range(len(Loads._fields)))
@@ -253,8 +253,8 @@ def test_a_track_goes_on_from_what_it_held() -> None:
     for number in range(2):
         for mine, other in zip(again.found(number), first.found(number), strict=True):
             np.testing.assert_array_equal(mine, other)
-    empty = footing_track(problem, wanted)
-    assert isinstance(empty, FootingTrack)
+    empty = footing_histories(problem, wanted)
+    assert isinstance(empty, FootingHistories)
     again.restore(empty.content())
     assert len(again.times) == 0
     assert again.kept == [[], []]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import finder
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.base.sparse import sp
@@ -55,10 +55,6 @@ def test_a_step_of_time_is_halved_until_it_leads_somewhere(halvings):
     assert tried == [(share, 11.0, 0.5, 3.0, 1.0) for share in shares]
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path).session.root.find
-
-
 SPRING = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
 DEBP CHARMECA T1*TABLE T*FLOTTANT ;
@@ -76,7 +72,7 @@ PASAPAS T ;
 
 
 def test_an_elastic_body_is_held_by_a_spring_that_hardens(tmp_path):
-    find = run(SPRING, tmp_path)
+    find = finder(SPRING, tmp_path)
     node = np.array([find("P2").node])
     ux = find("T").get("DEPLACEMENTS").get(10).values_at("UX", node)[0]
     assert 100 * ux + 50 * ux**2 == pytest.approx(20.0, rel=1e-10)
@@ -113,11 +109,11 @@ def tip(find):
 
 def test_a_force_that_turns_with_the_end_equals_a_dead_one_turned_as_far(tmp_path):
     beam = FOLLOWER.format(element="POUT", section="'SECT' 1. 'INRZ' 1.E-2")
-    first = tip(run(beam + TURNING, tmp_path))
+    first = tip(finder(beam + TURNING, tmp_path))
     assert first[2] > 0.8
     dead = f"FORC ({-3e3 * np.sin(first[2]):.16g} {3e3 * np.cos(first[2]):.16g}) P2"
     dead = f"T . 'CHARGEMENT' = CHAR 'MECA' ({dead}) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;"
-    assert tip(run(beam + dead + "PASAPAS T ;", tmp_path)) == pytest.approx(first, rel=1e-8)
+    assert tip(finder(beam + dead + "PASAPAS T ;", tmp_path)) == pytest.approx(first, rel=1e-8)
 
 
 PRESSURE = """
@@ -131,7 +127,7 @@ R = T . 'REACTIONS' . 4 ; FX = EXTR R 'FX' P1 ; FY = EXTR R 'FY' P1 ;
 
 
 def test_pressure_stands_on_the_shell_where_it_is(tmp_path):
-    find = run(FOLLOWER.format(element="COQ2", section="'EPAI' 0.5") + PRESSURE, tmp_path)
+    find = finder(FOLLOWER.format(element="COQ2", section="'EPAI' 0.5") + PRESSURE, tmp_path)
     ux, uy, turn = tip(find)
     assert abs(turn) > 0.3
     # a pressure p on a line pulls p times its chord, a quarter turn further

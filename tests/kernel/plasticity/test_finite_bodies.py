@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from script_runs import ran
 
 from ssilang.kernel.plasticity.finite import finite_zone
+from ssilang.kernel.plasticity.finite_space_beam import finite_beam, finite_space_beam
+from ssilang.kernel.plasticity.large.finite_plate import finite_plate
 
 MESH = {
     "plane": "OPTI DIME 2 MODE PLAN DEFO ELEM QUA8 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0.3 1.) ;",
@@ -12,30 +15,43 @@ MESH = {
     "ring": "OPTI DIME 2 MODE AXIS ELEM QUA4 ; S = TRAN 1 (DROI 1 (1 0) (2 0)) (0.3 1.) ;",
     "space": "OPTI DIME 3 ELEM CUB8 ; "
     "S = VOLU 1 (TRAN 1 (DROI 1 (0 0 0) (1 0 0)) (0 1 0)) 'TRAN' (0.2 0 1) ;",
-    "bar": "OPTI DIME 3 ELEM SEG2 ; S = DROI 2 (0 0 0) (1 2 0.5) ;",
+    "BARR": "OPTI DIME 3 ELEM SEG2 ; S = DROI 2 (0 0 0) (1 2 0.5) ;",
+    "beam of the plane": "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; S = DROI 3 (0 0) (3 4) ;",
+    "POUT": "OPTI DIME 3 ELEM SEG2 ; S = DROI 3 (0 0 0) (3 4 2) ;",
+    **dict.fromkeys(("DKT", "COQ3"), "OPTI DIME 3 ELEM TRI3 ; "
+    "S = (DROI 1 (0 0 0) (1 0.2 0.1)) TRAN 1 (0.1 0.8 0.3) ;"),
+}  # fmt: skip
+SECTION = "'SECT' 0.1 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E-2"
+# word of MODE, parameters, maker, rotations of a node
+SLIM = {
+    "BARR": ("BARR", "'SECT' 0.1", finite_zone, 0),
+    "beam of the plane": ("POUT", "'SECT' 0.1 'INRZ' 3.E-2", lambda z, a: finite_beam(z, a, 2), 1),
+    "POUT": ("POUT", SECTION, lambda z, a: finite_space_beam(z, a, 2), 3),
+    **{n: (n, "'EPAI' 0.1", lambda z, a: finite_plate(z, a, 3), 3) for n in ("DKT", "COQ3")},
 }
 
 
 def zone_of(name):
-    law = "MECANIQUE BARR" if name == "bar" else "MECANIQUE ELASTIQUE"
-    section = "'SECT' 0.1" if name == "bar" else ""
-    text = f"{MESH[name]} M = MODE S {law} ; A = MATE M 'YOUN' 5. 'NU' 0.3 {section} ;"
+    """A zone, places (n, nodes, d) of its cells, and zeros (n, nodes, unknowns of a node)."""
+    word, section, make, rotations = SLIM.get(name, ("ELASTIQUE", "", finite_zone, 0))
+    text = f"{MESH[name]} M = MODE S MECANIQUE {word} ; A = MATE M 'YOUN' 5. 'NU' 0.3 {section} ;"
     result = ran(text)
     zone = result.session.root.find("M").zones[0]
-    made = finite_zone(zone, result.session.root.find("A"))
-    cells = zone.cells.nodes.coordinates[zone.cells.connectivity]
-    return made, cells[..., : 3 if name in ("space", "bar") else 2]
+    cells = zone.cells.nodes.coordinates[zone.cells.connectivity][..., : zone.mode.dimension]
+    rest = np.zeros((*cells.shape[:2], zone.mode.dimension + rotations))
+    return make(zone, result.session.root.find("A")), cells, rest
 
 
-def moved(cells, amount=0.3, seed=3):
-    return amount * np.random.default_rng(seed).standard_normal(cells.shape).reshape(len(cells), -1)
+def moved(rest, amount=0.3, seed=3):
+    return amount * np.random.default_rng(seed).standard_normal(rest.shape).reshape(len(rest), -1)
 
 
+@pytest.mark.parametrize("amount", [0.01, 0.1])
 @pytest.mark.parametrize("name", MESH)
-def test_tangent_is_the_derivative_of_the_forces(name):
-    zone, cells = zone_of(name)
-    u, du = moved(cells, 0.1), moved(cells, 1.0, 4)
-    given = zone.shown(moved(cells, 0.05, 5))
+def test_tangent_is_the_derivative_of_the_forces(name, amount):
+    zone, _, rest = zone_of(name)
+    u, du = moved(rest, amount), moved(rest, 1.0, 4)
+    given = zone.shown(moved(rest, 0.05, 5))
     zone = zone.stressed(given, u)
     h = 1e-6
     slope = (zone.forces(u + h * du) - zone.forces(u - h * du)) / (2 * h)
@@ -46,26 +62,31 @@ def test_tangent_is_the_derivative_of_the_forces(name):
 
 @pytest.mark.parametrize("name", MESH)
 def test_forces_are_the_derivative_of_the_energy(name):
-    zone, cells = zone_of(name)
-    u, du, h = moved(cells, 0.1), moved(cells, 1.0, 4), 1e-6
-    slope = (zone.stored(u + h * du) - zone.stored(u - h * du)) / (2 * h)
-    assert np.sum(zone.forces(u) * du) == pytest.approx(slope, rel=1e-7)
+    zone, _, rest = zone_of(name)
+    u, du, h = moved(rest, 0.1), moved(rest, 1.0, 4), 1e-6
+    for now in (zone, zone.stressed(zone.shown(moved(rest, 0.05, 5)), u)):
+        slope = (now.stored(u + h * du) - now.stored(u - h * du)) / (2 * h)
+        assert np.sum(now.forces(u) * du) == pytest.approx(slope, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", ["plane", "membrane", "space", "bar"])
-def test_a_turned_body_has_no_stress(name):
-    zone, cells = zone_of(name)
-    angle, R = 2.1, np.eye(cells.shape[-1])
-    R[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    u = (cells @ R.T - cells).reshape(len(cells), -1)
+@pytest.mark.parametrize("name", [n for n in MESH if n != "ring"])
+@pytest.mark.parametrize("v", [[0, 0, 2.1], [0, 0, 0.5], [-2.5, 1.0, 2.0]])
+def test_a_turned_body_has_no_stress(name, v):
+    zone, cells, rest = zone_of(name)
+    d = cells.shape[-1]
+    v = np.array(v) * ([0, 0, 1] if d == 2 else 1)
+    turn = Rotation.from_rotvec(v).as_matrix()[:d, :d]
+    rest[..., :d] = cells @ turn.T - cells
+    rest[..., d:] = (v[-1:] if d == 2 else v)[: rest.shape[-1] - d]
+    u = rest.reshape(len(rest), -1)
     np.testing.assert_allclose(zone.shown(u), 0.0, atol=1e-13)
     np.testing.assert_allclose(zone.forces(u), 0.0, atol=1e-13)
 
 
 @pytest.mark.parametrize("name", MESH)
 def test_given_stresses_are_shown_at_their_displacement(name):
-    zone, cells = zone_of(name)
-    given, u = zone.shown(moved(cells, 0.05, 5)), moved(cells, 0.1)
+    zone, _, rest = zone_of(name)
+    given, u = zone.shown(moved(rest, 0.05, 5)), moved(rest, 0.1)
     np.testing.assert_allclose(zone.stressed(given, u).shown(u), given, atol=1e-12)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import finder
 
 from ssilang.kernel.elements.families import family_of, stress
 from ssilang.kernel.plasticity.finite import finite_plane_shell
@@ -24,15 +24,11 @@ SHELL = "'EPAI' 0.2"
 BEAM = "'SECT' 0.2 'INRZ' (0.2 ** 3 / 12.)"
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path).session.root.find
-
-
 def test_a_strip_bends_as_a_beam(tmp_path):
     ends = []
     for element, section in (("COQ2", SHELL), ("POUT", BEAM)):
         text = SHELLS.format(mode="CONT", element=element, nu="0.", section=section) + STEPS
-        find = run(text, tmp_path)
+        find = finder(text, tmp_path)
         field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
         ends.append([field.values_at(c, node)[0] for c in ("UX", "UY", "RZ")])
     assert ends[0] == pytest.approx(ends[1], rel=1e-8)
@@ -43,7 +39,7 @@ def test_a_strip_bends_as_a_beam(tmp_path):
 def test_small_displacements_give_the_usual_stresses(tmp_path, mode):
     text = SHELLS.format(mode=mode, element="COQ2", nu="0.3", section=SHELL)
     text += "U = 1.E-6 * (RESO ((RIGI MO MA) ET (BLOQ 'DEPL' 'ROTA' P1)) (FORC (3. 50.) P2)) ;"
-    find = run(text, tmp_path)
+    find = finder(text, tmp_path)
     zone, material = find("MO").zones[0], find("MA")
     usual = np.stack(list(stress(zone, material, find("U")).components.values()), axis=1)
     shell = finite_plane_shell(zone, material, usual.shape[2])
@@ -53,7 +49,7 @@ def test_small_displacements_give_the_usual_stresses(tmp_path, mode):
 
 
 def test_forces_hold_the_stresses_handed_over(tmp_path):
-    find = run(SHELLS.format(mode="DEFO", element="COQ2", nu="0.3", section=SHELL), tmp_path)
+    find = finder(SHELLS.format(mode="DEFO", element="COQ2", nu="0.3", section=SHELL), tmp_path)
     zone, material = find("MO").zones[0], find("MA")
     rng = np.random.default_rng(3)
     count = stress(zone, material, run_zero(find)).components["N11"].shape[1]

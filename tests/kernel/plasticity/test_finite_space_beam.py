@@ -1,9 +1,9 @@
-"""Beams in space in finite displacements: consistency, plane motions, a bent cantilever."""
+"""Beams in space in finite displacements: rotations, small ones, a bent cantilever."""
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from script_runs import ran
+from script_runs import finder
 
 from ssilang.kernel.plasticity.finite_space_beam import (
     finite_space_beam,
@@ -21,18 +21,6 @@ MA = MATE MO 'YOUN' 1.E7 'NU' 0.3 'SECT' 1. 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E
 """
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path).session.root.find
-
-
-def random_beams(tmp_path, element="POUT", points=2):
-    find = run(BEAMS.format(element=element), tmp_path)
-    return finite_space_beam(find("MO").zones[0], find("MA"), points)
-
-
-VECTORS = np.array([[0.3, -1.2, 0.8], [1e-4, 2e-4, -1e-4], [2.0, 1.0, -1.5]])
-
-
 @pytest.mark.parametrize("size", [0.0, 1e-6, 1e-3, 0.02, 0.09, 0.11, 0.3, 0.8, 1.5, 3.1])
 def test_rotations_are_those_of_quaternions(size):
     """Also where series stand in for quotients of small angles, and for complex steps."""
@@ -48,55 +36,11 @@ def test_rotations_are_those_of_quaternions(size):
         np.testing.assert_allclose(vector_of(R), v, atol=1e-13)
 
 
-def test_spin_is_the_derivative_of_the_rotation():
-    v = VECTORS
-    for k in range(3):
-        h = np.zeros((3, 3))
-        h[:, k] = 1e-6
-        turned = (rotation(v + h) - rotation(v - h)) @ np.swapaxes(rotation(v), 1, 2) / 2e-6
-        spin = np.stack([turned[:, 2, 1], turned[:, 0, 2], turned[:, 1, 0]], axis=1)
-        np.testing.assert_allclose(spin, spin_of(v)[:, :, k], atol=1e-9)
-
-
-@pytest.mark.parametrize("scale", [0.02, 0.4])
-def test_forces_and_tangent_are_derivatives_of_the_energy(tmp_path, scale):
-    beam = random_beams(tmp_path)
-    rng = np.random.default_rng(2)
-    given = 1e3 * rng.normal(size=(3, 6, 2))
-    L = np.linalg.norm(beam.span, axis=1)
-    given[:, 0] = given[:, 0, :1]
-    given[:, 3, 1] = given[:, 3, 0]
-    given[:, 1] = ((given[:, 5, 0] - given[:, 5, 1]) / L)[:, None]
-    given[:, 2] = ((given[:, 4, 1] - given[:, 4, 0]) / L)[:, None]
-    u = scale * rng.normal(size=(3, 12))
-    beam = beam.stressed(given, u)
-    np.testing.assert_allclose(beam.shown(u), given, atol=1e-5)
-    h, cell = 1e-5, np.arange(3) == 1
-    scales = np.abs(beam.forces(u)).max(), np.abs(beam.tangent(u)).max()
-    for j in range(12):
-        shift = np.zeros((3, 12))
-        shift[cell, j] = h
-        slope = (beam.stored(u + shift) - beam.stored(u - shift)) / (2 * h)
-        assert beam.forces(u)[1, j] == pytest.approx(slope, abs=1e-6 * scales[0] + 1.0)
-        bend = (beam.forces(u + shift) - beam.forces(u - shift))[1] / (2 * h)
-        np.testing.assert_allclose(beam.tangent(u)[1, :, j], bend, atol=1e-6 * scales[1])
-
-
-def test_a_turned_beam_has_no_forces(tmp_path):
-    beam = random_beams(tmp_path)
-    for v in ([0.5, 0.2, -0.1], [0.0, 3.0, 1.0], [-2.5, 1.0, 2.0]):
-        R = rotation(np.array([v]))[0]
-        u = np.zeros((3, 12))
-        u[:, 6:9] = beam.span @ R.T - beam.span
-        u[:, 3:6] = u[:, 9:12] = v
-        assert np.abs(beam.forces(u)).max() < 1e-6
-
-
 def test_small_displacements_give_the_usual_stiffness(tmp_path):
     from ssilang.kernel.elements.families import stiffness
 
     for element, points in (("POUT", 2), ("TIMO", 1)):
-        find = run(BEAMS.format(element=element), tmp_path)
+        find = finder(BEAMS.format(element=element), tmp_path)
         zone = find("MO").zones[0]
         usual = stiffness(zone, find("MA")).values
         beam = finite_space_beam(zone, find("MA"), points)
@@ -114,7 +58,7 @@ def test_shown_forces_of_small_displacements_are_the_usual_ones(tmp_path):
             "M = MANU 'CHPO' P2 3 'MX' 1. 'MY' 5. 'MZ' 2. ; "
             "U = 1.E-4 * (RESO K ((FORC (1. 2. -3.) P2) + M)) ;"
         )
-        find = run(text, tmp_path)
+        find = finder(text, tmp_path)
         zone = find("MO").zones[0]
         usual = stress(zone, find("MA"), find("U"))
         beam = finite_space_beam(zone, find("MA"), points)
@@ -145,7 +89,7 @@ PASAPAS T ;
 
 
 def test_a_bent_cantilever_leaves_its_plane_as_published(tmp_path):
-    find = run(BENT, tmp_path)
+    find = finder(BENT, tmp_path)
     field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
     moved = [field.values_at(c, node)[0] for c in ("UX", "UY", "UZ")]
     x, y, z = np.asarray(find("P2").coordinates) + moved
@@ -173,7 +117,7 @@ def test_plane_motions_are_those_of_beams_of_the_plane(tmp_path):
     ends = []
     space = {"dim": 3, "mode": "", "z": "0.", "more": "'INRY' 2.E-2 'TORS' 1.E-2"}
     for words in ({"dim": 2, "mode": "MODE PLAN CONT", "z": "", "more": ""}, space):
-        find = run(PLANE.format(**words), tmp_path)
+        find = finder(PLANE.format(**words), tmp_path)
         field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
         ends.append([field.values_at(c, node)[0] for c in ("UX", "UY", "RZ")])
     assert ends[1] == pytest.approx(ends[0], rel=1e-8)

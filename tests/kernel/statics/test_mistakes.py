@@ -18,7 +18,7 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
 )
 from ssilang.kernel.statics.linear_motion import named_motions, rigid_motions, tied
-from ssilang.kernel.statics.sides import hinges, swapped_joints
+from ssilang.kernel.statics.swapped_joints import hinges, swapped_joints
 from tests.kernel.elements.samples import ELASTIC, material
 
 SOLID = {"YOUN": 3e7, "NU": 0.2}

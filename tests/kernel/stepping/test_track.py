@@ -17,7 +17,7 @@ from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
-from ssilang.kernel.stepping.node_track import ForceTrack, NodeTrack
+from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
 from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
@@ -428,8 +428,8 @@ def test_multipliers_of_relations_are_followed(rule, monkeypatch):
         problem = replace(problem, scheme=Scheme(conserving=True))
     n, asked = len(problem.times), np.sort(np.append(marks, nodes[2]))
     recorder = Recorder(n)
-    few = NodeTrack(np.ones(n, bool), problem=problem, nodes=asked)
-    every = NodeTrack(np.ones(n, bool), problem=problem)
+    few = NodeHistories(np.ones(n, bool), problem=problem, nodes=asked)
+    every = NodeHistories(np.ones(n, bool), problem=problem)
     integrate(problem, [recorder, few, every])
     exact = np.array([s.displacement.components["LX"].at(marks) for s in recorder.snapshots])
     assert (np.abs(exact).max(axis=0) > 0.0).all()
@@ -471,7 +471,7 @@ def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
     recorder, wanted = Recorder(len(t)), np.arange(len(t)) % 3 == 1
     named = {"all": np.array([*stops, tie, seat]), "left": np.array([stops[0], seat]),
              "right": np.array([stops[1]]), "tie": np.array([tie])}  # fmt: skip
-    track = ForceTrack(wanted, problem=problem, named=named)
+    track = ForceHistories(wanted, problem=problem, named=named)
     history = integrate(problem, [recorder, track])
     assert history.loop
     D, index = problem.constraints.D.toarray(), problem.numbering.index_of
@@ -501,7 +501,7 @@ def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
     assert slid > 10.0
     assert set(found) == {(n, f) for n in named for f in ("FX", "FY")}
     kept = track.content()
-    again = ForceTrack(wanted, problem=problem, named=named)
+    again = ForceHistories(wanted, problem=problem, named=named)
     again.restore(kept)
     for key, values in again.histories.items():
         np.testing.assert_array_equal(values, found[key])

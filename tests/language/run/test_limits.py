@@ -69,17 +69,8 @@ def test_a_very_long_line_is_shown_around_its_error(tmp_path):
     assert "FOO" in result.message
 
 
-def test_zeros_in_front_do_not_make_an_integer_long(run):
-    assert run("X = 00000000000000000000007 ;")["X"] == 7
-
-
 def test_a_long_integer_does_not_hide_the_errors_behind_it():
     with pytest.raises(SeveralErrors) as caught:
         parse(Source("deck", "X = 99999999999999999999 ; Y = 3.) ; Z = 88888888888888888888 ;"))
     codes = sorted(e.code for e in caught.value.errors)
     assert codes == ["extra-paren", "long-integer", "long-integer"]
-
-
-def test_the_largest_integer_is_that_of_64_bits(run, fails):
-    assert run("X = 9223372036854775807 ;")["X"] == 2**63 - 1
-    assert fails("X = «9223372036854775808» ;") == "long-integer"

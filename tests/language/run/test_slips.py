@@ -52,16 +52,6 @@ def test_a_decimal_comma_is_refused_before_anything_runs(script):
     assert result.output == ""
 
 
-def test_numbers_of_a_message_do_not_run_together(run):
-    script = run("MESS 1 -2 -3 ; MESS -1. -2. ; MESS 'A' -2 ; MESS 12 34 ; X = CHAI 1 -2 ;")
-    assert script.lines == ["1 -2 -3", "-1.00000E+00 -2.00000E+00", "A-2", "1234"]
-    assert script["X"] == "1-2"
-
-
-def test_double_quotes_inside_of_a_text_are_letters(run):
-    assert run("MESS 'say \"hello\"' ;").lines == ['say "hello"']
-
-
 def test_a_text_over_several_lines_opens_no_false_quote():
     result = run_text("TITR 'two\nlines' ;\nX = 1. ;\nMESS 'open ;\nY = 2. ;\n")
     assert [e.code for e in result.errors] == ["unclosed-string"]
@@ -74,7 +64,3 @@ def test_control_characters_reach_nobody_as_such(control):
     assert control not in result.output + result.message
     result = run_text(f"MESS 'a{control}[31mred\tb' ;")
     assert result.output == f"a\\x{ord(control):02x}[31mred\tb\n"
-
-
-def test_an_option_in_quotes_is_read_beside_a_variable_of_its_name(run):
-    assert run("MODE = 3 ; OPTI DIME 2 'MODE' PLAN ELEM QUA4 ; X = MODE ;")["X"] == 3

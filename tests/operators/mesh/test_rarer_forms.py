@@ -50,61 +50,14 @@ def test_what_cannot_be_made_is_refused(script: str, said: str) -> None:
     assert said in message(script)
 
 
-def test_points_of_cells_come_in_the_order_of_the_cells() -> None:
-    script = (
-        "OPTI DIME 2 ELEM QUA4 ; S = TRAN 2 (DROI 3 (0. 0.) (3. 0.)) (0. 2.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE ; U = MANU 'CHML' M 'SCAL' 1. 'GRAVITE' ; "
-        "P = U POIN 'SUPERIEUR' 0. ; X1 = CHAN 'GRAVITE' M (CHAN 'CHAM' (COOR 1 S) M 'NOEUD') ; "
-        "X2 = MANU 'CHML' M 'REPA' 'SCAL' (EXTR (COOR 1 P) 'VALE') 'GRAVITE' ; "
-    )
-    assert value(script + "X = MAXI 'ABS' (X1 - X2) ;") == pytest.approx(0.0, abs=1e-12)
-
-
-def test_line_in_one_dimension() -> None:
-    script = "OPTI DIME 1 ELEM SEG2 ; P = POIN 0. ; Q = POIN 2. ; L = P D 4 Q ; "
-    assert value(script + "X = MESU L ;") == pytest.approx(2.0)
-    assert value(script + "X = COOR (L POIN 'PROC' (POIN 0.9)) ;") == pytest.approx(1.0)
-
-
 FRAME = """OPTI DIME 2 ELEM SEG2 ; O = 0. 0. ; A = 4. 0. ; B = 4. 4. ; E = 0. 4. ;
 C = O D 4 A D 4 B D 4 E D 4 O ; M = C POIN 'PROC' (2. 0.) ; """
-INNER_LINES = {
-    "hanging": ("H = D 3 M (2. 2.5) ;", 16.0, 3),
-    "free": ("H = D 4 (1. 3.) (3. 3.3) ;", 16.0, 4),
-    "across": ("H = D 5 (C POIN 'PROC' (0. 2.)) (C POIN 'PROC' (4. 2.)) ;", 16.0, 5),
-    "hole and line": (
-        "P = 1. 1. ; H = (P D 2 (1.5 1.) D 2 (1.5 1.5) D 2 (1. 1.5) D 2 P) ET "
-        "(D 3 (3. 1.) (3. 3.)) ;",
-        15.75,
-        11,
-    ),
-    "loop on a stalk": (
-        "P = 2. 1. ; H = (M D 2 P) ET (P D 2 (3. 1.) D 2 (2.5 2.) D 2 P) ;",
-        15.5,
-        8,
-    ),
-}
-
-
-@pytest.mark.parametrize("kind", INNER_LINES)
-def test_lines_inside_a_contour_are_sides_of_its_triangles(kind) -> None:
-    made, area, sides = INNER_LINES[kind]
-    text = FRAME + made + " T = TRIA (C ET H) ; "
-    assert value(text + "X = MESU T ;") == pytest.approx(area)
-    assert value(text + "X = NBEL (INTE (CHAN 'LIGN' T) H) ;") == sides
-    assert value(text + "X = (NBNO T) - (NBNO (C ET H)) ;") == 0
 
 
 def test_crossing_lines_and_empty_contours_are_refused() -> None:
     assert "cross" in message(FRAME + "H = D 1 (1. 1.) (3. 3.) ; G = D 1 (1. 3.) (3. 1.) ;"
                               "T = TRIA (C ET H ET G) ;")  # fmt: skip
     assert "enclose nothing" in message(FRAME + "T = TRIA ((D 2 O A) ET (D 3 (1. 1.) (3. 2.5))) ;")
-
-
-def test_junctions_are_a_mesh_even_if_there_is_one() -> None:
-    cross = FRAME + "J = (C ET (D 3 M (2. 2.5))) POIN 'JONC' ; "
-    assert value(cross + "X = NBEL J ;") == 1
-    assert value(cross + "X = COOR 1 (J POIN 1) ;") == pytest.approx(2.0)
 
 
 def test_nothing_found_in_a_field_is_an_empty_mesh_and_a_doubt() -> None:
@@ -145,9 +98,3 @@ def test_quadratic_skins_are_filled_and_keep_their_middles(skin: str, cells: set
     assert value(script + "X = MESU W ;") == pytest.approx(1.0)
     # the skin's nodes are those of the volume: all cells are common
     assert value(script + "X = NBEL (G INTE F) ;") == value(script + "X = NBEL F ;")
-
-
-def test_nodes_are_told_in_the_order_of_their_numbers() -> None:
-    script = PLANE + "L = O D 2 B ; M = TASS L 'NOOP' ; "
-    assert value(script + "X = NBEL M ;") == 5
-    assert value(script + "X = COOR 2 (M POIN 3) ;") == 1.0  # B is the third point made

@@ -19,6 +19,7 @@ from ssilang.kernel.materials.elasticity import (
     reduced_moduli,
     rotated_moduli,
     strain_rotation,
+    two_axes,
 )
 from ssilang.kernel.materials.model import Mode, Zone
 
@@ -46,12 +47,8 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
         second = np.stack(
             np.broadcast_arrays(*(parameters.at(f"V2{a}", support, 0.0) for a in "XYZ")), axis=-1
         )
-    third = np.cross(first, second)
-    norms = [np.linalg.norm(v, axis=-1, keepdims=True) for v in (first, third)]
-    if min(float(n.min()) for n in norms) <= 0:
-        raise MaterialError("kernel.elements.vectors-axes-orthotropy-zero")
-    first, third = first / norms[0], third / norms[1]
-    return np.stack([first, np.cross(third, first), third], axis=-2)
+    v1, v2 = two_axes(first, second)
+    return np.stack([v1, v2, np.cross(v1, v2)], axis=-2)
 
 
 _PLANE_DEFAULTS = {"G23": "G12", "G13": "G12"}

@@ -75,7 +75,7 @@ def _middles(mesh: Mesh, edges: IntArray, lines: Mesh | None) -> IntArray:
     nodes = mesh.nodes
     middle = np.full(len(edges), -1, dtype=np.int64)
     if lines is not None:
-        known = _known_middles(lines)
+        known = known_middles(lines)
         size = int(max(edges.max(), known[:, :2].max(initial=0))) + 1
         code, wanted = known[:, :2] @ [size, 1], edges @ [size, 1]
         order = np.argsort(code)
@@ -89,7 +89,7 @@ def _middles(mesh: Mesh, edges: IntArray, lines: Mesh | None) -> IntArray:
     return middle
 
 
-def _known_middles(lines: Mesh) -> IntArray:
+def known_middles(lines: Mesh) -> IntArray:
     """Rows (ends in increasing order, middle) of the edges of quadratic cells."""
     parts = [np.empty((0, 3), dtype=np.int64)]
     for block in lines.blocks:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.mesh.changes.degree import middle_places
+from ssilang.kernel.mesh.changes.degree import known_middles
 from ssilang.kernel.mesh.combine import cell_keys, poi1, take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
@@ -149,14 +149,11 @@ def repeated_cells(mesh: Mesh) -> Mesh:
 def unmatched_middles(mesh: Mesh) -> Mesh:
     """Middles of quadratic cells on edges that linear cells have too, as POI1."""
     straight = [np.empty((0, 2), dtype=np.int64)]
-    bent = [np.empty((0, 3), dtype=np.int64)]
     for block in mesh.blocks:
         table = block.connectivity
         if block.kind.degree == 2 and not block.kind.joint:
-            for middle, a, b in middle_places(block.cell_type):
-                ends = np.sort(table[:, [a, b]], axis=1)
-                bent.append(np.column_stack([ends, table[:, middle]]))
-        elif block.kind.dimension == 1:
+            continue
+        if block.kind.dimension == 1:
             straight.append(table)
         elif block.kind.dimension > 1:
             for _, face in block.kind.faces:
@@ -165,7 +162,7 @@ def unmatched_middles(mesh: Mesh) -> Mesh:
                 )
                 straight += [table[:, list(pair)] for pair in ring]
     edges = np.unique(np.sort(np.concatenate(straight), axis=1), axis=0)
-    middles = np.unique(np.concatenate(bent), axis=0)
+    middles = np.unique(known_middles(mesh), axis=0)
     size = len(mesh.nodes)
     met = np.isin(middles[:, 0] * size + middles[:, 1], edges[:, 0] * size + edges[:, 1])
     return poi1(mesh.nodes, middles[met, 2])

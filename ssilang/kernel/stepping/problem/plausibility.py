@@ -20,7 +20,7 @@ from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
-from ssilang.kernel.stepping.problem.bodies import FREE, ROUNDING, bodies_of, translation
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
 from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -368,7 +368,9 @@ def overloads(problem: Problem, factors: FloatArray) -> list[Overload]:
     held = [label[_above(problem, bed)[0]] for bed in joints.beds]
     found = []
     for bed, body in zip(joints.beds, held, strict=True):
-        motion = np.where(label == body, _translation(problem, bed), 0.0)
+        cells, cell = joints.cell_of(bed)
+        along = translation(problem, cells.frames[cell, :1, -1])
+        motion = np.where(label == body, along, 0.0)
         resisting = motion @ (problem.K @ motion)
         natural = motion**2 @ abs(problem.K.diagonal())
         if held.count(body) > 1 or abs(resisting) > ROUNDING * natural:
@@ -386,19 +388,6 @@ def _above(problem: Problem, bed: Bed) -> list[int]:
     joints, cell = problem.interface.cell_of(bed)
     node = int(joints.zone.cells.nodes.resolve(joints.upper[cell]).ravel()[0])
     return [problem.numbering.index_of(node, name) for name in displacement_names(joints.zone)]
-
-
-def _translation(problem: Problem, bed: Bed) -> FloatArray:
-    """Motion (n,) of all that is not fixed along the normal of a macro-element."""
-    assert problem.interface is not None
-    joints, cell = problem.interface.cell_of(bed)
-    motion = np.zeros(problem.numbering.size)
-    for name, value in zip(
-        displacement_names(joints.zone), joints.frames[cell, 0, -1], strict=True
-    ):
-        motion[problem.numbering.where(name)] = value
-    fixed = np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() <= FREE
-    return np.where(fixed, 0.0, motion)
 
 
 # How stiff joints are against the bodies that they join: a slip of units shows here.

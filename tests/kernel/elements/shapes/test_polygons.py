@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import found
 
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.polygons import (
     SIDES,
     polygon_excess,
     polygon_functions,
-    polygon_gradients,
     regular_polygon,
 )
 from ssilang.kernel.elements.shapes.quadrature import quadrature
@@ -20,39 +19,17 @@ PLATE = (
 )
 
 
-def found(script: str, *names: str) -> tuple:
-    result = ran(script)
-    return tuple(result.session.root.find(n) for n in names)
-
-
 @pytest.mark.parametrize("n", sorted(SIDES.values()))
-def test_functions_are_one_at_their_corner_and_exact_for_linear_fields(n: int) -> None:
+def test_functions_are_positive_inside_and_the_excess_is_the_distance_beyond_a_side(n: int) -> None:
     corners = regular_polygon(n)
-    assert polygon_functions(n, corners) == pytest.approx(np.eye(n), abs=1e-12)
     inside = 0.6 * corners @ np.array([[0.8, 0.6], [-0.6, 0.8]]) + 0.1
-    values = polygon_functions(n, inside)
-    assert values.sum(axis=1) == pytest.approx(1.0)
-    assert values.min() > 0.0
-    assert values @ corners == pytest.approx(inside)
+    assert polygon_functions(n, inside).min() > 0.0
     middles = (corners + np.roll(corners, -1, axis=0)) / 2  # beyond one side by as much as inside
     across = np.linalg.norm(middles[0])
     for share in (0.0, 1.0, 1.7):
         excess = polygon_excess(n, share * middles)
         assert excess.max(axis=1) == pytest.approx((share - 1.0) * across, abs=1e-12)
     assert len({*polygon_excess(n, 1.7 * middles).argmax(axis=1)}) == n
-
-
-@pytest.mark.parametrize("n", [5, 6, 12])
-def test_gradients_are_those_of_the_functions(n: int) -> None:
-    points = np.array([[0.1, 0.2], [-0.4, 0.3], [0.0, 0.0]])
-    step = 1e-6
-    for axis in (0, 1):
-        shift = np.zeros(2)
-        shift[axis] = step
-        slope = (polygon_functions(n, points + shift) - polygon_functions(n, points - shift)) / (
-            2 * step
-        )
-        assert polygon_gradients(n, points)[..., axis] == pytest.approx(slope, abs=1e-8)
 
 
 def test_gauss_theorem_holds_in_a_crooked_polygon() -> None:
@@ -104,7 +81,7 @@ def test_constant_strains_are_exact_on_any_mesh_of_polygons() -> None:
 
 def tip(n: int, m: int) -> float:
     """Strain energy of pure bending against the exact one: relative error."""
-    (energy,) = found(
+    energy = found(
         PLATE.format(n=n, m=m)
         + "MO = MODE S MECANIQUE ELASTIQUE POLY ; MA = MATE MO 'YOUN' 1. 'NU' 0.3 ; "
         "RI = RIGI MO MA ; X Y = COOR S ; Y = Y - 0.5 ; "
@@ -124,7 +101,7 @@ def test_bending_converges_with_the_square_of_the_size() -> None:
 
 
 def test_mass_of_polygons_is_that_of_the_plate() -> None:
-    (total,) = found(
+    total = found(
         PLATE.format(n=8, m=4)
         + "MO = MODE S MECANIQUE ELASTIQUE POLY ; MA = MATE MO 'YOUN' 1. 'NU' 0.3 'RHO' 3. ; "
         "U = MANU 'CHPO' S 1 'UX' 1. ; M1 = YTMX U U (MASS MO MA) ;",

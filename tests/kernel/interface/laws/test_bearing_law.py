@@ -106,33 +106,6 @@ def test_beta_is_that_of_wen_s_term_in_the_absolute_velocity(beta, eta):
     assert (t[-1, 0] - KPOS * corners[-1]) / QD == pytest.approx(z, abs=5e-4)
 
 
-CASES = [
-    (LawCode.LEAD, {**LEAD, "ETA": 1.0}, [2 * UY, -UY, 1e-3], [1.5 * UY, 0.5 * UY, -1e-3]),
-    (LawCode.LEAD, {**LEAD, "ETA": 2.5, "BETA": 0.8}, [2 * UY, -UY, 0], [-UY, -3 * UY, 0]),
-    (LawCode.LEAD, {**LEAD, "BETA": 0.9}, [2 * UY, 0], [1.8 * UY, 0]),
-    (LawCode.PENDULUM, BOWL, [0.1, 0.05, -1e-4], [0.1001, 0.0501, -2e-4]),
-    (LawCode.PENDULUM, BOWL, [0.1, 0.05, -1e-4], [0.08, 0.09, 2e-4]),
-    (LawCode.PENDULUM, BOWL, [0.1, -1e-4], [0.12, -2e-4]),
-    (LawCode.PENDULUM, BOWL, [0.1, -1e-4], [0.1, 6e-3]),
-]
-
-
-@pytest.mark.parametrize(("code", "given", "first", "second"), CASES)
-def test_tangent_is_the_derivative_of_the_force(code, given, first, second):
-    p = table(**given)
-    _, state, _ = step(code, p, first, np.zeros((1, N_STATE)))
-    _, _, D = step(code, p, second, state)
-    h = 1e-8
-    for j in range(len(second)):
-        ends = []
-        for sign in (1, -1):
-            w = np.array(second, float)
-            w[j] += sign * h
-            ends.append(step(code, p, w, state)[0])
-        wanted = (ends[0] - ends[1]) / (2 * h)
-        np.testing.assert_allclose(D[:, j], wanted, atol=2e-6 * KN)
-
-
 @pytest.mark.parametrize(("code", "given"), [(LawCode.LEAD, LEAD), (LawCode.PENDULUM, BOWL)])
 def test_axes_that_turn_do_not_matter(code, given):
     p, rng = table(**given), np.random.default_rng(1)

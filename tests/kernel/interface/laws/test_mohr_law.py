@@ -80,12 +80,6 @@ def test_tension_stops_at_the_strength_and_its_opening_stays():
     assert t[1, 1] == pytest.approx(-3.0)
 
 
-def test_compression_yields_and_hardens():
-    p = parameters(FNE=5.0, QT=10.0)
-    t, _ = walk([[0, -0.04], [0, -0.15], [0, -0.1]], p)
-    np.testing.assert_allclose(t[:, 1], [-4.0, -5.0 - 10.0 * 0.1, -1.0], rtol=1e-12)
-
-
 def test_second_normal_stiffness_beyond_a_closing():
     t, _ = walk([[0, -0.05], [0, -0.2]], parameters(ECN=0.1, EF=500.0))
     np.testing.assert_allclose(t[:, 1], [-5.0, -10.0 - 50.0], rtol=1e-12)

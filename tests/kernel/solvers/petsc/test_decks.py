@@ -142,19 +142,24 @@ def test_a_free_body_is_named_as_by_other_solvers(tmp_path):
     assert first == second
 
 
-@there
-def test_a_lost_rank_ends_the_run_with_a_message(tmp_path, monkeypatch):
+def lose_a_rank(patch, solve):
+    """The last rank is killed at a solve, by its number."""
     from ssilang.kernel.solvers.petsc import client
 
     ask, asked = client._Line.ask, []
 
     def lose(line, message, *arguments, **more):
         asked.append(message["do"])
-        if message["do"] == "solve" and asked.count("solve") == 20:
+        if message["do"] == "solve" and asked.count("solve") == solve:
             os.kill(ranks()[-1], signal.SIGKILL)
         return ask(line, message, *arguments, **more)
 
-    monkeypatch.setattr(client._Line, "ask", lose)
+    patch.setattr(client._Line, "ask", lose)
+
+
+@there
+def test_a_lost_rank_ends_the_run_with_a_message(tmp_path, monkeypatch):
+    lose_a_rank(monkeypatch, 20)
     script = HEAD + ASKED + MODEL + MOTION.replace("FULL0", "FAUX")
     result, summary = run(script, tmp_path)
     assert result.exit_code == 1
@@ -167,7 +172,6 @@ def test_a_lost_rank_ends_the_run_with_a_message(tmp_path, monkeypatch):
 @there
 @pytest.mark.parametrize("full", ["FAUX", "VRAI"])
 def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypatch, full):
-    from ssilang.kernel.solvers.petsc import client
     from ssilang.kernel.stepping import keeping
 
     motion = MOTION.replace("FULL0", full).replace("0.01 0.5 ;\nTAB1", "0.01 0.3 ;\nTAB1")
@@ -175,16 +179,8 @@ def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypat
     script = script.replace("TAB2 =", "TAB1 . 'REPRISE' = TABL ; TAB1 . 'PAS_SAUVES' = 1 ; TAB2 =")
     monkeypatch.setattr(keeping, "stride_of", lambda done, *_: 16 - done % 16)  # a large model's
     whole, _ = run(script, tmp_path / "whole")
-    ask, asked = client._Line.ask, []
-
-    def lose(line, message, *arguments, **more):
-        asked.append(message["do"])
-        if message["do"] == "solve" and asked.count("solve") == 40:
-            os.kill(ranks()[-1], signal.SIGKILL)
-        return ask(line, message, *arguments, **more)
-
     with monkeypatch.context() as patched:
-        patched.setattr(client._Line, "ask", lose)
+        lose_a_rank(patched, 40)
         ended, summary = run(script, tmp_path / "ended")
     assert ended.exit_code == 1
     codes = [w["code"] for w in summary["warnings"]]
@@ -199,17 +195,7 @@ def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypat
 
 @there
 def test_a_run_that_goes_on_after_a_lost_rank_starts_petsc_again(tmp_path, monkeypatch):
-    from ssilang.kernel.solvers.petsc import client
-
-    ask, asked = client._Line.ask, []
-
-    def lose(line, message, *arguments, **more):
-        asked.append(message["do"])
-        if message["do"] == "solve" and asked.count("solve") == 5:
-            os.kill(ranks()[-1], signal.SIGKILL)
-        return ask(line, message, *arguments, **more)
-
-    monkeypatch.setattr(client._Line, "ask", lose)
+    lose_a_rank(monkeypatch, 5)
     script = HEAD + "OPTI ERRE IGNORE ;" + ASKED + MODEL + "DEP0 = RESO RIJ POID ;"
     script += "X2 = EXTR DEP0 'UY' PTOP ;"
     petsc, _ = run(script, tmp_path / "petsc")

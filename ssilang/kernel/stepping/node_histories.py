@@ -140,7 +140,7 @@ def _pushers(problem: Problem, rows: IntArray) -> sp.csc_array:
 
 
 @dataclass(eq=False)
-class NodeTrack(Track):
+class NodeHistories(Track):
     """What is kept at some nodes, as fields of single instants or as histories.
 
     Attributes
@@ -251,7 +251,7 @@ MOST = 8
 
 
 @dataclass(eq=False)
-class FootingTrack(Track):
+class FootingHistories(Track):
     """Loads of footings at the times it wants; rows are let go at once.
 
     Attributes
@@ -314,18 +314,20 @@ class FootingTrack(Track):
         return self.found(number) if self.kept[number] else [np.zeros(0)] * len(Loads._fields)
 
 
-def footing_track(problem: Problem, wanted: BoolArray) -> FootingTrack | None:
+def footing_histories(problem: Problem, wanted: BoolArray) -> FootingHistories | None:
     """The observer of a problem's largest footings; None where it has no joints."""
     if problem.interface is None:
         return None
     every = footings_of(problem.interface, problem.numbering)
     footings, left = every[:MOST], len(every[MOST:])
     held = [np.zeros(0, np.int64), *(f.unknowns for f in footings)]
-    return FootingTrack(wanted, np.unique(np.concatenate(held)), footings=footings, left_out=left)
+    return FootingHistories(
+        wanted, np.unique(np.concatenate(held)), footings=footings, left_out=left
+    )
 
 
 @dataclass(eq=False)
-class ForceTrack(Track):
+class ForceHistories(Track):
     """Sums of the forces of named relations on the body.
 
     Only the sums are kept: rows of all that acts on what they hold would be many numbers.

@@ -12,19 +12,19 @@ import sys
 
 import pytest
 
-from ssilang.cli import main, signals
+from ssilang.cli import interrupts, main
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.language.text.source import Source
 
 ANYWHERE = """
 import sys
-from ssilang.cli import signals
+from ssilang.cli import interrupts
 inside = []
 def look(frame, event, argument):
     if not inside:
         inside.append(1)
         try:
-            signals.interrupt(2, None)
+            interrupts.interrupt(2, None)
         except KeyboardInterrupt:
             pass
         finally:
@@ -32,11 +32,11 @@ def look(frame, event, argument):
     return look
 sys.settrace(look)
 for _ in range(3):
-    signals.take()
-with signals.holding():
+    interrupts.take()
+with interrupts.holding():
     pass
 sys.settrace(None)
-print(signals.take(), signals.take())
+print(interrupts.take(), interrupts.take())
 """
 
 
@@ -64,23 +64,23 @@ def fails_over_it():
 @pytest.mark.parametrize("action", [interrupted_in_compiled_code, fails_over_it])
 def test_an_interruption_that_a_library_swallows_stops_the_run(action, tmp_path, capsys):
     session = make_session(Source("deck", ""), RunOptions(tmp_path), io.StringIO())
-    with signals.listening(), pytest.raises(KeyboardInterrupt):
+    with interrupts.listening(), pytest.raises(KeyboardInterrupt):
         session.evaluator.guarded(action, None, "RESO")
     assert capsys.readouterr().err == ""  # no "exception ignored"
-    assert not signals.take()
+    assert not interrupts.take()
     assert session.evaluator.guarded(lambda: 3, None, "RESO") == 3  # the next one runs
 
 
 def test_an_interruption_is_seen_once(tmp_path):
     session = make_session(Source("deck", ""), RunOptions(tmp_path), io.StringIO())
-    with signals.listening(), pytest.raises(KeyboardInterrupt):
+    with interrupts.listening(), pytest.raises(KeyboardInterrupt):
         session.evaluator.guarded(lambda: signal.raise_signal(signal.SIGINT), None, "RESO")
-    assert not signals.take()
+    assert not interrupts.take()
 
 
 def test_handlers_of_signals_are_put_back():
     before = signal.getsignal(signal.SIGINT), sys.unraisablehook
-    with signals.listening():
+    with interrupts.listening():
         assert signal.getsignal(signal.SIGINT) is not before[0]
     assert (signal.getsignal(signal.SIGINT), sys.unraisablehook) == before
 
@@ -107,7 +107,7 @@ def test_a_run_whose_reader_left_ends_without_a_word(tmp_path, unbuffered, merge
     code, first, told = first_line_alone(
         tmp_path, "deck.ssi", merged=merged, PYTHONUNBUFFERED=unbuffered
     )
-    assert (code, first, told) == (signals.ENDED_BY_CLOSED_PIPE, b"l1\n", b"")
+    assert (code, first, told) == (interrupts.ENDED_BY_CLOSED_PIPE, b"l1\n", b"")
     out = tmp_path / "results" / "deck"
     assert (out / "a.txt").read_text() == "kept\n"  # what was written is whole
     summary = json.loads((out / "summary.json").read_text())
@@ -126,7 +126,7 @@ def test_help_whose_reader_left_ends_without_a_word(tmp_path):
     code, first, told = first_line_alone(tmp_path, "help", PYTHONUNBUFFERED="1")
     assert first
     assert told == b""
-    assert code in (0, signals.ENDED_BY_CLOSED_PIPE)  # it may have been done already
+    assert code in (0, interrupts.ENDED_BY_CLOSED_PIPE)  # it may have been done already
 
 
 @pytest.mark.parametrize("command", ["run", "check", "help"])
