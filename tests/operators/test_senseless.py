@@ -237,6 +237,17 @@ MODELS = {
     ),
     # supports, weight, mass
     "no weight on joints": (FOOTING.format("", ""), "D.nothing-presses"),
+    "no weight on joints, a push at the start": (
+        FOOTING.format("", "T . 'VITE' = MANU 'CHPO' S 1 'UX' 1. ;"),
+        "D.nothing-presses",
+    ),
+    "joints of another stiffness": (
+        FOOTING.format(
+            WEIGHT + "K = K ET (RIGI MJ (MATE MJ 'KN' 1.01E5 'KS' 1.E5)) ;",
+            "",
+        ),
+        "D.joints-of-others",
+    ),
     "joints so soft that the body sinks in": (
         FOOTING.replace("'KN' 1.E5", "'KN' 1.E3").format(WEIGHT, ""),
         "D.sinks-in",

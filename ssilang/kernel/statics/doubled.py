@@ -106,18 +106,25 @@ _POINTS = ("IMPEDANCE", "MODAL", "STATIQUE")
 
 
 def repeated_cells(matrix: Matrix) -> IntArray:
-    """First node (n,) of cells on the nodes, with the element and stiffness, of an earlier cell.
+    """First node (n,) of cells on the nodes, with the element and values, of an earlier cell.
 
-    Springs between points are left out: two side by side are meant.
+    Springs between points and masses at them are left out: two side by side are meant.
     """
     groups: dict[tuple[object, ...], list[ElementMatrices]] = {}
     for block in matrix.blocks:
         zone = block.zone
         if zone is not None and zone.element != "JOI1" and not {*_POINTS} & {*zone.behaviour}:
             groups.setdefault((zone.element, zone.behaviour, zone.constituent), []).append(block)
+        elif _heavy_cells(block):
+            groups.setdefault(block.unknowns, []).append(block)
     found = [_repeated(blocks) for blocks in groups.values()]
-    found += [b.nodes[:, 0] for b in repeated_blocks(matrix) if b.zone is None]
+    others = (b for b in repeated_blocks(matrix) if b.zone is None and not _heavy_cells(b))
+    found += [b.nodes[:, 0] for b in others]
     return np.concatenate(found) if found else np.zeros(0, np.int64)
+
+
+def _heavy_cells(block: ElementMatrices) -> bool:
+    return block.zone is None and block.kind == "MASSE" and block.raw_nodes.shape[1] > 1
 
 
 def repeated_blocks(matrix: Matrix) -> list[ElementMatrices]:

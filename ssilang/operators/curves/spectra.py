@@ -11,7 +11,12 @@ from ssilang.kernel.modal.oscillator import default_frequencies, response, spect
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
 from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
-from ssilang.operators.curves.words import check_together, warn_of_damping, warn_of_motions
+from ssilang.operators.curves.words import (
+    check_together,
+    warn_of_damping,
+    warn_of_motions,
+    warn_of_steps,
+)
 from ssilang.operators.mesh.selection.boundaries import enve
 from ssilang.operators.prelude import *
 
@@ -45,6 +50,7 @@ def osci(
 ) -> Curve:
     warn_of_motions(call, signal)
     warn_of_damping(call, damping)
+    warn_of_steps(call, signal, frequency)
     part = signal.parts[0]
     wanted = None if times is None else times.values
     t, x = response(
@@ -87,6 +93,8 @@ def spo(
     part = signal.parts[0]
     values = [dampings] if isinstance(dampings, float) else dampings.values
     warn_of_damping(call, *map(float, values))
+    if frequencies is not None:
+        warn_of_steps(call, signal, float(np.min(frequencies.values, initial=np.inf)))
     if second is not None or percentiles is not None:
         if second is None or percentiles is None or times is not None:
             raise call.error("operators.curves.rotd-incomplete")

@@ -50,6 +50,14 @@ def warn_of_motions(call: Call, *curves: Curve) -> None:
         call.warn("operators.curves.no-accelerations", name=name)
 
 
+def warn_of_steps(call: Call, curve: Curve, lowest: float) -> None:
+    """Warn of a signal whose steps are longer than half a period of all frequencies asked for."""
+    times = curve.parts[0].abscissas
+    step = float(np.diff(times).min(initial=np.inf))
+    if 0.0 < 0.5 / lowest < step < np.inf:
+        call.warn("operators.curves.steps-over-periods", step=step, frequency=lowest)
+
+
 def warn_of_damping(call: Call, *ratios: float) -> None:
     """Warn of damping ratios that are per cent."""
     if ratios and max(ratios) >= 1.0:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.interface import joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.plasticity.points import plastic_zones
@@ -28,6 +29,8 @@ MISSED = 0.2  # part of a curve's largest value by which steps may pass over its
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
+OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
+TURNED = 1.0  # rad
 FAR = 100.0  # sizes of the model; what slides may go far
 
 
@@ -88,6 +91,21 @@ def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
         yield "operators.dynamics.conserving-other-laws", {"laws": names}
 
 
+def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
+    """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
+    from ssilang.kernel.elements.families import stiffness
+
+    if inputs.model is None or inputs.characteristics is None:
+        return
+    for zone in joint_zones(inputs.model):
+        given = [b.values for b in inputs.stiffness.blocks if b.zone is zone]
+        own = stiffness(zone, inputs.characteristics).values if given else np.zeros(0)
+        if given and given[0].shape == own.shape and (most := np.abs(own).max(initial=0.0)):
+            off = np.abs(sum(given) - own).max(initial=0.0) / most
+            if off > OTHER:
+                yield "operators.dynamics.joints-of-others", {"off": off}
+
+
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import masses_alone
 
@@ -135,6 +153,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
+    _joints_of_others,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)
@@ -142,15 +161,20 @@ OF_STIFFNESS = (_masses_alone, _loose, _swings)
 
 
 def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> None:
-    """Warn where the last instant kept has displacements of many times the model's size."""
+    """Warn where the last instant kept has moved by many times the model's size, or far round."""
     from ssilang.kernel.stepping.problem.plausibility import AXES
 
     numbering = problem.numbering
-    codes = [numbering.code(a) for a in AXES if a in numbering.unknowns]
-    along = np.isin(numbering.codes, codes)
+    along, round_about = (
+        np.isin(numbering.codes, [numbering.code(a) for a in names if a in numbering.unknowns])
+        for names in (AXES, ("RX", "RY", "RZ"))
+    )
     if not len(track) or not along[track.unknowns].any():
         return
     u = track.instant(len(track) - 1).values("u")[0]
+    turn = float(np.abs(u[round_about[track.unknowns]]).max(initial=0.0))
+    if turn > TURNED:
+        entries.warn("operators.dynamics.turns-far", turn=turn)
     way = float(np.abs(u[along[track.unknowns]]).max())
     size = float(np.ptp(numbering.table.coordinates[numbering.nodes[along]], axis=0).max())
     if way > FAR * size > 0.0:
@@ -160,13 +184,15 @@ def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> 
 def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:
     """Warn of curves of loads that begin late, end early, or change between the instants."""
     parts = () if load is None or len(times) < 2 else load.parts
-    known: set[tuple[int, int]] = set()
+    known: set[tuple[int, bytes]] = set()
     for part in parts:
-        key = id(part.space), id(part.time)
+        curves = () if part.time is None else part.time.parts
+        values = (v.tobytes() for c in curves for v in (c.abscissas, c.ordinates))
+        key = id(part.space), b"".join(values)
         if key in known and part.time is not None:
             entries.warn("operators.dynamics.load-twice", name=part.name)
         known.add(key)
-        for curve in () if part.time is None else part.time.parts:
+        for curve in curves:
             for code, told in _flaws(curve.abscissas, curve.ordinates, times):
                 entries.warn(code, name=part.name, **told)
 

@@ -36,7 +36,7 @@ def zgam(
         else cast("list[NodeField]", motion.values)
     )
     if isinstance(motion, ListChpo):
-        tell_no_unknown(call, cast(NodeField, fields[0]))
+        tell_no_unknown(call, cast(NodeField, fields[0]), model)
     return CellField(
         tuple(
             largest_shear_strain(z, _vectors(families.family_of(z).layout(z), fields))

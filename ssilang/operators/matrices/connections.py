@@ -98,12 +98,10 @@ def _warn_negative(tell: Tell, matrix: Matrix) -> None:
 
 
 def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:
-    """Warn of a matrix that has the same twice; of a stiffness ('RIGI'), of cells of its own."""
-    from ssilang.kernel.statics.doubled import repeated_blocks, repeated_cells
+    """Warn of a matrix that has the same cells, or the same of others, twice."""
+    from ssilang.kernel.statics.doubled import repeated_cells
 
-    blocks = [] if kind == "RIGI" else [b.nodes[:, 0] for b in repeated_blocks(matrix)]
-    found = repeated_cells(matrix) if kind == "RIGI" else np.concatenate([*blocks, [0]])[:-1]
-    if len(found):
+    if len(found := repeated_cells(matrix)):
         told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
         session.warn("operators.matrices.cells-twice", span, operator=operator, **told)
 

@@ -86,7 +86,7 @@ _CARRIED = (
 def _carried(
     call: Call, model: Model, fields: Fields, frame: str | None, forward: bool
 ) -> CellField:
-    field, u = joined_cells(call, fields), displacement_of(call, fields)
+    field, u = joined_cells(call, fields), displacement_of(call, fields, model)
     if len(nodal_of(fields)) > 1:
         raise call.error("operators.statics.no-cracks", name=call.name)
     if frame == "UTIL":

@@ -17,6 +17,8 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
+FAR = 10.0
+"""Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
 _WORDS = (
     flag("project", "NOID", en="leave out the part of the loads that drives a free motion"),
@@ -73,8 +75,22 @@ def _reso(
     for load, solution in zip(loads, solutions, strict=True):
         if _is_anywhere(load) and not _is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
+        if "FLX" not in load.components:  # what is imposed may be a unit
+            _warn_far(call, solution)
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def _warn_far(call: Call, solution: NodeField) -> None:
+    """Warn of displacements of many times the size of the mesh."""
+    parts = [p for n, p in solution.components.items() if n in ("UX", "UY", "UZ", "UR")]
+    way = max((float(np.abs(p.values).max(initial=0.0)) for p in parts), default=0.0)
+    if way > 0.0:
+        nodes = np.concatenate([p.nodes for p in parts])
+        size = float(np.ptp(solution.table.coordinates[nodes], axis=0).max())
+        if way > FAR * size > 0.0:
+            told = {"way": way, "size": size, "times": way / size}
+            call.warn("operators.statics.moves-far", **told)
 
 
 def _is_anywhere(field: NodeField) -> bool:

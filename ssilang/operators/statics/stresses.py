@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import pressure_vectors, total
@@ -36,21 +38,29 @@ def cells_of(fields: Fields) -> tuple[CellField, ...]:
     return tuple(f for f in fields if isinstance(f, CellField))
 
 
-def displacement_of(call: Call, fields: Fields) -> NodeField:
+def displacement_of(call: Call, fields: Fields, model: Model) -> NodeField:
     """The first nodal field, mandatory."""
     nodal = nodal_of(fields)
     if not nodal:
         raise call.missing(("CHPOINT",))
-    tell_no_unknown(call, nodal[0])
+    tell_no_unknown(call, nodal[0], model)
     return nodal[0]
 
 
-def tell_no_unknown(call: Call, field: NodeField) -> None:
-    """Warn of a field for displacements that has other components alone."""
+def tell_no_unknown(call: Call, field: NodeField, model: Model) -> None:
+    """Warn of a field for displacements that has other components alone, or not all nodes."""
     names = [n for n in field.components if n != "LX"]
     meant = (w for n in names for w in meanings("component", n))
     if names and not any(w.kind == "unknown" for w in meant):
         call.warn("operators.statics.no-displacements", field, names=names)
+        return
+    known = [p.nodes for n, p in field.components.items() if n != "LX"]
+    if not known:
+        return
+    wanted = model.mesh.node_ids
+    if len(lost := np.setdiff1d(wanted, field.table.resolve(np.concatenate(known)))):
+        told = {"count": len(lost), "wanted": len(wanted), "node": field.table.told(int(lost[0]))}
+        call.warn("operators.statics.displacements-in-part", field, **told)
 
 
 def joined_cells(call: Call, fields: Fields) -> CellField:
@@ -97,7 +107,7 @@ def on_zones(model: Model, title: str, make: Callable[[Zone], CellFieldBlock]) -
 @_of_folded
 def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> CellField:
     """Stresses."""
-    u, material = displacement_of(call, fields), joined_cells(call, fields)
+    u, material = displacement_of(call, fields, model), joined_cells(call, fields)
     compute = green_stress if order == "QUAD" else families.stress
     return on_zones(present(call, model), "CONTRAINTES", lambda z: compute(z, material, u))
 
@@ -136,7 +146,7 @@ def epsi(
     if not nodal:
         grad, by_displacement = joined(cells), gradient == "DEPL"
         return on_zones(zones, "DEFORMATIONS", lambda z: _logarithmic(z, grad, by_displacement))
-    tell_no_unknown(call, nodal[0])
+    tell_no_unknown(call, nodal[0], model)
     material = joined(cells) if cells else None
     compute = green_strain if measure == "QUAD" else families.strain
     return on_zones(zones, "DEFORMATIONS", lambda z: compute(z, nodal[0], material))

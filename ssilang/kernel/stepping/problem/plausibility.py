@@ -84,7 +84,8 @@ class Bodies:
     def loose(self) -> Iterator[Loose]:
         """Bodies without support along an axis, or without what presses them on theirs."""
         problem, count = self.problem, int(self.label.max(initial=-1)) + 1
-        if count > MOST_BODIES or problem.u.any() or problem.v.any():
+        begun = problem.u.any() or problem.v.any()  # an impact needs no weight
+        if count > MOST_BODIES or (begun and not problem.loading.forces.any()):
             return
         names = [a for a in AXES if a in problem.numbering.unknowns]
         for body in range(count):

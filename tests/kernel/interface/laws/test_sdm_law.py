@@ -1,5 +1,7 @@
 """The SDM law: closed form, path, energies, tangent, limits; refused parameters."""
 
+import itertools
+
 import numpy as np
 import pytest
 from references.sdm_arrays import normal_arrays, shear_arrays
