@@ -130,13 +130,18 @@ class Interface:
 
     def closed_stiffness(self) -> FloatArray:
         """Stiffness of the closed joints on the jumps, dense (size, size)."""
-        D = elastic_tangent(self.parameters, self.dimension) * self.weights[:, None, None]
-        blocks = np.einsum("pia,pij,pjb->pab", self.B, D, self.B, optimize=True)
-        d = self.dimension
-        places = (self.pairs[:, :, None] * d + np.arange(d)).reshape(self.n_points, -1)
-        found = np.zeros((self.size, self.size))
-        np.add.at(found, (places[:, :, None], places[:, None, :]), blocks)
-        return found
+        D = elastic_tangent(self.parameters, self.dimension)
+        return joint_stiffness(self.points, D, self.size).toarray()
+
+
+def joint_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:
+    """Stiffness (size, size) on the jumps of pairs of tangents D (n_points, d, d)."""
+    B, d = joints.B, D.shape[1]
+    blocks = np.einsum("p,pia,pij,pjb->pab", joints.weights, B, D, B, optimize=True)
+    places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(D), -1)
+    rows = np.broadcast_to(places[:, :, None], blocks.shape).ravel()
+    columns = np.broadcast_to(places[:, None, :], blocks.shape).ravel()
+    return sp.csr_array((blocks.ravel(), (rows, columns)), shape=(size, size))
 
 
 def _at(joints: Sequence[JointCells], point: int) -> tuple[int, int]:

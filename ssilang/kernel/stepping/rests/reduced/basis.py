@@ -261,7 +261,7 @@ class Basis:
         """Room for vectors that the shift s (1/s) measures."""
         self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
         self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
-        self._KV = np.zeros((largest, largest))
+        self._KV, self._RV = np.zeros((2, largest, largest))
         self.size = self._fixed = 0
 
     @property
@@ -349,9 +349,11 @@ class Basis:
         if r + b > len(self._store):
             raise NoReduction("kernel.stepping.vectors-not-enough", n_vectors=len(self._store))
         self._store[r : r + b] = W.T
-        part = self._store[: r + b] @ (self.K @ W)
-        self._KV[: r + b, r : r + b] = part
-        self._KV[r : r + b, : r + b] = part.T
+        spread = self.damping.few is None  # a damping of all bodies, each with its own
+        for small, A in ((self._KV, self.K), (self._RV, self.damping.rest))[: 1 + spread]:
+            part = self._store[: r + b] @ (A @ W)
+            small[: r + b, r : r + b] = part
+            small[r : r + b, : r + b] = part.T
         self.size = r + b
         return W
 
@@ -366,7 +368,7 @@ class Basis:
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
         J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
         d = self.damping
-        B, sense = d.on(V)
+        B, sense = d.on(V, self._RV[:r, :r])
         return ReducedModel(
             self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
             X.T @ F, X.T @ start, B @ X, sense, self.supports, self.trained,

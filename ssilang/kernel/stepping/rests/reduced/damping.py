@@ -49,12 +49,15 @@ class SplitDamping:
     touched: IntArray
     few: tuple[FloatArray, FloatArray] | None
 
-    def on(self, V: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Rows B (d, r) and senses (d,) of the rest on the vectors V (r, n_y), one a row."""
+    def on(self, V: FloatArray, rest: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
+        """Rows B (d, r) and senses (d,) of the rest on the vectors V (r, n_y), one a row.
+
+        `rest` (r, r) is what it is on them, if that is known.
+        """
         if self.few is not None:
             rows, sense = self.few
             return rows @ V[:, self.touched].T, sense
-        return square_roots(V @ (self.rest @ V.T))
+        return square_roots(V @ (self.rest @ V.T) if rest is None else rest)
 
 
 def split(C: sp.csr_array, M: sp.csr_array, K: sp.csr_array, most: int) -> SplitDamping | None:

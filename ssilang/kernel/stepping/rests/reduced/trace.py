@@ -6,7 +6,8 @@ Steps of a reduced model by Newton's method on its coordinates, for interfaces o
 
 The law acts at every point of the joints. The LU factor of `A + c J^T K_j J`, K_j the joints'
 tangent, is kept from turn to turn and step to step, and made again where a turn gains less than
-`GAIN`.
+`GAIN`. It is of single precision, and takes points anew whose tangents changed by `CHANGED`: it
+leads to the solution, and what is out of balance, in double precision, says where that is.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.interface.interface import joint_stiffness
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import (
     InterfaceState,
     Joints,
-    Trial,
     accept,
     interface_energies,
     interface_response,
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
 MOST_TURNS = 60
 TOLERANCE = 1e-10  # of the forces of a step
 GAIN = 5.0  # of a turn with a kept factor, below which it is made again
+CHANGED = 0.02  # of a point's tangent, from which on the factor takes it
 
 
 @dataclass(eq=False)
@@ -93,25 +95,26 @@ class Coordinates:
         self.J, B = np.ascontiguousarray(m.Rt[:, :q].T), m.Rt[:, q:]
         self.C = np.diag(m.c) + (B * m.sense) @ B.T
         self.A = np.diag(n.mass * m.m + n.end * m.k) + n.damping * self.C
-        places = (p.pairs[:, :, None] * d + np.arange(d)).reshape(len(p.pairs), -1)
-        self._trial, self._points = new_trial((len(p.weights), d), q), p.B @ self.J[places]
-        self._D, self._K = np.zeros((len(p.weights), d, d)), np.zeros_like(self.A)
+        self._trial = new_trial((len(p.weights), d), q)
+        self._D = np.zeros((len(p.weights), d, d))
+        self._J, self._matrix = (x.astype(np.float32) for x in (self.J, self.A))
 
     def run(self, x: Motion, factors: FloatArray, to: Recorder) -> Outcome:
         """Steps between the rows of `factors`; `x` and the rows hold coordinates."""
-        m, n, C, e, worst = self.model, self.newmark, self.C, x.energies, 0
-        loads = factors @ m.forces
+        m, n, e, worst = self.model, self.newmark, x.energies, 0
+        loads, Cv, Ca = factors @ m.forces, self.C @ x.v, self.C @ x.a
         for k in range(len(to.row)):
-            r = from_past(n, m.m * x.v, m.m * x.a, C @ x.v, C @ x.a) - m.k * x.u
+            r = from_past(n, m.m * x.v, m.m * x.a, Cv, Ca) - m.k * x.u
             r += n.end * loads[k + 1] + n.start * loads[k] - x.f @ self.J
             dz, turns, residual = self._solve(x.joints, r)
             if turns <= 0:
                 return k, turns, residual
-            worst, v = max(worst, turns), x.v.copy()
+            worst, before = max(worst, turns), Cv
             x.u[:] += dz
-            x.v[:], x.a[:] = advanced(n, dz, v, x.a)
+            x.v[:], x.a[:] = advanced(n, dz, x.v, x.a)
+            Cv, Ca = advanced(n, self.C @ dz, Cv, Ca)
             e[KINETIC], e[ELASTIC] = 0.5 * m.m @ x.v**2, 0.5 * m.k @ x.u**2
-            e[DAMPED] += 0.5 * dz @ (C @ (v + x.v))
+            e[DAMPED] += 0.5 * dz @ (before + Cv)
             e[EXTERNAL] += 0.5 * dz @ (loads[k] + loads[k + 1])
             e[STORED], e[LOST] = interface_energies(self.joints, x.w, x.t, x.state)
             to.energies[k], to.jumps[k] = e, x.w
@@ -126,6 +129,8 @@ class Coordinates:
 
         trial, end, old = self._trial, self.newmark.end, np.inf
         dz, scale = np.zeros(len(r)), np.abs(r).max(initial=0.0)
+        if self._factor is not None:  # the first turn would find what is known
+            dz, old = dz + la.lu_solve(self._factor, r.astype(np.float32)), 1.0
         for turn in range(1, MOST_TURNS + 1):
             trial.y[:] = self.J @ dz
             trial.delta[:] = now.delta + trial.y
@@ -139,18 +144,21 @@ class Coordinates:
             if not np.isfinite(size):
                 break
             if self._factor is None or size * GAIN > old:
-                self._factor = la.lu_factor(self.A + end * self._tangent(trial))
-            old, dz = size, dz + la.lu_solve(self._factor, left)
+                self._tangent(trial.D)
+                self._factor = la.lu_factor(self._matrix)
+            old, dz = size, dz + la.lu_solve(self._factor, left.astype(np.float32))
         return dz, -MOST_TURNS, float(size)
 
-    def _tangent(self, trial: Trial) -> FloatArray:
-        """Tangent (r, r) of the joints: that of before, and what has changed at some points."""
-        D = trial.D * self.joints.weights[:, None, None]
-        changed = np.flatnonzero((D != self._D).any(axis=(1, 2)))
-        G, gap = self._points[changed], D[changed] - self._D[changed]
-        self._K += G.reshape(-1, len(self._K)).T @ (gap @ G).reshape(-1, len(self._K))
-        self._D = D
-        return self._K
+    def _tangent(self, D: FloatArray) -> None:
+        """The matrix with the joints' tangents D, which change at some points, for the factor."""
+        p, end = self.joints, self.newmark.end
+        gap = np.abs(D - self._D).max(axis=(1, 2))
+        at = np.flatnonzero(gap > CHANGED * np.abs(D).max(axis=(1, 2)))
+        some = Joints(p.pairs[at], p.B[at], p.weights[at], p.codes[at], p.p[at])
+        K = joint_stiffness(some, end * (D - self._D)[at], len(self.J)).astype(np.float32)
+        felt = np.flatnonzero(np.diff(K.indptr))
+        self._matrix += self._J[felt].T @ (K[felt] @ self._J)
+        self._D[at] = D[at]
 
 
 KEPT = ("u", "v", "a", "w", "t", "state")

@@ -17,7 +17,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.stepping.effective import effective_matrix, effective_of
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.stepping.effective import effective_matrix, ordering_of
 from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import (
@@ -100,8 +102,9 @@ class TrainedBasis(Basis):
         self._make_room(largest, HIGHEST_SHIFT * 2.0 / training.dt)
         self._add(np.vstack([training.vectors, training.answers]).T)
         self._fixed, self.records = self.size, len(training.taught)
-        A, end = effective_matrix(problem, training.dt), 1 - problem.scheme.alpha_f
-        self._step = effective_of(problem, A, training.dt, end)
+        A = sp.csr_array(self.T.T @ effective_matrix(problem, training.dt) @ self.T)
+        order = ordering_of(problem, sp.csc_array((A.shape[0], 0)))
+        self._step = invert(A, True, problem.solver, order)
 
     def meet(self, problem: Problem) -> None:
         """Take the loads and the start of a motion, nothing of the one before."""
@@ -118,7 +121,7 @@ class TrainedBasis(Basis):
             If there is no room for them.
         """
         try:
-            self._add(on_motions(self.T, self._step.solve(left)))
+            self._add(self._step.solve(self.T.T @ left))
         except NoReduction as full:
             raise self.inexact() from full
 

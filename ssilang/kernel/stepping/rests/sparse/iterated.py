@@ -15,11 +15,11 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.interface import joint_stiffness
 from ssilang.kernel.interface.laws.law_table import elastic_tangent
 from ssilang.kernel.interface.newton import hold_shear, release_shear
 from ssilang.kernel.interface.response import (
     InterfaceState,
-    Joints,
     Trial,
     accept,
     interface_forces,
@@ -89,7 +89,7 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
     whole, closed = A, np.zeros((0, 1, 1))
     if joints is not None:
         closed = elastic_tangent(joints.parameters, joints.dimension)
-        K = _sparse_stiffness(joints.points, share * closed, joints.size)
+        K = joint_stiffness(joints.points, share * closed, joints.size)
         whole = sp.csr_array(A + joints.J.T @ K @ joints.J)
     scaled, scale = unit_diagonal(sp.csr_array(T.T @ whole @ T))
     del whole
@@ -108,17 +108,6 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
         raise singular(code, problem.numbering, motions @ free)
     J = sp.csr_array((0, len(scale))) if joints is None else sp.csr_array(joints.J @ motions)
     return IteratedSystem(factor, scale, motions, J, A, closed)
-
-
-def _sparse_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:
-    """Stiffness (q, q) on the jumps of pairs of tangents (n_points, d, d)."""
-    d = D.shape[1]
-    weighted = D * joints.weights[:, None, None]
-    blocks = np.einsum("pia,pij,pjb->pab", joints.B, weighted, joints.B, optimize=True)
-    places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(D), -1)
-    rows = np.broadcast_to(places[:, :, None], blocks.shape).ravel()
-    columns = np.broadcast_to(places[:, None, :], blocks.shape).ravel()
-    return sp.csr_array(sp.coo_array((blocks.ravel(), (rows, columns)), shape=(size, size)))
 
 
 class IteratedSolver:

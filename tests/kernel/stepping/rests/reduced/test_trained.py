@@ -2,6 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -12,8 +13,11 @@ from ssilang.io.errors import InputError
 from ssilang.io.training import TrainingFile
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.interface.response import interface_stiffness
 from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.rests.reduced import basis as reduced_basis
 from ssilang.kernel.stepping.rests.reduced import trained
+from ssilang.kernel.stepping.rests.reduced.damping import split
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.rests.reduced.trace import Coordinates, Trace, comparing
 from ssilang.kernel.stepping.run import integrate
@@ -76,19 +80,40 @@ def test_a_record_that_trained_nothing_is_within_its_estimate(suite):
     assert np.abs(history.imbalance - exact.imbalance).max() <= 1e-2 * scale
 
 
-def test_newton_on_the_coordinates_steps_as_the_condensed_interface(suite):
+class Watched(Coordinates):
+    """Coordinates whose matrix is compared with the plain one whenever it changes."""
+
+    seen: ClassVar = []
+
+    def _tangent(self, D):
+        super()._tangent(D)
+        K = np.zeros((len(self.J), len(self.J)))
+        interface_stiffness(self.joints, self._D, K)
+        np.testing.assert_allclose(self._D, D, rtol=0, atol=0.02 * np.abs(D).max())
+        plain = self.A + self.newmark.end * self.J.T @ K @ self.J
+        self.seen.append(((D[:, -1, -1] == 0.0).sum(), relative(self._matrix, plain)))
+
+
+@pytest.mark.parametrize("most", [-1, 400], ids=["a damping of all bodies", "few dashpots"])
+def test_newton_on_the_coordinates_steps_as_the_condensed_interface(suite, monkeypatch, most):
+    monkeypatch.setattr(reduced_basis, "split", lambda C, M, K, _: split(C, M, K, most))
     problem = record(5)
     basis = trained.TrainedBasis(problem, suite.read())
     basis.meet(problem)
     model, joints = basis.model(), problem.interface.points
     one, two = (Trace(problem, model, np.ones(STEPS + 1, bool)) for _ in range(2))
     for run in comparing(problem.times):
-        step = Coordinates(two._reduced, newmark_of(problem.scheme, run.dt), joints)
+        step = Watched(two._reduced, newmark_of(problem.scheme, run.dt), joints)
         two._steps[run.dt] = step
         a, b = one.advance(run), two.advance(run)
         for name in ("u", "w", "t", "state", "jumps"):
             assert relative(getattr(b.rows, name), getattr(a.rows, name)) < 1e-7
     assert relative(two.energies, one.energies) < 1e-8
+    V = problem.constraints.T @ basis.vectors.T @ model.X
+    assert relative(step.C, V.T @ (problem.C @ V)) < 1e-9
+    opened, errors = np.array(Watched.seen).T
+    assert opened.max() > opened.min()
+    assert errors.max() < 1e-5
 
 
 def test_more_joints_than_vectors(suite, monkeypatch, tmp_path):
