@@ -261,6 +261,14 @@ MODELS = {
     ),
     "loads of nought": (OSCILLATOR.format("F = CHAR (FORC (0. 0.) P) EV ;", ""), "D.nothing-moves"),
     "a curve of nought": (OSCILLATOR.format(loaded("0. 1.", "0. 0."), ""), "D.nothing-moves"),
+    "a spring beside the body": (
+        SQUARE + HELD + "K = K ET (APPU 'UX' 1.E6 (0. 1.)) ; U = RESO K (FORC (1. 0.) H) ;",
+        "operators.matrices.springs-apart",
+    ),
+    "a spring beside the body, in time": (
+        BODY.format(HELD + "K = K ET (APPU 'UX' 1.E6 (5. 5.)) ;", ""),
+        "operators.matrices.springs-apart",
+    ),
     "bodies that touch": (
         TWO + "U = RESO (K ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
         "operators.matrices.bodies-apart",
