@@ -64,6 +64,19 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
     return DoubledSupports(above, below) if len(above) else None
 
 
+def springs_apart(matrix: Matrix, used: IntArray) -> IntArray:
+    """Nodes where springs to the ground stand beside the cells of a matrix, but for `used`."""
+    alone, joined = np.zeros((2, len(matrix.table)), dtype=bool)
+    for block in matrix.blocks:
+        if block.unknowns[0][0] in "UR":  # not of modes
+            (alone if block.nodes.shape[1] == 1 else joined)[block.nodes] = True
+    cells = joined.any()
+    for relations in matrix.relations:
+        joined[relations.nodes] = True
+    joined[used] = True
+    return np.flatnonzero(alone & ~joined & cells)
+
+
 def held_nowhere(matrix: Matrix) -> set[str]:
     """Unknowns that conditions of one term hold, and no element, of a model, nor other one has."""
     known = {u for b in matrix.blocks for u in b.unknowns}

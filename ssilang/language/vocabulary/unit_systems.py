@@ -124,6 +124,17 @@ def _by_unit(index: str, unit: str, system: UnitSystem | None) -> Range:
     return replace(usual, low=usual.low / size, high=usual.high / size)
 
 
+MATTER: tuple[dict[str, Range], ...] = (
+    {"YOUN": Range(1e6), "RHO": Range(10.0, 25e3)},  # Pa, kg/m3; a body may be very rigid
+    {"YOUN": Range(1e3, 1e9), "RHO": Range(0.01, 25.0)},  # kPa, t/m3
+    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-5, 0.025)},  # MPa, kt/m3
+    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-11, 25e-9)},  # MPa, t/mm3
+    {"YOUN": Range(high=1e4), "RHO": Range(1e-3, 100.0)},  # numbers without units
+)
+"""What a modulus and a density are together, in each system of units: outside of all, one of the
+two is in another."""
+
+
 WAVES = Range(20.0, 4000.0)
 """Speeds of shear waves (m/s), from mud to the stiffest rock."""
 SOIL = ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")

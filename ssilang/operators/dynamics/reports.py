@@ -201,7 +201,8 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
     place = entries.call.session, entries.place, entries.procedure
-    warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics)
+    laden = [] if inputs.mass is None else [b.nodes.ravel() for b in inputs.mass.blocks]
+    warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics, laden)
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -22,12 +22,13 @@ def warn_connections(
     matrix: Matrix,
     model: Model | None = None,
     characteristics: CellField | None = None,
+    laden: Iterable[IntArray] = (),
 ) -> None:
     """Warn, once a matrix, of what is not joined as it looks.
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
     swapped, beams that end on one node of a solid, bodies that touch and are not joined, cells
-    that count twice. Joints are those of `model`, whose law stands beside the matrix, without it
+    that count twice, springs on nodes of no body but those `laden` with masses or loads. Joints are those of `model`, whose law stands beside the matrix, without it
     those that the matrix was made from.
     """
     if _KEY in matrix.cache:
@@ -41,6 +42,7 @@ def warn_connections(
         tell("operators.matrices.mass-for-stiffness")
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
+    _warn_springs_apart(tell, matrix, model, laden)
     _warn_doubled_supports(tell, matrix, model, {n for w in foreign for n in w.data["names"]})
     made = _joints_in(matrix)
     if model is None and made:
@@ -74,6 +76,18 @@ def _warn_doubled_supports(
         return
     x, y, z = matrix.table.coordinates[found.held[0]]
     tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)
+
+
+def _warn_springs_apart(
+    tell: Tell, matrix: Matrix, model: Model | None, laden: Iterable[IntArray]
+) -> None:
+    from ssilang.kernel.statics.doubled import springs_apart
+
+    joined = [] if model is None or not model.zones else [model.mesh.node_ids]
+    found = springs_apart(matrix, np.concatenate([np.zeros(0, np.int64), *laden, *joined]))
+    if len(found):
+        told = {"count": len(found), "node": matrix.table.told(int(found[0]))}
+        tell("operators.matrices.springs-apart", **told)
 
 
 def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:

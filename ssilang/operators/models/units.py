@@ -12,7 +12,7 @@ from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.materials.model import Mode
 from ssilang.language.vocabulary import Quantity
 from ssilang.language.vocabulary.terms import Range
-from ssilang.language.vocabulary.unit_systems import UnitSystem, likely_units
+from ssilang.language.vocabulary.unit_systems import MATTER, UnitSystem, likely_units
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
 
@@ -39,6 +39,8 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
     ours = session.frame.procedure in session.library.standard_names
     if system is not None and not ours:
         _warn_of_size(call, zone, system)
+    elif not ours:
+        _warn_of_matter(call, given)
     for name, (array, said) in given.items():
         meant = words.parameter(name, zone)
         ends = _ends(array) if meant is not None and array.dtype == float else ()
@@ -50,6 +52,16 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         unusual = next((v for v in ends if here and v * here not in meant.usual), None)
         if unusual is not None and system is not None and not ours:
             _warn(call, meant, unusual, said, system)
+
+
+def _warn_of_matter(call: Call, given: Mapping[str, Given]) -> None:
+    """Warn of a modulus and a density that are in different systems of units, not said."""
+    arrays = [given[n][0] for n in MATTER[0] if n in given and given[n][0].dtype == float]
+    known = dict(zip(MATTER[0], (e for a in arrays if (e := _ends(a))), strict=False))
+    fits = (all(v in usual[n] for n in usual for v in known[n]) for usual in MATTER)
+    if len(known) == len(MATTER[0]) and not any(fits):
+        told = {n.lower(): high for n, (_, high) in known.items()}
+        call.warn("operators.models.no-units", given["RHO"][1], **told)
 
 
 def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:

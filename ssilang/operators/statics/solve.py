@@ -66,7 +66,8 @@ def _reso(
     options = _options(call, words)
     if words["warned"]:
         return _or_warning(call, matrix, loads, options)
-    warn_connections(call.session, call.span, "RESO", matrix)
+    laden = [part.nodes for load in loads for part in load.components.values()]
+    warn_connections(call.session, call.span, "RESO", matrix, laden=laden)
     known = np.concatenate([np.zeros(0, np.int64), *(r.multipliers for r in matrix.relations)])
     for load in loads:
         if count := imposed_outside(load, known):
