@@ -12,6 +12,7 @@ _MONTHS = (
     "janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août", "septembre",
     "octobre", "novembre", "décembre",
 )  # fmt: skip
+_WIDTH = 32  # of the words of DATE, blanks included
 
 
 def _clocks(session: Session) -> dict[str, tuple[float, float]]:
@@ -117,15 +118,15 @@ def date(
             return Mot(_MONTHS[now.month - 1])
         values = (now.year, now.month, now.day, now.hour, now.minute, now.second)
         return values[("ANNE", "MOIS", "JOUR", "HEUR", "MINU", "SECO").index(part)]
+    said = now.strftime("%d/%m/%Y - %H:%M:%S")
     if letters:
         said = f"{now.day} {_MONTHS[now.month - 1]} {now.year} - {now.hour:02d}H{now.minute:02d}min"
-        return Mot(said)
-    return Mot(now.strftime("%d/%m/%Y - %H:%M:%S"))
+    return Mot(said.ljust(_WIDTH))
 
 
 def converted(seconds: float) -> str:
-    """Seconds as days, hours, minutes and seconds."""
+    """Seconds as days, hours, minutes and seconds, as wide as a date."""
     minutes, rest = divmod(seconds, 60.0)
     hours, minutes = divmod(int(minutes), 60)
     days, hours = divmod(hours, 24)
-    return f"{days}J {hours:02d}H {minutes:02d}min {rest:6.3f}sec"
+    return f"{days:9d}J {hours:02d}H {minutes:02d}min {rest:6.3f}sec".ljust(_WIDTH)

@@ -12,7 +12,7 @@ from ssilang.kernel.mesh.changes.merge import merge_close
 from ssilang.kernel.mesh.changes.transform import NodeCopier, shift
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.interfaces import joints_inside
-from ssilang.kernel.mesh.generators.sweep import sweep_line, translation
+from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
 from ssilang.kernel.mesh.lines.curves import arc_about_axis, fillet
 from ssilang.kernel.mesh.lines.lines import frenet_frames, line_chain, mesh_curve, polyline
 from ssilang.kernel.mesh.lines.subdivision import subdivide
@@ -125,22 +125,27 @@ def test_straight_line_keeps_its_binormal_along_z() -> None:
         frenet_frames(union(straight, polyline(nodes, [0, 2], False)))
 
 
-def test_touching_parts_are_joined_once() -> None:
+@pytest.mark.parametrize("turned", [(), (0,), (1,), (0, 1)])
+@pytest.mark.parametrize("order", [1, -1])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_touching_parts_are_joined_once_and_open_as_they_part(
+    dimension: int, order: int, turned: tuple[int, ...]
+) -> None:
     nodes = NodeTable()
-    base = line(nodes, [0, 0], [1, 0], 3)
-    low = sheet(base, Y, 2)
-    high = NodeCopier(nodes, shift(Y)).mesh(low)
-    block = joints_inside(union(low, high), 1e-6).single_block()
-    assert (block.cell_type, len(block)) == ("RAC2", 3)
-    assert block.coordinates[:, :2] == pytest.approx(block.coordinates[:, 2:])
-    assert block.coordinates[..., 1] == pytest.approx(1.0)
+    base = line(nodes, np.zeros(dimension), X[:dimension], 3)
+    low, up = sheet(base, Y, 2), Y
+    if dimension == 3:
+        low, up = sweep_surface(low, translation(Z), subdivide(1.0, count=1)), Z
+    bodies = [low, NodeCopier(nodes, shift(up)).mesh(low)]
+    bodies = [reversed_line(b) if i in turned else b for i, b in enumerate(bodies)]
+    block = joints_inside(union(*bodies[::order]), 1e-6).single_block()
+    assert (block.cell_type, len(block)) == (("RAC2", 3) if dimension == 2 else ("LIA4", 6))
+    first, second = np.split(block.coordinates, 2, axis=1)
+    assert first == pytest.approx(second)
+    assert first @ up == pytest.approx(1.0)
+    x, y = first[:, 1] - first[:, 0], first[:, -1] - first[:, 0]
+    normal = np.cross(Z, x) if dimension == 2 else np.cross(x, y)
+    into_upper = np.isin(block.connectivity[:, 0], bodies[1].node_ids)
+    assert ((normal @ up > 0.0) == into_upper).all()
     with pytest.raises(MeshError, match="face each other"):
         joints_inside(low, 1e-6)
-
-
-def test_reversed_line_gives_opposite_tangents() -> None:
-    nodes = NodeTable()
-    one = line(nodes, [0, 0, 0], [1, 2, 0], 4)
-    _, there = frenet_frames(one)
-    _, back = frenet_frames(reversed_line(one))
-    assert back[:, 0] == pytest.approx(-there[:, 0])

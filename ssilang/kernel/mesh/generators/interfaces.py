@@ -13,7 +13,7 @@ from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import told_coordinates
-from ssilang.kernel.mesh.orientation import surface_normals
+from ssilang.kernel.mesh.orientation import orient, reversed_line, surface_normals
 
 _POINTS = 8  # looked at on a segment; 16 on a triangle
 _ALIGNED = 0.7  # cosine between the normals of cells that face each other
@@ -282,14 +282,15 @@ def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
     """Joint cells between the boundary cells of a mesh that face one another.
 
     For parts that touch without sharing nodes: each pair of coincident edges (2D) or faces (3D)
-    of different cells gives one joint.
+    of different cells gives one joint, whose normal points into the body of its first half.
 
     Raises
     ------
     MeshError
         If no two boundary cells face each other within the tolerance.
     """
-    skin = envelope(mesh) if mesh.dimension == 3 else contour(mesh)
+    body = orient(mesh, mesh.dimension)
+    skin = reversed_line(envelope(body)) if mesh.dimension == 3 else contour(body)
     made = []
     for block in skin.blocks:
         rows, partner = _facing_pairs(block, tolerance)
