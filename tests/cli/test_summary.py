@@ -21,7 +21,7 @@ from ssilang.operators.dynamics.reports import ENERGY_LIMIT
 SCRIPT = """
 X = PROG 1. 2. ;
 OPTI SORT 'a.csv' ; SORT 'EXCE' X ;
-SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
+SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'low' 2.7 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
 """
 
 
@@ -39,10 +39,11 @@ def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
     assert made["files"] == [{"path": "a.csv", "bytes": 8}]
     assert [(f["name"], f["value"], f["ok"]) for f in made["figures"]] == [
         ("sum", 3.0, True),
+        ("low", 2.7, False),
         ("count", 2.0, None),
     ]
     assert made["seconds"] > 0
-    assert made["statements"] == 5
+    assert made["statements"] == 6
 
 
 def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> None:
