@@ -18,7 +18,7 @@ print("begins")
 with warnings.catch_warnings(record=True) as told:
     warnings.simplefilter("always")
     table = ssilang.sweep(
-        "case.ssi", AG=[0.5, 0.9], N=2, records=["m1.csv", "m2.csv"], jobs=1
+        "case.ssi", AG=[0.5, 0.9], N=2, records=["m1.csv", "m2.csv"], jobs=2
     )
 print(table.to_json(orient="split"))
 print(told[0].filename == __file__, told[0].message)

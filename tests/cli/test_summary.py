@@ -21,7 +21,7 @@ from ssilang.operators.dynamics.reports import ENERGY_LIMIT
 SCRIPT = """
 X = PROG 1. 2. ;
 OPTI SORT 'a.csv' ; SORT 'EXCE' X ;
-SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
+SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'low' 2.7 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
 """
 
 
@@ -39,10 +39,11 @@ def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
     assert made["files"] == [{"path": "a.csv", "bytes": 8}]
     assert [(f["name"], f["value"], f["ok"]) for f in made["figures"]] == [
         ("sum", 3.0, True),
+        ("low", 2.7, False),
         ("count", 2.0, None),
     ]
     assert made["seconds"] > 0
-    assert made["statements"] == 5
+    assert made["statements"] == 6
 
 
 def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> None:
@@ -171,6 +172,11 @@ T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' P1) ET (BLOQ 'UX' P2) ET (RIGI 'DEPL' 1
 T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. 10.) P2) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. -1. 1.)) ;
 T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ;
 """
+SWAY = """OPTI DIME 2 MODE PLAN DEFO ; P2 = 0. 1. ; T = TABL ; LT = PROG 0. 'PAS' 1. 12. ;
+T . 'BLOCAGES_MECANIQUES' = (RELA 'MINI' 'UX' P2) ET (BLOQ 'UY' P2) ET (RIGI 'DEPL' 100. P2) ;
+T . 'CHARGEMENT' = CHAR 'MECA' (FORC (-15. 0.) P2) (EVOL 'MANU' LT ((COS (180. * LT)) - (1. / 3.))) ;
+T . 'TEMPS_CALCULES' = LT ; PASAPAS T ;
+"""
 
 
 def closing(tmp_path: Path, deck: str, language: str = "en") -> tuple[str, dict[str, Any]]:
@@ -219,13 +225,15 @@ def test_the_scheme_s_own_damping_is_named_beside_the_step(tmp_path: Path) -> No
     assert "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA)" in told
 
 
-def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("deck", "share"), [(PULL, 0.9), (SWAY, 0.5)])
+def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path, deck, share) -> None:
     """Pressed by 10 N onto 1000 N/m, then pulled to 0.1 m of 100 N/m in one step.
 
     At the end 0.5 J is stored; to -10 mm the work is 0.05 J, then along the straight line
-    0: the balance is open by 0.45 of 0.5 J.
+    0: the balance is open by 0.45 of 0.5 J. Six times from 10 N against a rigid stop to 20 N
+    away from it: 2 J are stored in 100 N/m, and 1 J is the work of 5 N along 0.2 m.
     """
-    told, made = closing(tmp_path, PULL)
+    told, made = closing(tmp_path, deck)
     assert told.splitlines()[-1].endswith("0 warnings")
-    assert made["statistics"]["calculations"][0]["energy_imbalance"] == pytest.approx(0.9)
+    assert made["statistics"]["calculations"][0]["energy_imbalance"] == pytest.approx(share)
     assert made["warnings"] == []

@@ -96,8 +96,12 @@ def test_a_mesh_and_its_named_parts_go_through_a_file(tmp_path: Path) -> None:
     assert root.find("Q") is None
     assert np.isin(root.find("L").sorted_node_ids, root.find("S").sorted_node_ids).all()
     assert np.array_equal(root.find("P").coordinates[:2], [2.0, 1.0])
-    wrong = run_text("OPTI LECT 'mesh' ; LIRE NONE ;", tmp_path)
-    assert "holds no mesh 'NONE'" in wrong.message
+    wrong = run_text("OPTI LECT 'mesh' ; LIRE MAILLAGE ;", tmp_path)
+    assert "holds no mesh 'MAILLAGE'" in wrong.message
+    ran(FIRST + "OPTI SORT 'mesh' ; SORT (S ELEM 'QUA4') 'NOOP' ;", tmp_path)
+    root = ran("OPTI DIME 2 ; OPTI LECT 'mesh' ; LIRE MAILLAGE ;", tmp_path).session.root
+    assert np.array_equal(root.find("P").coordinates[:2], [2.0, 1.0])
+    assert len(root.find("MAILLAGE").sorted_node_ids) == 15
 
 
 def test_a_deck_goes_on_from_the_output_of_the_deck_before(tmp_path: Path) -> None:

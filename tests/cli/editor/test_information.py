@@ -17,7 +17,7 @@ DECK = """OPTI DIME 2 ELEM SEG2 MODE PLAN DEFO ;
 DEBP ZHALF X*FLOTTANT ; SI (X > 1.) ; X = X / 2. ; FINSI ; REPE BX 2 ; Y = X +
   &BX ; FIN BX ; FINP Y ;
 L = DROI 3 (0. 0.) (1. 0.) ; M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
-A = MATE M 'YOUN' 1. 'SECT' 2. ; X = ZHALF 4. ; E = EVOL 'MANU' (PROG 0. 1.) (PROG 1. 2.) ;
+A = MATE M 'YOUN' 1. 'SECT' 2. ; X = ZHALF 4. ; E = EVOL 'MANUEL' 'LEGE' 'e' (PROG 0. 1.) (PROG 1. 2.) ;
 T1 = TABL ; T1 . 'PAS_SAUVES' = 2 ; T1 . 'RIGI' = RIGI M A ; T2 = DYNAMIC T1 ;
 G = L POIN 'PROC' (0. 0.) ; K = VIBR 'SIMU' 1. 3 ; DROI = 3 ;
 """
@@ -56,6 +56,7 @@ def reader(language):
         ("'BARR'", 1, ("**BARR : element of structures**", "**BARR : élément de structure")),
         ("'YOUN'", 1, ("**YOUN : parameter of MATE or CARA**\n\nYoung's modulus.",
                        "**YOUN : paramètre de MATE ou CARA**")),
+        ("'LEGE'", 1, ("**'LEGE'** : EVOLUTION", "**'LEGE'** : EVOLUTION")),
         ("'SIMU'", 1, ("**'SIMU'** : VIBRATION\n\n```text\n'SIMU'\n  frequency      FLOTTANT: ",
                        "**'SIMU'** : VIBRATION\n\n```text\n'SIMU'\n  frequency      FLOTTANT: fr")),
         ("'PAS_SAUVES'", 1,

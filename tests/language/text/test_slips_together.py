@@ -67,7 +67,7 @@ def test_slips_of_blocks_are_told_together(statements):
     ("slip", "code"),
     [("«SI VRAI» ; x = 1 ;", "unclosed-block"), ("«REPE b2 2» ; x = 1 ;", "unclosed-block"),
      ("«DEBP P x*ENTIER» ; y = x ;", "unclosed-block"),
-     ("MESS «'»open ; x = 1 ;", "unclosed-string"),
+     ("MESS «'»open ; x = 1 ;", "unclosed-string"), ("«'»open ; x = 1 ;", "unclosed-string"),
      ("«x = 1 +»", "missing-semicolon"), ("«x = PROG 1.»\n2.", "missing-semicolon"),
      ("x = «(»1 + 2", "unclosed-paren")],
 )  # fmt: skip
