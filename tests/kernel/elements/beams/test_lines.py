@@ -5,6 +5,7 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
+from ssilang.kernel.elements.beams.fibre_section import FibreSection
 from ssilang.kernel.elements.loads.loads import line_load
 from ssilang.kernel.elements.results.integrals import green_strain
 from ssilang.kernel.fields.cell_field import CellField
@@ -204,3 +205,18 @@ def test_strains_of_a_sheared_section_are_its_forces_over_its_rigidities():
     np.testing.assert_allclose(np.abs(strain["GXY"]), 1e3 / (G * A / 1.2), rtol=1e-9)
     curvature = np.abs(strain["CZ"][0])
     np.testing.assert_allclose(curvature, [1e3 * L / (E * IZ), 0.0], atol=1e-9 * curvature[0])
+
+
+def test_the_energy_of_a_section_is_that_of_its_fibres():
+    rng, n = np.random.default_rng(3), 7
+    (y, z), areas, (young, along_y, along_z) = (
+        rng.uniform(-1.0, 2.0, (2, n)), rng.uniform(1.0, 2.0, n), rng.uniform(1.0, 9.0, (3, n)),
+    )  # fmt: skip
+    moduli = np.column_stack([young, along_y, along_z])
+    section = FibreSection(np.column_stack([y, z]), areas, moduli, ())
+    for strain in rng.standard_normal((6, 6)):
+        pulled, sheared_y, sheared_z, twist, about_y, about_z = strain
+        stretch = pulled + z * about_y - y * about_z
+        slides = (sheared_y - z * twist, sheared_z + y * twist)
+        energy = areas @ (young * stretch**2 + along_y * slides[0] ** 2 + along_z * slides[1] ** 2)
+        assert strain @ section.rigidity @ strain == pytest.approx(energy, rel=1e-12)

@@ -1,10 +1,18 @@
 """Accelerations and reactions of the first instant against the conditions that define them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from references.assembled import Bench
 
-from ssilang.kernel.stepping.problem.initial import closed_at_start, with_contact
+from ssilang.kernel.contact.unilateral import ContactOptions
+from ssilang.kernel.stepping.problem.initial import (
+    closed_at_start,
+    initial_energies,
+    joint_state,
+    with_contact,
+)
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 COUNT, ROWS = 5, 4
@@ -44,3 +52,8 @@ def test_what_touches_is_pushed_apart_or_opens(seed):
     np.testing.assert_allclose(masses * a[at] - loads, signed.T @ pushing, atol=1e-9)
     still, none = with_contact(problem, problem.v, free, ~touching)
     assert (still is free, none.tolist()) == (True, [0.0] * ROWS)
+    u, v = rng.normal(size=(2, len(problem.u)))
+    pressed = replace(problem, u=u, contact_options=ContactOptions("PENALITE", 7.0))
+    found = initial_energies(pressed, v, joint_state(pressed))
+    stored = u[at] @ u[at] + 7.0 * (np.minimum(signed @ u[at], 0.0) ** 2).sum()
+    np.testing.assert_allclose(found, [0.5 * masses @ v[at] ** 2, 0.5 * stored, 0, 0, 0, 0])
