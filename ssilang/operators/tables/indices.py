@@ -46,9 +46,8 @@ def _named(
         raise call.error(
             "operators.tables.unknown-type", kind=kind, known_types=sorted(known_types())
         )
-    made, frame = Table(), call.session.frame
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    made = Table()
+    for name, value in call.session.frame.named().items():
         if type_of(value) == kind:
             made.set(Mot(name), value)
     return made

@@ -280,10 +280,8 @@ def described(value: Any, say: Teller, short: bool = False, numbers: Sequence[in
 
 
 def _all_names(session: Session, kind: str) -> str:
-    frame = session.frame
     rows = []
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    for name, value in session.frame.named().items():
         if not kind or type_of(value) == kind:
             rows.append(f"  {name:<24s} {type_of(value):<8s} {brief(value, session.told)}".rstrip())
     return "\n".join([session.told("operators.texts.named", count=len(rows), kind=kind), *rows])

@@ -197,9 +197,8 @@ def _named(call: Call, kind: str = Main("MOT", en="type word")) -> Table:
         raise call.error(
             "operators.texts.unknown-type-named", kind=kind, known_types=sorted(known_types())
         )
-    frame, found = call.session.frame, Table()
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    found = Table()
+    for value in call.session.frame.named().values():
         if type_of(value) == wanted:
             found.set(len(found) + 1, value)
     return found
