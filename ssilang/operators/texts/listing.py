@@ -9,12 +9,13 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language.text.tree import print_items
-from ssilang.language.values import ANNULE, Objet, Texte, known_types
+from ssilang.language.values import ANNULE, Objet, Texte
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.fortran_format import formatted
+from ssilang.operators.texts.words import type_word
 
 _ROWS = 200  # rows printed of a field or curve before the middle is left out
 
@@ -302,12 +303,7 @@ def _list_names(
     star: bool = Key("*", optional=False, en="all objects of a type"),
     kind: str = Name(en="type word"),
 ) -> None:
-    wanted = kind[:8]
-    if wanted not in known_types():
-        raise call.error(
-            "operators.texts.unknown-type", kind=wanted, known_types=sorted(known_types())
-        )
-    call.session.print(_all_names(call.session, wanted))
+    call.session.print(_all_names(call.session, type_word(call, kind)))
 
 
 @LIST.form()
