@@ -11,12 +11,18 @@ from script_runs import failed, ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
+from ssilang.kernel.elements.results.tensors import PRINCIPAL
+from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
+from ssilang.kernel.fields.node_algebra import SCALAR
+from ssilang.kernel.interface.bed import AT_PLACES, OF_WHOLE
+from ssilang.kernel.interface.interface import COMMON_VARIABLES
 from ssilang.kernel.interface.laws.law import DEFAULTS
 from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
+from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
 from ssilang.language.registry import find_operator
 from ssilang.language.say.reference import operator_page, page_text
@@ -34,6 +40,18 @@ _ROOT = Path(__file__).parents[2]
 
 load_operators()
 
+
+def components():
+    """Every component that an element or a law gives, with the duals of unknowns."""
+    names = {*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values(), HOOKE_COMPONENT, SCALAR, *PRINCIPAL}
+    names |= {*COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES}
+    for element in ELEMENTS:
+        for part in words.components_of(element):
+            names |= {*part.unknowns, *part.strains, *part.stresses}
+    laws = (*PLASTIC_LAWS.values(), *CREEP_LAWS.values(), *JOINT_LAWS.values())
+    return names.union(*(law.variables for law in laws))
+
+
 _ALL = [(kind, word) for kind in vocabulary.KINDS for word in vocabulary.words(kind)]
 _CHOICES = ("GAUSS", "LOBATTO", "INTEGRE", "CONS", "DPGE", "LIBRE", "LIE")
 _KNOWN = {
@@ -45,7 +63,7 @@ _KNOWN = {
     ),
     "element": (*ELEMENTS, *GENERIC_ELEMENTS),
     "parameter": words.known_parameters(),
-    "component": words.known_components(),
+    "component": components(),
     "option": tuple(READERS),
     "structure": (
         "SI", "SINON", "FINSI", "REPETER", "DEBPROC", "FINPROC", "DEBMETH", "FINMETH", "TEXTE",

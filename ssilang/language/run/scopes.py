@@ -82,3 +82,7 @@ class Frame:
             found = {**frame.variables, **found}
             frame = frame.caller
         return {name for name, value in found.items() if type(value) not in _UNREADABLE}
+
+    def named(self) -> dict[str, Any]:
+        """What visible names stand for, in their order."""
+        return {name: self.find(name) for name in sorted(self.names())}

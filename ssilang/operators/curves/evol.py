@@ -301,8 +301,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:
     """What a legend calls nodes: the script's names of the points, else their numbers."""
-    frame = call.session.frame
-    named = ((name, frame.find(name)) for name in sorted(frame.names(), reverse=True))
+    named = reversed(call.session.frame.named().items())
     points = {p.node: name for name, p in named if isinstance(p, Point)}
     found = {node: points.get(node, str(node + 1)) for node in nodes_named(support.value)}
     if isinstance(support.value, Point) and support.name:

@@ -286,8 +286,7 @@ def _labels(session: Session, meshes: list[Mesh]) -> tuple[tuple[str, Mesh], ...
     """Names of the script's points and meshes that lie in what is drawn."""
     drawn = np.unique(np.concatenate([m.sorted_node_ids for m in meshes] or [np.empty(0, int)]))
     found = []
-    for name in sorted(session.frame.names()):
-        value = session.frame.find(name)
+    for name, value in session.frame.named().items():
         if isinstance(value, Point):
             value = poi1(value.nodes, np.array([value.node]))
         if not isinstance(value, Mesh) or not value.n_cells:

@@ -163,9 +163,8 @@ _OTHER_WORDS = {".bdf": "NAS", ".nas": "NAS", ".stl": "STL", ".vtu": "VTK", ".vt
 def _parts_of(call: Call, given: Any) -> tuple[list[Mesh], dict[str, Any]]:
     """The whole, where there is one, and the named parts."""
     if isinstance(given, Mesh):
-        frame = call.session.frame
-        found = {name: frame.find(name) for name in sorted(frame.names())}
-        return [given], {n: v for n, v in found.items() if _lies_on(v, given)}
+        found = call.session.frame.named().items()
+        return [given], {n: v for n, v in found if _lies_on(v, given)}
     entries = {str(i).strip(): v for i, v in given.items() if isinstance(i, str)}
     whole = [v for n in ("MAILLAGE", "TOTAL") if isinstance(v := entries.get(n), Mesh)]
     skipped = ("MAILLAGE", "TOTAL", "NOEUDS")

@@ -121,8 +121,7 @@ def _sort_mesh(
     frame = call.session.frame
     encoder = Encoder()
     names = {}
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    for name, value in frame.named().items():
         if value is mesh or _is_part(value, mesh):
             names[name] = encoder.encode(value)
     if not any(frame.find(name) is mesh for name in names):

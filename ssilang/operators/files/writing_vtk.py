@@ -223,10 +223,9 @@ def cell_labels(session: Session, parts: Mapping[str, Mesh]) -> dict[str, Labels
 
 def _named(session: Session) -> Iterator[tuple[str, Any]]:
     """Objects by their names, then those of tables by theirs."""
-    frame = session.frame
-    found = [(name, frame.find(name)) for name in sorted(frame.names())]
-    yield from found
-    for _, value in found:
+    found = session.frame.named()
+    yield from found.items()
+    for value in found.values():
         # those that are made as they are asked for hold none, nor do those of other entries
         if type(value) is Table and all(isinstance(v, _PARTS) for _, v in value.items()):
             for index, held in value.items():

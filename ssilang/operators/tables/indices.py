@@ -6,10 +6,10 @@ from typing import Any
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
-from ssilang.language.values import known_types
 from ssilang.operators.dispatch import COPI, DIME, ENLE, unite_all
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.prelude import *
+from ssilang.operators.texts.words import type_word
 
 TABL = shared("TABL", "tables", full_name="TABLE")
 
@@ -41,14 +41,8 @@ def _named(
     star: bool = Flag("*", en="stands before a type word"),
     said: str = Arg("MOT", en="type word"),
 ) -> Table:
-    kind = str(said).strip().lstrip("*").upper()[:8]
-    if kind not in known_types():
-        raise call.error(
-            "operators.tables.unknown-type", kind=kind, known_types=sorted(known_types())
-        )
-    made, frame = Table(), call.session.frame
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    kind, made = type_word(call, said), Table()
+    for name, value in call.session.frame.named().items():
         if type_of(value) == kind:
             made.set(Mot(name), value)
     return made

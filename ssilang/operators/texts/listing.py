@@ -9,12 +9,13 @@ import numpy as np
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language.text.tree import print_items
-from ssilang.language.values import ANNULE, Objet, Texte, known_types
+from ssilang.language.values import ANNULE, Objet, Texte
 from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.fortran_format import formatted
+from ssilang.operators.texts.words import type_word
 
 _ROWS = 200  # rows printed of a field or curve before the middle is left out
 
@@ -280,10 +281,8 @@ def described(value: Any, say: Teller, short: bool = False, numbers: Sequence[in
 
 
 def _all_names(session: Session, kind: str) -> str:
-    frame = session.frame
     rows = []
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    for name, value in session.frame.named().items():
         if not kind or type_of(value) == kind:
             rows.append(f"  {name:<24s} {type_of(value):<8s} {brief(value, session.told)}".rstrip())
     return "\n".join([session.told("operators.texts.named", count=len(rows), kind=kind), *rows])
@@ -304,12 +303,7 @@ def _list_names(
     star: bool = Key("*", optional=False, en="all objects of a type"),
     kind: str = Name(en="type word"),
 ) -> None:
-    wanted = kind[:8]
-    if wanted not in known_types():
-        raise call.error(
-            "operators.texts.unknown-type", kind=wanted, known_types=sorted(known_types())
-        )
-    call.session.print(_all_names(call.session, wanted))
+    call.session.print(_all_names(call.session, type_word(call, kind)))
 
 
 @LIST.form()

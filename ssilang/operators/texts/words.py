@@ -190,16 +190,19 @@ def _letter(call: Call, word: str, i: int) -> str:
     return word[i - 1]
 
 
+def type_word(call: Call, said: str) -> str:
+    """The type that a word names by its first eight letters; a star may stand before it."""
+    kind = said.strip().lstrip("*").upper()[:8]
+    if kind not in known_types():
+        known = sorted(known_types())
+        raise call.error("operators.texts.unknown-type", kind=kind, known_types=known)
+    return kind
+
+
 @EXTR.form()
 def _named(call: Call, kind: str = Main("MOT", en="type word")) -> Table:
-    wanted = kind.strip().lstrip("*").upper()
-    if wanted not in known_types():
-        raise call.error(
-            "operators.texts.unknown-type-named", kind=kind, known_types=sorted(known_types())
-        )
-    frame, found = call.session.frame, Table()
-    for name in sorted(frame.names()):
-        value = frame.find(name)
+    wanted, found = type_word(call, kind), Table()
+    for value in call.session.frame.named().values():
         if type_of(value) == wanted:
             found.set(len(found) + 1, value)
     return found

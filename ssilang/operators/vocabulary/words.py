@@ -33,7 +33,6 @@ from ssilang.kernel.materials.behaviours import (
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
-from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
@@ -222,27 +221,6 @@ def _components(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str
     except FieldError:  # sections of beams have strains and no unknowns
         unknowns = ()
     return unknowns, family.strain_names(zone), family.stress_names(zone)
-
-
-@cache
-def known_components() -> tuple[str, ...]:
-    """Every component that an element or a law gives, with the duals of unknowns."""
-    from ssilang.kernel.elements.results.tensors import PRINCIPAL
-    from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
-    from ssilang.kernel.fields.node_algebra import SCALAR
-    from ssilang.kernel.interface.bed import AT_PLACES, OF_WHOLE
-    from ssilang.kernel.interface.interface import COMMON_VARIABLES
-
-    names = [*PRIMAL_TO_DUAL, *PRIMAL_TO_DUAL.values()]
-    names += [HOOKE_COMPONENT, SCALAR, *PRINCIPAL, *COMMON_VARIABLES, *OF_WHOLE, *AT_PLACES]
-    for element in ELEMENTS:
-        for part in components_of(element):
-            names += [*part.unknowns, *part.strains, *part.stresses]
-    for law in (*PLASTIC_LAWS.values(), *CREEP_LAWS.values()):
-        names += [*law.variables]
-    for joint in JOINT_LAWS.values():
-        names += [*joint.variables]
-    return tuple(dict.fromkeys(names))
 
 
 def elements_with(component: str) -> list[str]:

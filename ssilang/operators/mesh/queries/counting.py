@@ -107,8 +107,7 @@ def refe(
 @refe.form()
 def names_within(session: Session, mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> ListMots:
     """Names of the meshes within a mesh."""
-    frame = session.frame
-    values = ((name, frame.find(name)) for name in sorted(frame.names()))
+    values = session.frame.named().items()
     return ListMots(
         [n for n, v in values if isinstance(v, Mesh) and v is not mesh and _inside(v, mesh)]
     )
