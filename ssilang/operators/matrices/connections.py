@@ -28,8 +28,9 @@ def warn_connections(
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
     swapped, beams that end on one node of a solid, bodies that touch and are not joined, cells
-    that count twice, springs on nodes of no body but those `laden` with masses or loads. Joints are those of `model`, whose law stands beside the matrix, without it
-    those that the matrix was made from.
+    that count twice, springs on nodes of no body but those `laden` with masses or loads. Joints are
+    those of `model`, whose law stands beside the matrix, without it those that the matrix was made
+    from.
     """
     if _KEY in matrix.cache:
         return
