@@ -452,13 +452,20 @@ MAY_BE_EMPTY = frozenset(
 _HOLDERS = ("blocks", "relations", "components", "zones", "parts", "categories", "tags")
 
 
+_PI_BY_HAND = {round(part * np.pi, digits) for part in (0.5, 1, 2) for digits in range(2, 7)}
+
+
 def like_radians(value: Any) -> float:
     """The largest of numbers in degrees that are all multiples of pi/1000, 0 if they are not.
+
+    Of a number alone, half of pi, pi and twice pi count as one writes them too: 1.57, 3.1416.
 
     Degrees are never such numbers by chance: they were meant in radians.
     """
     if not isinstance(value, float | ListReel):
         return 0.0
+    if isinstance(value, float) and abs(value) in _PI_BY_HAND:
+        return abs(value)
     numbers = value.values if isinstance(value, ListReel) else np.array([value])
     turns = np.abs(numbers) * (1000.0 / np.pi)
     whole = turns.size and np.all(np.abs(turns - np.round(turns)) < 1e-7)

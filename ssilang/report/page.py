@@ -280,10 +280,8 @@ def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
         "curves": told("report.curves"),
         "tables": told("report.tables"),
     }
-    made = []
-    for group, title in titles.items():
-        made.append(section(group, title, charts_html(charts, group, told)))
-    return made
+    shown = {group: charts_html(charts, group, told) for group in titles}
+    return [section(group, title, shown[group]) for group, title in titles.items()]
 
 
 def _largest(results: Results, told: Teller) -> str:

@@ -56,14 +56,6 @@ FILES = {
         {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "CM/S2")},
         "operators.files.record-other-factor",
     ),
-    "cm/s2 read as m/s2, without a unit": (
-        "E = LIRE 'SIGNAL' 'a.csv' 1. ;", {"a.csv": "t;a\n0;0\n0.01;99\n0.02;-300\n"},
-        "operators.files.record-strong",
-    ),
-    "g read as cm/s2": (
-        "E = LIRE 'SIGNAL' 'a.csv' 0.01 ;", {"a.csv": "t;a\n0;0\n0.01;0.1\n0.02;-0.3\n"},
-        "operators.files.record-weak",
-    ),
     "velocities in a spectrum": (
         RECORD + "S = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",
         {"a.txt": PEER.format("VELOCITY", 6)}, "operators.curves.no-accelerations",
@@ -149,10 +141,6 @@ SENSIBLE_FILES = {
         {"m.stl": STL.format(0), "n.stl": STL.replace("0 1", "0 2", 1).format(1)},
     ),
     "a record": (RECORD + "T = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ; D V = INSI E ;", READ),
-    "a record in mm/s2": (
-        "OPTI 'UNIT' 'N-MM' ; E = LIRE 'SIGNAL' 'a.csv' 9810. ;",
-        {"a.csv": "t;a\n0;0\n0.01;0.1\n0.02;-0.3\n"},
-    ),
     "what is called velocities and is not": (
         RECORD + "A = EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' (EXTR E 'ORDO') ; "
         "S = SPO A 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",

@@ -63,17 +63,6 @@ def find_problems(
     return Findings(tuple(_problems(found, names, source, language)), types)
 
 
-_last: list[tuple[str, SoundStatements]] = []
-"""The script that this process looked at last, where it looks for the language server."""
-
-
-def find_again(name: str, source: Source, language: str) -> Findings:
-    """As `find_problems`, in a script that this process may have looked at before it was changed."""
-    if not _last or _last[0][0] != name:
-        _last[:] = [(name, SoundStatements())]
-    return find_problems(source, language, sound=_last[0][1])
-
-
 def _problems(
     errors: list[SsiError], names: set[str], source: Source, language: str
 ) -> Iterator[Problem]:

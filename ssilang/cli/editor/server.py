@@ -2,8 +2,7 @@
 
 Protocol: https://microsoft.github.io/language-server-protocol. The text is cut anew at each change
 (some milliseconds for a thousand lines); problems are looked for when no key has come for a moment,
-of one text at a time, in a process of its own, where statements that stay as they are are not read
-again.
+of one text at a time, and statements that stay as they are are not read again.
 """
 
 from __future__ import annotations
@@ -13,8 +12,7 @@ import contextlib
 import gc
 import os
 from collections.abc import Iterable
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -28,12 +26,12 @@ from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import PositionCodec
 
 from ssilang import __version__
+from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.editor import complete, information, outline
 from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.formatting import formatted
 from ssilang.cli.editor.names import Occurrence
-from ssilang.cli.editor.problems import Findings, Fix, Problem, find_again, find_problems
-from ssilang.cli.sweeping.pool import FreshContext, end_with_parent
+from ssilang.cli.editor.problems import Findings, Fix, Problem, find_problems
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import Library
 from ssilang.language.say.errors import SeveralErrors, SsiError
@@ -77,6 +75,7 @@ class Open:
     document: Document
     version: int | None
     findings: Findings = _NOTHING
+    sound: SoundStatements = field(default_factory=SoundStatements)
     waiting: asyncio.Task[None] | None = None
     shown: list[lsp.Diagnostic] = field(default_factory=list)
 
@@ -105,7 +104,6 @@ class Server(LanguageServer):
         self.library = Library(Path())
         self.open: dict[str, Open] = {}
         self.looker = ThreadPoolExecutor(1)
-        self.checker = ProcessPoolExecutor(1, FreshContext(), end_with_parent)
 
     def document(self, uri: str) -> Document:
         """The text as it is now, cut."""
@@ -177,11 +175,7 @@ class Server(LanguageServer):
         held = self.open.get(uri)
         if held is None or held.document.source is not source:
             return None
-        try:
-            return self.checker.submit(find_again, uri, source, self.language).result()
-        except BrokenProcessPool:  # it was killed: the next text gets another one
-            self.checker = ProcessPoolExecutor(1, FreshContext(), end_with_parent)
-            return find_problems(source, self.language)
+        return find_problems(source, self.language, sound=held.sound)
 
     def publish(
         self, uri: str, diagnostics: list[lsp.Diagnostic], version: int | None = None

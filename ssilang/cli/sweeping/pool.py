@@ -27,7 +27,7 @@ def one_thread() -> None:
         os.environ.setdefault(name, "1")
 
 
-def end_with_parent() -> None:
+def _end_with_parent() -> None:
     """Let this process end when the one that gives it work is no more."""
     parent = parent_process()
     if parent is None:
@@ -111,7 +111,7 @@ def run_here(
     with elsewhere():  # the pool's own queues would start what counts them
         pass
     while waiting:
-        with ProcessPoolExecutor(jobs, context, end_with_parent) as pool:
+        with ProcessPoolExecutor(jobs, context, _end_with_parent) as pool:
             futures = {pool.submit(row_anyhow, task, work): task for task in waiting}
             broken: list[Task] = []
             try:

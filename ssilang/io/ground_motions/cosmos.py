@@ -56,10 +56,8 @@ def read_cosmos(path: Path) -> list[GroundMotion]:
     if version.lstrip("0") != "1.20":
         raise InputError("io.cosmos-other-version", name=path.name, version=version)
     begins = [i for i, line in enumerate(lines) if _VERSION.search(line)]
-    found: list[GroundMotion] = []
-    for begin, end in zip(begins, [*begins[1:], len(lines)], strict=True):
-        found.append(_record(path, lines, begin, end))
-    return found
+    ends = [*begins[1:], len(lines)]
+    return [_record(path, lines, *part) for part in zip(begins, ends, strict=True)]
 
 
 def _record(path: Path, lines: list[str], begin: int, end: int) -> GroundMotion:

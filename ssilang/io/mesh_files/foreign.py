@@ -196,9 +196,7 @@ def _gathered(read: Any, kind: str, remarks: tuple[str, ...]) -> FileMesh:
         raise ValueError("points")
     tables: dict[str, list[IntArray]] = {}
     left_out: dict[str, int] = dict(read.info) if isinstance(read.info, dict) else {}
-    blocks = []
-    for block in read.cells:
-        blocks.append(_taken(block, tables, left_out))
+    blocks = [_taken(block, tables, left_out) for block in read.cells]
     cells = {cell_type: np.concatenate(parts) for cell_type, parts in tables.items()}
     if kind == "GMSH":
         cells, blocks = _once(cells, blocks)

@@ -96,10 +96,8 @@ def _curve(
             )  # fmt: skip
         elif nameless:
             call.warn("operators.files.record-without-unit", file=file, kind=kind)
-    system = workspace(call.session).units
-    by_si = factor if system is None or system.length == 1.0 else None
     for record in records:
-        for code, value, most in _odd(record, by_si):
+        for code, value, most in _odd(record, factor):
             call.warn(code, file=file, value=value, most=most)
         if record.left_out:
             call.warn(
@@ -110,9 +108,8 @@ def _curve(
     return Curve(parts, records[0].event[:72])
 
 
-_SLOW, _GAP, _STRONG, _WEAK = 0.2, 10.0, 50.0, 0.01
-"""Longest step of a record (s), longest over the median step, largest acceleration (m/s2), and
-what nobody feels."""
+_SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
+"""Longest step of a record (s), longest over the median step, largest acceleration (m/s2)."""
 _ROUNDED = 2e-3  # g is 9.80665, 9.81 or 9.8
 _FACTORS = (9.81, 0.01, 0.001)
 """What makes m/s2 of other units; a factor of 1 leaves a record as it is."""
@@ -120,19 +117,14 @@ _FACTORS = (9.81, 0.01, 0.001)
 
 def _odd(record: GroundMotion, factor: float | None) -> Iterator[tuple[str, float, float]]:
     """What no ground motion shows: codes with a value and the most, or least, that is usual."""
-    by = record.in_si if record.has_unit or factor is None else factor
-    steps, peak = np.diff(record.times), by * float(np.abs(record.values).max())
+    steps, peak = np.diff(record.times), record.in_si * float(np.abs(record.values).max())
     usual, longest = (float(np.median(steps)), float(steps.max())) if steps.size else (0.0, 0.0)
     if usual > _SLOW:
         yield "operators.files.record-slow", usual, _SLOW
     elif longest > _GAP * usual:
         yield "operators.files.record-gap", longest, usual
-    if record.quantity != "ACCE" or (factor is None and not record.has_unit):
-        return
-    if peak > _STRONG:
+    if record.has_unit and record.quantity == "ACCE" and peak > _STRONG:
         yield "operators.files.record-strong", peak, _STRONG
-    elif 0.0 < peak < _WEAK and not record.has_unit:
-        yield "operators.files.record-weak", peak, _WEAK
     near = [f for f in _FACTORS if factor is not None and abs(factor / f - 1.0) < _ROUNDED]
     if near and record.has_unit and abs(near[0] / record.in_si - 1.0) > _ROUNDED:
         yield "operators.files.record-other-factor", near[0], record.in_si

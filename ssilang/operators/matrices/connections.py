@@ -28,8 +28,9 @@ def warn_connections(
 
     Held nodes without stiffness on nodes of the body (lines made twice), joints whose sides are
     swapped, beams that end on one node of a solid, bodies that touch and are not joined, cells
-    that count twice, springs on nodes of no body but those `laden` with masses or loads. Joints are those of `model`, whose law stands beside the matrix, without it
-    those that the matrix was made from.
+    that count twice, springs on nodes of no body but those `laden` with masses or loads. Joints are
+    those of `model`, whose law stands beside the matrix, without it those that the matrix was made
+    from.
     """
     if _KEY in matrix.cache:
         return
@@ -42,7 +43,6 @@ def warn_connections(
         tell("operators.matrices.mass-for-stiffness")
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
-    _warn_springs_apart(tell, matrix, model, laden)
     _warn_doubled_supports(tell, matrix, model, {n for w in foreign for n in w.data["names"]})
     made = _joints_in(matrix)
     if model is None and made:
@@ -51,6 +51,7 @@ def warn_connections(
     _warn_hinges(tell, matrix, model)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         _warn_apart(tell, matrix, model)
+        _warn_springs_apart(tell, matrix, model, laden)
     warn_repeated(session, span, operator, matrix, "RIGI")
     if model is None or not any(is_joint(z) for z in model.zones):
         _warn_negative(tell, matrix)
@@ -142,10 +143,6 @@ def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
     found = hinges(matrix, joints)
     if found is None:
         return
-    tell(
-        "operators.matrices.beam-ends-on-solid",
-        rotations=found.rotations,
-        nodes=[matrix.table.told(int(n)) for n in found.nodes[:_NAMED]],
-        more=len(found.nodes[_NAMED:]),
-        shell=found.shell,
-    )
+    nodes = [matrix.table.told(int(n)) for n in found.nodes]
+    told = {"nodes": nodes[:_NAMED], "more": len(nodes[_NAMED:]), "shell": found.shell}
+    tell("operators.matrices.beam-ends-on-solid", rotations=found.rotations, **told)

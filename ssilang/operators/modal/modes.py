@@ -70,8 +70,7 @@ def _modes(
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
-    laden = [b.nodes.ravel() for b in mass.blocks]
-    warn_connections(call.session, call.span, "VIBR", stiffness, laden=laden)
+    warn_connections(call.session, call.span, "VIBR", stiffness)
     warn_repeated(call.session, call.span, "VIBR", mass, "MASS")
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)

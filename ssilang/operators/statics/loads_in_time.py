@@ -70,14 +70,9 @@ def _check_numbers(call: Call, curve: Curve) -> None:
     values = np.asarray(part.ordinates, dtype=float)
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
-        first = int(wrong[0])
-        raise call.error(
-            "operators.statics.curve-holds-no-number",
-            curve,
-            value=values[first],
-            abscissa=part.abscissas[first],
-            more=len(wrong) - 1,
-        )
+        told = {"value": values[wrong[0]], "abscissa": part.abscissas[wrong[0]]}
+        more = len(wrong) - 1
+        raise call.error("operators.statics.curve-holds-no-number", curve, more=more, **told)
 
 
 @char.form(
@@ -136,12 +131,8 @@ def char_in_lists(
     """A field at each of listed times."""
     _refuse_moving(call, moves or path)
     if len(times) != len(objects) or not len(times):
-        raise call.error(
-            "operators.statics.times-and-objects-differ",
-            objects,
-            n_times=len(times),
-            n_objects=len(objects),
-        )
+        told = {"n_times": len(times), "n_objects": len(objects)}
+        raise call.error("operators.statics.times-and-objects-differ", objects, **told)
     check_increasing(times.values)
     for held in objects.values:
         if type_of(held) not in _HELD:

@@ -75,10 +75,9 @@ def check(p: PointParameters) -> None:
         Naming what must hold.
     """
     if (p["FAMX"] >= 0).any():
-        raise MaterialError(
-            "kernel.materials.soft-crack-closing",
-            value=p["FAMX"].max(),
-        ).about("FAMX")
+        raise MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max()).about(
+            "FAMX"
+        )
     if ((p["ZETA"] > 0) & (p["ALF1"] * p["OME1"] > 0)).any():
         raise MaterialError("kernel.materials.slope-and-confinement").about("ZETA")
     hoops = p["ALF1"] * p["OME1"]
