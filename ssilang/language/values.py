@@ -469,7 +469,7 @@ def like_radians(value: Any) -> float:
     numbers = value.values if isinstance(value, ListReel) else np.array([value])
     turns = np.abs(numbers) * (1000.0 / np.pi)
     whole = turns.size and np.all(np.abs(turns - np.round(turns)) < 1e-7)
-    return float(turns.max()) * np.pi / 1000.0 if whole and turns.max() < 1e6 else 0.0
+    return float(turns.max()) * np.pi / 1000.0 if whole and 0.5 < turns.max() < 1e6 else 0.0
 
 
 def is_of_noughts(value: Any) -> bool:
