@@ -20,6 +20,7 @@ T . 'BLOCAGES_MECANIQUES' = BLOQ 'UY' P0 ;
 T . 'N_HARMONIQUE' = NH ;
 T . 'RESULTATS' = TABL ; R = TABL ; T . 'RESULTATS' . 1 = R ;
 R . 'POINT_MESURE' = P1 ; R . 'COMPOSANTES' = MOT 'UY' ; R . 'TITRE' = MOT 'U' ;
+R = TABL ; T . 'RESULTATS' . 2 = R ; R . 'POINT_MESURE' = P1 ; R . 'COMPOSANTES' = MOT 'UY' ;
 HBM T ;
 F1 = MANU 'CHPO' P1 1 'F2' {LOAD} 'NATURE' 'DISCRET' ;
 T . 'CHARGEMENT' = CHAR 'MECA' F1 (EVOL 'MANU' (PROG 0. 20.) (PROG 1. 1.)) ;
@@ -50,7 +51,8 @@ def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(found):
     assert w[-1] > 2.4
     turns = np.flatnonzero(np.diff(np.sign(np.diff(w))))
     assert len(turns) == 2  # two limit points
-    largest = T.get("RESULTATS").get("RESULTATS_EVOL").parts[0]
+    largest, again = T.get("RESULTATS").get("RESULTATS_EVOL").parts
+    assert (largest.legend, again.legend) == ("U", "UY")
     np.testing.assert_allclose(largest.abscissas, w)
     np.testing.assert_allclose(largest.ordinates, A, rtol=2e-3)  # 128 instants of a period
     motion = T.get("RESULTATS").get(1).get("RESULTATS_TEMPORELS")

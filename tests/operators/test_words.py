@@ -24,7 +24,7 @@ from ssilang.operators.texts.fortran_format import formatted
         ("(F3.1)", 123.4, "***"),
         ("(1PE12.5)", 1e-100, " 1.00000-100"),
         ("(1PE12.5)", 0.0, " 0.00000E+00"),
-        ("(2X,F4.1)", 1.25, "   1.2"),
+        ("(2X,'x,', F4.1)", 1.25, "  x, 1.2"),
         ("(F4.2)", float("nan"), " NaN"),
     ],
 )

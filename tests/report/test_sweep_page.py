@@ -83,6 +83,7 @@ def test_runs_with_other_columns_are_counted_and_large_tables_named(tmp_path, mo
 def test_the_page_has_the_runs_their_links_and_the_figures(made):
     page = (made / "report.html").read_text()
     assert "2 runs failed" in page
+    assert re.findall(r"<li><b>([^<]*)</b>", page)[:3] == ["6", "1 … 4", "2"]
     assert "too &lt;b&gt;strong&lt;/b&gt;" in page
     links = re.findall(r'<a href="(runs/[^"]+)">', page)
     assert len(links) == 6

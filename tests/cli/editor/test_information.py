@@ -17,7 +17,7 @@ DECK = """OPTI DIME 2 ELEM SEG2 MODE PLAN DEFO ;
 DEBP ZHALF X*FLOTTANT ; SI (X > 1.) ; X = X / 2. ; FINSI ; REPE BX 2 ; Y = X +
   &BX ; FIN BX ; FINP Y ;
 L = DROI 3 (0. 0.) (1. 0.) ; M = MODE L 'MECANIQUE' 'ELASTIQUE' 'BARR' ;
-A = MATE M 'YOUN' 1. 'SECT' 2. ; X = ZHALF 4. ; E = EVOL 'MANUEL' 'LEGE' 'e' (PROG 0. 1.) (PROG 1. 2.) ;
+A = MATE M 'YOUN' 1. 'SECT' 2. ; X = ZHALF 4. ; E = EVOL 'MANUEL' 'LEGE' 'e' (PROG 0.) (PROG 1.) ;
 T1 = TABL ; T1 . 'PAS_SAUVES' = 2 ; T1 . 'RIGI' = RIGI M A ; T2 = DYNAMIC T1 ;
 G = L POIN 'PROC' (0. 0.) ; K = VIBR 'SIMU' 1. 3 ; DROI = 3 ;
 """
