@@ -94,6 +94,14 @@ SHORTER = {
         ("COMPARE = VRAI ; IMAGES = VRAI", "COMPARE = FAUX ; IMAGES = FAUX"),
         ("DUREE = 5.", "DUREE = 1.2"),
     ],
+    "seismic/isolated_block.ssi": [("DUREE = 16.", "DUREE = 8.")],
+    "seismic/oblique_waves.ssi": [
+        ("DUREE = 1.4", "DUREE = 0.9"),
+        (
+            "(DT0 / 8.) DUREE ; TQUA . 'PAS_SAUVES' = 8",
+            "(DT0 / 4.) DUREE ; TQUA . 'PAS_SAUVES' = 4",
+        ),
+    ],
     "seismic/matched_layer.ssi": [("DUREE = 2.4 ; DCOM = 1.6", "DUREE = 1.6 ; DCOM = 1.2")],
     "seismic/record_to_verdict.ssi": [("1.25E-3 (MAXI LT0)", "1.25E-3 3.")],
     "seismic/tower_quake.ssi": [
