@@ -112,6 +112,10 @@ SHORTER = {
 }
 
 
+# as long as it takes to see what a deck checks; `cases/make_pictures.py` runs it whole at a release
+SMALLER = {"seismic/reactor.ssi": [("DUREE = 5.", "DUREE = 2.")]}
+
+
 def name_of(deck: Path) -> str:
     return str(deck.relative_to(CASES))
 
@@ -119,7 +123,8 @@ def name_of(deck: Path) -> str:
 @pytest.mark.long
 @pytest.mark.parametrize("deck", DECKS, ids=name_of)
 def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck: Path, tmp_path: Path):
-    result = run_deck(deck, tmp_path)
+    smaller = SMALLER.get(name_of(deck))
+    result = run_changed(deck, tmp_path, *smaller) if smaller else run_deck(deck, tmp_path)
     assert result.exit_code == 0, result.message
     assert "checks within tolerance" in result.output
     compare = COMPARISONS.get(name_of(deck))
