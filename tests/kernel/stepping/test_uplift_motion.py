@@ -6,7 +6,7 @@ from references.assembled import Bench
 from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
 from references.recorder import Recorder
 
-from ssilang.kernel.stepping.newmark import Scheme
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 
@@ -54,7 +54,31 @@ def test_bilinear_oscillator_is_of_second_order():
     assert (np.abs(orders - 2.0) < 0.1).all()
 
 
+def test_bilinear_oscillator_keeps_its_energy():
+    problem, _ = club_b(2.5e-4)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < 1e-4 * ClubB().energy
+
+
+@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.9)])
+def test_damped_schemes_are_of_second_order(scheme):
+    errors = [club_b_error(dt, scheme) for dt in (5e-4, 2.5e-4)]
+    assert 1.7 < np.log2(errors[0] / errors[1]) < 2.3
+
+
+@pytest.mark.parametrize("scheme", [hht(0.3), generalised_alpha(0.0)])
+def test_damped_schemes_lose_energy(scheme):
+    _, history = run(club_b(1e-3, scheme=scheme)[0])
+    total = history.energies[:, :4].sum(axis=1)
+    assert total[-1] < 0.9999 * total[0]
+
+
 CONSERVING = Scheme(conserving=True)
+
+
+def test_conserving_step_is_of_second_order():
+    errors = [club_b_error(dt, CONSERVING) for dt in (5e-4, 2.5e-4)]
+    assert 1.8 < np.log2(errors[0] / errors[1]) < 2.2
 
 
 @pytest.mark.parametrize("dt", [1e-2, 3e-3, 1e-3])
@@ -63,6 +87,16 @@ def test_conserving_step_keeps_energy_at_any_step_and_stiffness(dt, stiffness):
     problem, _ = club_b(dt, scheme=CONSERVING, KN=stiffness * SOIL_STIFFNESS)
     _, history = run(problem)
     assert np.abs(history.imbalance).max() < 1e-10 * ClubB().energy
+
+
+def test_conserving_step_balances_softening_and_friction():
+    problem, _ = club_b(
+        1e-3, 1.0, CONSERVING, KS=5e6, FU=2e4, GF=100.0, FC=-1e4, FROT=0.3, KN=SOIL_STIFFNESS
+    )
+    problem.v[:] = 0.1
+    _recorder, history = run(problem)
+    assert history.energies[-1, 3] > 1.0
+    assert np.abs(history.imbalance).max() < 1e-10 * history.energies[0].sum()
 
 
 def test_conserving_step_is_average_acceleration_without_opening():
