@@ -55,6 +55,18 @@ def tied(numbering: Numbering, relations: sp.csr_array, *matrices: sp.csr_array)
     return parts_of(numbering.size, of_nodes, chains(relations), *map(entries, matrices))
 
 
+def without_pairs(
+    matrix: sp.csr_array, numbering: Numbering, first: IntArray, second: IntArray
+) -> sp.csr_array:
+    """A matrix (n, n) without what couples nodes `first` with `second` (m,), pair by pair."""
+    nodes, most = numbering.nodes, len(numbering.table)
+    low, high = numbering.table.resolve(first), numbering.table.resolve(second)
+    terms = matrix.tocoo()
+    places = nodes[terms.row] * most + nodes[terms.col]
+    kept = ~np.isin(places, [low * most + high, high * most + low])
+    return sp.csr_array((terms.data[kept], (terms.row[kept], terms.col[kept])), matrix.shape)
+
+
 def singular(
     code: str, numbering: Numbering, motions: FloatArray, bodies: IntArray | None = None
 ) -> SingularMatrixError:

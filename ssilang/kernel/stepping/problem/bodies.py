@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.family import displacement_names, has_rotations
-from ssilang.kernel.statics.linear_motion import tied
+from ssilang.kernel.statics.linear_motion import tied, without_pairs
 from ssilang.kernel.stepping.problem.problem import Problem
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
@@ -47,22 +47,13 @@ def bodies_of(problem: Problem) -> IntArray:
     The unknowns of one node belong together.
     """
     if problem not in _KNOWN:
-        K = _without_joints(problem)
+        joints, K = problem.interface, problem.K
+        turning = () if joints is None else [j for j in joints.joints if has_rotations(j.zone)]
+        if turning:  # whose turns or shear stand in the stiffness
+            sides = [np.stack([j.lower, j.upper]).reshape(2, -1) for j in turning]
+            K = without_pairs(K, problem.numbering, *np.concatenate(sides, axis=1))
         _KNOWN[problem] = tied(problem.numbering, problem.constraints.C, K, problem.M)
     return _KNOWN[problem]
-
-
-def _without_joints(problem: Problem) -> sp.csr_array:
-    """Stiffness, but not from side to side of joints whose turns or shear stand in it."""
-    joints, nodes, most = problem.interface, problem.numbering.nodes, len(problem.numbering.table)
-    turning = () if joints is None else [j for j in joints.joints if has_rotations(j.zone)]
-    if not turning:
-        return problem.K
-    sides = [np.stack([j.lower, j.upper]).reshape(2, -1) for j in turning]
-    low, high = problem.numbering.table.resolve(np.concatenate(sides, axis=1))
-    K = problem.K.tocoo()
-    across = np.isin(nodes[K.row] * most + nodes[K.col], [low * most + high, high * most + low])
-    return sp.csr_array((K.data[~across], (K.row[~across], K.col[~across])), K.shape)
 
 
 def translation(problem: Problem, normals: FloatArray) -> FloatArray:
