@@ -11,7 +11,7 @@ import time
 import pytest
 from script_runs import failed
 
-from ssilang.cli import signals
+from ssilang.cli import interrupts
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="shells and signals of one system")
 needs_full = pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
@@ -181,11 +181,11 @@ def test_a_signal_to_end_writes_files_and_summary(name, tmp_path):
 def test_a_hangup_that_is_ignored_is_ignored_still():
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with signals.listening():
+        with interrupts.listening():
             assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
-        with signals.listening():
-            assert signal.getsignal(signal.SIGHUP) is signals.interrupt
+        with interrupts.listening():
+            assert signal.getsignal(signal.SIGHUP) is interrupts.interrupt
         assert signal.getsignal(signal.SIGHUP) is signal.SIG_DFL
     finally:
         signal.signal(signal.SIGHUP, before)

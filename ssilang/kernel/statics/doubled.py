@@ -131,8 +131,7 @@ def repeated_cells(matrix: Matrix) -> IntArray:
         elif _heavy_cells(block):
             groups.setdefault(block.unknowns, []).append(block)
     found = [_repeated(blocks) for blocks in groups.values()]
-    others = (b for b in repeated_blocks(matrix) if b.zone is None and not _heavy_cells(b))
-    found += [b.nodes[:, 0] for b in others]
+    found += [b.nodes[:, 0] for b in repeated_blocks(matrix) if not (b.zone or _heavy_cells(b))]
     return np.concatenate(found) if found else np.zeros(0, np.int64)
 
 

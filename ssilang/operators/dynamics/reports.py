@@ -205,7 +205,7 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics, laden)
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
-            warn_repeated(*place, matrix, kind)
+            warn_repeated(*place, matrix, kind, inputs.stiffness)
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:

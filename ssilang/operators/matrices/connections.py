@@ -52,7 +52,7 @@ def warn_connections(
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         _warn_apart(tell, matrix, model)
         _warn_springs_apart(tell, matrix, model, laden)
-    warn_repeated(session, span, operator, matrix, "RIGI")
+    warn_repeated(session, span, operator, matrix, "RIGI", matrix)
     if model is None or not any(is_joint(z) for z in model.zones):
         _warn_negative(tell, matrix)
 
@@ -112,11 +112,17 @@ def _warn_negative(tell: Tell, matrix: Matrix) -> None:
         tell("operators.matrices.negative-stiffness", count=len(found), **told)
 
 
-def warn_repeated(session: Any, span: Any, operator: str, matrix: Matrix, kind: str) -> None:
-    """Warn of a matrix that has the same cells, or the same of others, twice."""
+def warn_repeated(
+    session: Any, span: Any, operator: str, matrix: Matrix, kind: str, beside: Matrix
+) -> None:
+    """Warn of a matrix that has the same cells, or the same of others, twice.
+
+    Layers, which the stiffness `beside` it knows by their constituents, may be of one mass.
+    """
     from ssilang.kernel.statics.doubled import repeated_cells
 
-    if len(found := repeated_cells(matrix)):
+    layered = matrix is not beside and any(b.zone and b.zone.constituent for b in beside.blocks)
+    if not layered and len(found := repeated_cells(matrix)):
         told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
         session.warn("operators.matrices.cells-twice", span, operator=operator, **told)
 

@@ -71,7 +71,7 @@ def _modes(
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
     warn_connections(call.session, call.span, "VIBR", stiffness)
-    warn_repeated(call.session, call.span, "VIBR", mass, "MASS")
+    warn_repeated(call.session, call.span, "VIBR", mass, "MASS", stiffness)
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):

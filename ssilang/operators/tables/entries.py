@@ -171,7 +171,7 @@ class Entries:
                 return self.nearest("TEMPS_SAUVES" + suffix, times, wanted.values)
         cadence = self.get("PAS_SAUVES" + suffix)
         if isinstance(cadence, int):
-            if cadence > (count := len(times) - 1):
+            if self.has("PAS_SAUVES" + suffix) and cadence > (count := len(times) - 1):
                 told = {"index": "PAS_SAUVES" + suffix, "cadence": cadence, "count": count}
                 self.warn("operators.tables.cadence-beyond-end", **told)
             with self.about("PAS_SAUVES" + suffix):
