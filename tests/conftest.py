@@ -5,9 +5,7 @@ import gc
 import importlib.util
 import os
 import sys
-import tempfile
-import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -21,8 +19,6 @@ from ssilang.cli.sweeping import trunk, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
 from ssilang.io.plots import figure
 from ssilang.kernel.base import compiled
-from ssilang.kernel.base.compiled import compiler
-from ssilang.kernel.base.compiled.machine import Ready
 from ssilang.kernel.solvers.backends import keep_factors
 
 # processes that tests start keep their byte code, as a person's do: half of a start otherwise
@@ -32,11 +28,6 @@ sys.dont_write_bytecode = False
 # a busy machine, or a first compilation, is no failure of what is tested
 settings.register_profile("house", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("house")
-
-try:
-    import fcntl
-except ImportError:  # Windows
-    fcntl = None
 
 # as the command line: searches through all that thousands of tests leave are a tenth of their time
 gc.set_threshold(SELDOM)
@@ -70,40 +61,6 @@ class _Nothing(set[str]):
 
 
 compiled.ALLOWED = _Nothing()
-
-
-class _Turns:
-    """Of two processes that need the same function one compiles, the other waits and loads."""
-
-    def __init__(self, run: str) -> None:
-        self.path = Path(tempfile.gettempdir()) / f"ssilang-tests-{run}"
-        self.handle = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o600)
-        self.ready = compiler.Compiled.ready
-
-    def one_at_a_time(
-        self, function: compiler.Compiled, words: str, types: Callable[[], compiler.Types]
-    ) -> Ready | None:
-        """A byte of an empty file is locked for each function and its kinds of arguments."""
-        if function.has(words):
-            return self.ready(function, words, types)
-        title = f"{function.py_func.__module__} {function.py_func.__qualname__} {words}"
-        place = zlib.crc32(title.encode())
-        try:
-            fcntl.lockf(self.handle, fcntl.LOCK_EX, 1, place)
-        except OSError:  # each has what the other waits for
-            return self.ready(function, words, types)
-        try:
-            return self.ready(function, words, types)
-        finally:
-            fcntl.lockf(self.handle, fcntl.LOCK_UN, 1, place)
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    """Processes of a run share what they compile."""
-    if fcntl is not None and hasattr(config, "workerinput"):
-        turns = _Turns(config.workerinput["testrunuid"])
-        config.add_cleanup(lambda: turns.path.unlink(missing_ok=True))
-        compiler.Compiled.ready = lambda *given: turns.one_at_a_time(*given)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
