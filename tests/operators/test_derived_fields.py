@@ -208,8 +208,11 @@ def test_a_table_is_decomposed_without_naming_its_entry(found):
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; X = COOR 1 L ; "
     table = "T = TABL ; T . 1 = X ; T . 2 = 2. * X ; M V = POD T 'CLASSIQUE' 1 ; "
     listed = "N W = POD ((SUIT X) ET (2. * X)) 'CLASSIQUE' 1 ;"
-    of_table, of_list = found(line + table + listed, "V", "W")
-    assert of_table.values[0] == of_list.values[0] > 0.0
+    result = "R = TABL ; R . 'DEPL' = TABL ; R . 'VITE' = T ; R . 'DEPL' . 1 = 9. * X ; "
+    named = "A B = POD R 'VITE' 'CLASSIQUE' 1 ; C D = POD R 'CLASSIQUE' 1 ;"
+    of_table, of_list, chosen, other = found(line + table + listed + result + named, *"VWBD")
+    assert of_table.values[0] == of_list.values[0] == chosen.values[0] > 0.0
+    assert other.values[0] > 2.0 * chosen.values[0]
 
 
 @pytest.mark.parametrize(

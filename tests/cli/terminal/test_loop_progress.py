@@ -23,14 +23,15 @@ def _told(code, **data):
 
 
 def test_a_line_after_patience_and_not_more_often_than_it_is_read(clock):
-    stream = io.StringIO()
+    out = io.BytesIO()
+    stream = io.TextIOWrapper(out, write_through=False)  # holds back what is not flushed
     progress = LoopProgress(stream, _told)
     progress.enter("OUT", 10)
     shown = []
     for time, number in ((100.5, 1), (101.9, 2), (102.0, 3), (102.1, 4), (102.25, 6)):
         clock[0] = time
         progress.turn(number)
-        shown.append(stream.getvalue())
+        shown.append(out.getvalue().decode())
     assert shown[:2] == ["", ""]
     assert shown[2] == "\rOUT 3/10, 8 left"  # two turns in 2 s: eight are to come
     assert shown[3] == shown[2]  # a tenth of a second after the last

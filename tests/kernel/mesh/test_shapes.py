@@ -147,5 +147,9 @@ def test_touching_parts_are_joined_once_and_open_as_they_part(
     normal = np.cross(Z, x) if dimension == 2 else np.cross(x, y)
     into_upper = np.isin(block.connectivity[:, 0], bodies[1].node_ids)
     assert ((normal @ up > 0.0) == into_upper).all()
+    if dimension == 2:  # a single pair
+        cells = [b.single_block().connectivity for b in bodies]
+        ends = [Mesh.of(nodes, "QUA4", c[i : i + 1]) for c, i in zip(cells, (3, 0), strict=True)]
+        assert len(joints_inside(union(*ends), 1e-6).single_block()) == 1
     with pytest.raises(MeshError, match="face each other"):
         joints_inside(low, 1e-6)

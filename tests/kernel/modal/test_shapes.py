@@ -65,6 +65,13 @@ def test_matrices_and_conditions_are_projected(body):
     assert rows.sense.tolist() == [-1]
 
 
+@pytest.mark.parametrize("size", [1e-13, 1e6])
+def test_conditions_are_projected_in_whatever_size_the_shapes_have(body, size):
+    shapes = [combined([size], [s]) for s in body.shapes]
+    found = constraint_matrix(projected_relations(body.stiffness, shapes, body.marks, ("A", "B")))
+    np.testing.assert_allclose(found.C.toarray(), [[-5.0 * size]])
+
+
 def test_work_and_combinations_take_what_both_have(body):
     force = body.field((body.n[0], "FX", 5.0), (body.n[1], "FY", 3.0), (body.n[3], "FY", 2.0))
     one, two = body.shapes

@@ -6,6 +6,7 @@ import pytest
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
+    UPDATES,
     apply_inverse,
     inverse_of,
     update_inverse,
@@ -74,7 +75,12 @@ def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     truth = np.linalg.solve(matrix(joints, (S, excess * np.eye(len(S)), SHARE), D), S)
     np.testing.assert_allclose(inverse.Y, truth, atol=1e-9 * np.abs(truth).max())
     np.testing.assert_array_equal(known, D)
-    assert inverse.updates[0] == 0
+    counts = [0]
+    for turn in range(UPDATES + 1):  # one point a turn, and none twice in the same way
+        D[turn % len(D)] = (2.0 + 0.01 * turn) * np.eye(2)
+        assert update_inverse(joints, Condensed(S, R, SHARE), D, known, inverse)
+        counts.append(inverse.updates[0])
+    assert counts == [*range(UPDATES + 1), 0]
 
 
 @pytest.mark.parametrize("n", [1, PLAIN + 1])

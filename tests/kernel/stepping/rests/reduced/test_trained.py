@@ -14,7 +14,7 @@ from ssilang.io.training import TrainingFile
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import interface_stiffness
-from ssilang.kernel.stepping.newmark import newmark_of
+from ssilang.kernel.stepping.newmark import Scheme, hht, newmark_of
 from ssilang.kernel.stepping.rests.reduced import basis as reduced_basis
 from ssilang.kernel.stepping.rests.reduced import trained
 from ssilang.kernel.stepping.rests.reduced.damping import split
@@ -94,10 +94,16 @@ class Watched(Coordinates):
         self.seen.append(((D[:, -1, -1] == 0.0).sum(), relative(self._matrix, plain)))
 
 
-@pytest.mark.parametrize("most", [-1, 400], ids=["a damping of all bodies", "few dashpots"])
-def test_newton_on_the_coordinates_steps_as_the_condensed_interface(suite, monkeypatch, most):
+@pytest.mark.parametrize(
+    ("most", "scheme"),
+    [(-1, Scheme()), (400, hht(0.3))],
+    ids=["a damping of all bodies", "few dashpots"],
+)
+def test_newton_on_the_coordinates_steps_as_the_condensed_interface(
+    suite, monkeypatch, most, scheme
+):
     monkeypatch.setattr(reduced_basis, "split", lambda C, M, K, _: split(C, M, K, most))
-    problem = record(5)
+    problem = replace(record(5), scheme=scheme)
     basis = trained.TrainedBasis(problem, suite.read())
     basis.meet(problem)
     model, joints = basis.model(), problem.interface.points
@@ -112,6 +118,7 @@ def test_newton_on_the_coordinates_steps_as_the_condensed_interface(suite, monke
     V = problem.constraints.T @ basis.vectors.T @ model.X
     assert relative(step.C, V.T @ (problem.C @ V)) < 1e-9
     opened, errors = np.array(Watched.seen).T
+    Watched.seen.clear()
     assert opened.max() > opened.min()
     assert errors.max() < 1e-5
 
