@@ -172,9 +172,9 @@ def _shear_energies(
         trial += 0.5 * p[Par.KS1 + i] * before**2
         lost += t[i] * (before - w[i] + new[Var.SLIP1 + i])
         lost += 0.5 * p[Par.KS1 + i] * elastic**2 * max(new[Var.DAMAGE] - 1.0 + left, 0.0)
-    if new[Var.DAMAGE] == 0.0:  # slips at once where its bound is below what it had
-        had = math.sqrt(min(trial, left * state[Var.SHEAR_ENERGY]))
-        lost += max(had - math.sqrt(stored), 0.0) ** 2
+    had = min(trial, left * state[Var.SHEAR_ENERGY])
+    if new[Var.DAMAGE] == 0.0 and had > stored:  # slips at once where its bound is below that
+        lost += (math.sqrt(had) - math.sqrt(stored)) ** 2
     opened = (tn >= 0.0 and state[Var.HELD] != CLOSED_SHEAR) or state[Var.HELD] == OPEN_SHEAR
     if opened and p[Par.FU] == 0.0 and p[Par.SHEAR] != 1.0:  # the stored shear is given up
         lost = state[Var.SHEAR_ENERGY]
