@@ -49,16 +49,15 @@ def displacement_of(call: Call, fields: Fields, model: Model) -> NodeField:
 
 def tell_no_unknown(call: Call, field: NodeField, model: Model) -> None:
     """Warn of a field for displacements that has other components alone, or not all nodes."""
-    names = [n for n in field.components if n != "LX"]
-    meant = (w for n in names for w in meanings("component", n))
-    if names and not any(w.kind == "unknown" for w in meant):
-        call.warn("operators.statics.no-displacements", field, names=names)
+    known = {n: p.nodes for n, p in field.components.items() if n != "LX"}
+    meant = (w for n in known for w in meanings("component", n))
+    if not known or not model.zones:
         return
-    known = [p.nodes for n, p in field.components.items() if n != "LX"]
-    if not known:
+    if not any(w.kind == "unknown" for w in meant):
+        call.warn("operators.statics.no-displacements", field, names=[*known])
         return
-    wanted = model.mesh.node_ids
-    if len(lost := np.setdiff1d(wanted, field.table.resolve(np.concatenate(known)))):
+    wanted, nodes = model.mesh.sorted_node_ids, np.concatenate([*known.values()])
+    if len(lost := np.setdiff1d(wanted, field.table.resolve(nodes))):
         told = {"count": len(lost), "wanted": len(wanted), "node": field.table.told(int(lost[0]))}
         call.warn("operators.statics.displacements-in-part", field, **told)
 
