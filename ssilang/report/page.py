@@ -280,8 +280,7 @@ def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
         "curves": told("report.curves"),
         "tables": told("report.tables"),
     }
-    shown = {group: charts_html(charts, group, told) for group in titles}
-    return [section(group, title, shown[group]) for group, title in titles.items()]
+    return [section(g, title, charts_html(charts, g, told)) for g, title in titles.items()]
 
 
 def _largest(results: Results, told: Teller) -> str:

@@ -37,9 +37,8 @@ def sens_of_fields(
         raise call.error("operators.fields.one-component-compared", second)
     made, start = Table(), 1
     for block in added(first, second, -1.0).blocks:
-        values = np.broadcast_to(
-            block.components[names[0]], (len(block.cells), block.components[names[0]].shape[1])
-        )
+        one = block.components[names[0]]
+        values = np.broadcast_to(one, (len(block.cells), one.shape[1]))
         for number, mean in enumerate(values.astype(float).mean(axis=1), start):
             made.set(number, float(mean))
         start += len(block.cells)

@@ -56,11 +56,10 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
 
 def _warn_of_matter(call: Call, given: Mapping[str, Given]) -> None:
     """Warn of a modulus and a density that are in different systems of units, not said."""
-    arrays = [given[n][0] for n in MATTER[0] if n in given and given[n][0].dtype == float]
-    known = dict(zip(MATTER[0], (e for a in arrays if (e := _ends(a))), strict=False))
+    known = {n: _ends(a) for n, (a, _) in given.items() if n in MATTER[0] and a.dtype == float}
     fits = (all(v in usual[n] for n in usual for v in known[n]) for usual in MATTER)
-    if len(known) == len(MATTER[0]) and not any(fits):
-        told = {n.lower(): high for n, (_, high) in known.items()}
+    if len(known) == len(MATTER[0]) and all(known.values()) and not any(fits):
+        told = {n.lower(): max(ends) for n, ends in known.items()}
         call.warn("operators.models.no-units", given["RHO"][1], **told)
 
 

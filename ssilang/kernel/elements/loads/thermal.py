@@ -129,7 +129,9 @@ def _shell_rates(zone: Zone, parameters: ZoneField) -> FloatArray:
     first, second = (parameters.at(f"ALP{i}", "STRESSES", 0.0) for i in (1, 2))
     c, s = (parameters.at(n, "STRESSES") for n in ("V1X", "V1Y"))
     rates = np.broadcast_arrays(
-        first * c**2 + second * s**2, first * s**2 + second * c**2, 2 * c * s * (first - second)
+        first * c**2 + second * s**2,
+        first * s**2 + second * c**2,
+        2 * c * s * (first - second),
     )
     return np.stack(rates, axis=1)
 

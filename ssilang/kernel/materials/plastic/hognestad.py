@@ -75,9 +75,8 @@ def check(p: PointParameters) -> None:
         Naming what must hold.
     """
     if (p["FAMX"] >= 0).any():
-        raise MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max()).about(
-            "FAMX"
-        )
+        soft = MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max())
+        raise soft.about("FAMX")
     if ((p["ZETA"] > 0) & (p["ALF1"] * p["OME1"] > 0)).any():
         raise MaterialError("kernel.materials.slope-and-confinement").about("ZETA")
     hoops = p["ALF1"] * p["OME1"]
