@@ -106,7 +106,7 @@ def test_the_recipe_is_of_this_release() -> None:
 def test_hooks_are_the_tools_that_the_tests_run() -> None:
     hooks = [h for repo in read(_ROOT / ".pre-commit-config.yaml")["repos"] for h in repo["hooks"]]
     tools = [hook["entry"].removeprefix("python -m ").split()[0] for hook in hooks]
-    assert tools == ["ruff", "ruff", "mypy", "lint-imports"]
+    assert tools == ["ruff", "ruff", "pyrefly", "lint-imports"]
     house = (_ROOT / "tests" / "test_house.py").read_text(encoding="utf-8")
     for tool in tools:
         assert f'"{tool}"' in house

@@ -19,8 +19,8 @@ from ssilang.language.search import SHORT_LIKE, nearest
 
 if TYPE_CHECKING:
     import pandas
-    import pyvista
-    import xarray
+    from pyvista import UnstructuredGrid
+    from xarray import Dataset
 
     from ssilang.io.vtk.grid import Grid
 
@@ -80,7 +80,7 @@ class MeshView(View[Mesh]):
     def __len__(self) -> int:
         return self.held.n_cells
 
-    def pyvista(self, **fields: FieldView | CellFieldView) -> pyvista.UnstructuredGrid:
+    def pyvista(self, **fields: FieldView | CellFieldView) -> UnstructuredGrid:
         """The mesh as an UnstructuredGrid of pyvista.
 
         Parameters
@@ -100,7 +100,7 @@ class MeshView(View[Mesh]):
         return f"<MAILLAGE {kinds or 'empty'}, {len(self.nodes)} nodes>"
 
 
-def _grid(made: Grid, language: str) -> pyvista.UnstructuredGrid:
+def _grid(made: Grid, language: str) -> UnstructuredGrid:
     pv = library("pyvista", language)
     sizes = np.diff(made.offsets, prepend=0)
     starts = made.offsets - sizes
@@ -167,7 +167,7 @@ class FieldView(View[NodeField]):
         pd = library("pandas", self.language)
         return pd.DataFrame(made, index=pd.Index(self.nodes, name="node"))
 
-    def xarray(self) -> xarray.Dataset:
+    def xarray(self) -> Dataset:
         """A Dataset over `node`, with the coordinates x, y, z."""
         return library("xarray", self.language).Dataset(
             {name: ("node", self[name]) for name in self.components},

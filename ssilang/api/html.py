@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence, Sized
 from html import escape
 from typing import Any
 
@@ -82,7 +82,7 @@ def _brief(table: Table, index: object) -> str:
     kind = type_of(value)
     if isinstance(value, bool | int | float | str):
         return f"{_cell(value)}"
-    size = f" ({len(value)})" if hasattr(value, "__len__") else ""
+    size = f" ({len(value)})" if isinstance(value, Sized) else ""
     return f"{kind}{size}"
 
 

@@ -33,7 +33,7 @@ from ssilang.language.values import (
 
 if TYPE_CHECKING:
     import pandas
-    import xarray
+    from xarray import DataArray
 
 _MOST_SHOWN = 20
 
@@ -82,7 +82,7 @@ class TableView(View[Table], Mapping[Any, Any]):
         }
         return library("pandas", self.language).DataFrame(lists)
 
-    def xarray(self, word: str) -> xarray.DataArray:
+    def xarray(self, word: str) -> DataArray:
         """All values in time of nodal fields of a table of results: (time, node, component).
 
         Parameters
@@ -162,7 +162,7 @@ def held(value: Any, language: str = "en") -> Any:
         return Mot(value.__fspath__())
     if hasattr(value, "index") and hasattr(value, "to_numpy"):  # a Series
         return _curve(value.index, value.to_numpy(), str(getattr(value, "name", "") or ""))
-    if isinstance(value, list | tuple | range | np.ndarray):
+    if isinstance(value, (list, tuple, range, np.ndarray)):
         return _list(value, language)
     raise refused("api.no-such-object", language, kind=type(value).__name__)
 

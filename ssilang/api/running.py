@@ -141,7 +141,7 @@ def source_of(script: Script, language: str) -> Source:
     """
     if isinstance(script, str) and (";" in script or "\n" in script):
         return Source("script", script.replace("\r\n", "\n").replace("\r", "\n"))
-    if not isinstance(script, str | os.PathLike):
+    if not isinstance(script, (str, os.PathLike)):
         raise refused("api.no-script", language, kind=type(script).__name__)
     try:
         return read_source(Path(script))
@@ -151,7 +151,7 @@ def source_of(script: Script, language: str) -> Source:
 
 def folders(allow: Allowed) -> list[Path]:
     """Folders as they are, one or several."""
-    several = allow if isinstance(allow, list | tuple) else [allow]
+    several = allow if isinstance(allow, (list, tuple)) else [allow]
     return [Path(p).resolve() for p in several]
 
 

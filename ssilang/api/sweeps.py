@@ -115,7 +115,7 @@ def _cases(
     values: dict[str, Any], records: Script | Iterable[Script] | None, language: str
 ) -> list[Case]:
     axes = {name.upper(): _axis(name, given, language) for name, given in values.items()}
-    if isinstance(records, str | os.PathLike):
+    if isinstance(records, (str, os.PathLike)):
         axes[MOTION] = [*motions_in(Path(records), [])]
     elif records is not None:
         axes[MOTION] = [str(Path(r).resolve()) for r in records]
@@ -124,7 +124,7 @@ def _cases(
 
 def _axis(name: str, given: Any, language: str) -> list[Value]:
     """The values of a name: one, or those of a sequence."""
-    several = isinstance(given, Sequence | np.ndarray | set) or hasattr(given, "to_numpy")
+    several = isinstance(given, (Sequence, np.ndarray, set)) or hasattr(given, "to_numpy")
     values = list(given) if several and not isinstance(given, str) else [given]
     plain = [v.item() if isinstance(v, np.generic) else v for v in values]
     plain = [os.fspath(v) if isinstance(v, os.PathLike) else v for v in plain]

@@ -106,7 +106,7 @@ def plain(value: Any) -> Any:
     """The value in types that JSON has: arrays as lists, numbers that are none as null."""
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, list | tuple | set | frozenset):
+    if isinstance(value, (list, tuple, set, frozenset)):
         return [plain(v) for v in value]
     if hasattr(value, "tolist"):
         return plain(value.tolist())

@@ -252,7 +252,7 @@ def _encoded(value: Any, arrays: list[NDArray[Any]]) -> Any:
         return value.item()
     if isinstance(value, Mapping):
         return {name: _encoded(v, arrays) for name, v in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, (list, tuple)):
         return [_encoded(v, arrays) for v in value]
     assert value is None or isinstance(value, bool | int | float | str), type(value)
     return value

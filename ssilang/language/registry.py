@@ -287,7 +287,10 @@ def choice(
 
 
 def _of_parameter(make: Callable[Concatenate[str, P], Any]) -> Callable[P, Any]:
-    return partial(make, "")
+    def declared(*args: P.args, **options: P.kwargs) -> Any:
+        return make("", *args, **options)
+
+    return declared
 
 
 Arg = _of_parameter(arg)
@@ -353,7 +356,7 @@ class By:
     def of(self, value: object) -> tuple[str, ...]:
         """Results where the entry has the value."""
         key = value.word if isinstance(value, Chosen) else value
-        if isinstance(key, tuple | list):
+        if isinstance(key, (tuple, list)):
             key = bool(key)
         said = key is None or isinstance(key, str | bool)
         return self.results.get(key if said else type_of(key), self.default)

@@ -33,7 +33,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path, PurePath
 from string import Formatter
-from typing import Any, Literal, Protocol, TypeGuard, runtime_checkable
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, runtime_checkable
 
 Severity = Literal["error", "warning"]
 
@@ -139,7 +139,10 @@ class Translated:
     """What says an English text, `en`, whose French stands in the catalogue of French texts."""
 
     __slots__ = ()
-    en: str
+    if TYPE_CHECKING:
+
+        @property
+        def en(self) -> str: ...
 
     @property
     def fr(self) -> str:
@@ -282,10 +285,10 @@ def _is_several(value: object) -> TypeGuard[Collection[object]]:
 
 def _has_text(value: object) -> bool:
     """Whether a value is told as it is: words, numbers, paths, errors and collections of these."""
-    plain = isinstance(value, str | int | float | complex | PurePath | BaseException | Mapping)
+    plain = isinstance(value, (str, int, float, complex, PurePath, BaseException, Mapping))
     if plain or value is None or type(value).__module__ in ("numpy", "builtins"):
         return True
-    return isinstance(value, Set | Sequence | KeysView | ValuesView) or hasattr(value, "__index__")
+    return isinstance(value, (Set, Sequence, KeysView, ValuesView)) or hasattr(value, "__index__")
 
 
 def _shown(value: object, spec: str, language: str) -> str:

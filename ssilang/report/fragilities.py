@@ -24,7 +24,7 @@ from ssilang.messages.message import Refusal, Teller
 from ssilang.report import records
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
-from ssilang.report.records import FRAGILITY, RecordError, read_record
+from ssilang.report.records import FRAGILITY, read_record
 from ssilang.report.sweep_table import MOTION, RUNS, Sweep, link_to, real
 from ssilang.report.verdict import is_endless
 
@@ -188,7 +188,7 @@ def asked_of(folder: Path) -> Asked | None:
         return None
     try:
         said = read_record(folder / ASKED, FRAGILITY)
-    except (OSError, ValueError, RecordError) as problem:
+    except (OSError, ValueError) as problem:
         raise InputError("report.damaged", path=folder / ASKED, problem=problem) from None
     limits = [limit for each in said["limits"] for limit in read_limits(each)]
     return Asked(limits, said["intensities"]) if limits else None

@@ -25,7 +25,7 @@ def json_in_page(value: object) -> str:
 @cache
 def asset(name: str) -> str:
     """A file of the page."""
-    return resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+    return resources.files(__package__ or "").joinpath("assets", name).read_text(encoding="utf-8")
 
 
 def section(name: str, title: str, body: str) -> str:

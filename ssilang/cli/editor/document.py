@@ -61,9 +61,9 @@ class Document:
         """The document of a text with any kind of line ends; `before`: it as it was."""
         plain = text.replace("\r\n", "\n").replace("\r", "\n")
         source = Source(str(path) if path else "script", plain, path)
-        known = (before.phrases, before.source.code) if before is not None else ()
+        phrases, older = (before.phrases, before.source.code) if before is not None else ([], "")
         with without_collections():
-            return cls(source, phrases_of(source.code, *known), procedures)
+            return cls(source, phrases_of(source.code, phrases, older), procedures)
 
     @cached_property
     def lines(self) -> list[str]:

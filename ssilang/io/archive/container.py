@@ -190,7 +190,7 @@ class Encoder:
             return ["e", class_name(type(value)), value.name]
         if isinstance(value, np.ndarray):
             return self._array(value)
-        if isinstance(value, list | tuple):
+        if isinstance(value, (list, tuple)):
             kind = "t" if isinstance(value, tuple) else "l"
             return [kind, [self.encode(v) for v in value]]
         if isinstance(value, Mapping):

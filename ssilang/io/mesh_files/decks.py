@@ -27,7 +27,7 @@ _CARDS = {
     "TET4": "CTETRA", "TE10": "CTETRA", "PYR5": "CPYRAM", "PRI6": "CPENTA", "PR15": "CPENTA",
     "CUB8": "CHEXA", "CU20": "CHEXA",
 }  # fmt: skip
-_NASTRAN_ORDERS = {
+_NASTRAN_ORDERS: dict[str, tuple[int, ...]] = {
     # VTK's order, but the middles between bottom and top stand before those of the top
     "PR15": (*range(9), 12, 13, 14, 9, 10, 11),
     "CU20": (*range(12), 16, 17, 18, 19, 12, 13, 14, 15),

@@ -9,7 +9,7 @@ import re
 
 _LATIN = "abgdezhqiklmnxoprstufcyw"
 _GREEK = "αβγδεζηθικλμνξοπρστυφχψω"
-_SYMBOLS = dict(zip(_LATIN, _GREEK, strict=True))
+_SYMBOLS: dict[str, str] = dict(zip(_LATIN, _GREEK, strict=True))
 _SYMBOLS |= {latin.upper(): greek.upper() for latin, greek in _SYMBOLS.items()}
 _SYMBOLS |= {"j": "φ", "J": "ϑ", "v": "ϖ", "V": "ς"}
 

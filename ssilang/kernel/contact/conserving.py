@@ -173,14 +173,14 @@ class ConservingSolver:
             self._trial = new_trial((joints.n_points, joints.dimension), joints.size, mean=True)
             self._K = np.zeros((joints.size, joints.size))
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gaps: FloatArray) -> StepOutcome:
-        """The step's increment; `gaps` (2, m) are those of both ends for du = 0."""
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
+        """The step's increment; `gap` (2, m) are those of both ends for du = 0."""
         e, joints, self._now = self.effective, self.interface, motion.joints
         du = e.solve(r)
         if dd.any():
             du = du + e.imposed(dd)
         y0 = np.zeros(0) if joints is None else joints.J @ du
-        found = self.contact.solve(self, y0, gaps[0], self.rows.G @ du + gaps[1] - gaps[0])
+        found = self.contact.solve(self, y0, gap[0], self.rows.G @ du + gap[1] - gap[0])
         motion.contact[:] = found.P
         du = du + self.contact.YG @ found.P
         if joints is not None and found.turns > 0:

@@ -291,7 +291,7 @@ def _curves(parameters: ZoneField) -> dict[str, dict[int, CurvePart]]:
         values = parameters.raw(name)[0] if name in parameters else np.zeros(1)
         if not isinstance(values.flat[0], Curve):
             continue
-        cells = np.broadcast_to(values, (len(parameters.zone.cells), 1)).ravel()
+        cells: Any = np.broadcast_to(values, (len(parameters.zone.cells), 1)).ravel()
         first = None if name == "MOCO" else 1
         for i, part in ((i, part) for i, c in enumerate(cells) for part in c.parts[:first]):
             said = part.ordinate_name.strip().upper() if name == "MOCO" else name

@@ -8,7 +8,7 @@ moment and rotation. It is in contact where nothing gapes.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -226,7 +226,7 @@ def _in_space(values: FloatArray) -> FloatArray:
 
 def _upside_down(parts: list[tuple[JointCells, int, IntArray]]) -> bool:
     """Whether the side named first is the one below: what stands on it is the structure."""
-    n = sum(np.einsum("ng,ngi->i", j.weights[c], j.frames[c][:, :, -1]) for j, _, c in parts)
+    n: Any = sum(np.einsum("ng,ngi->i", j.weights[c], j.frames[c][:, :, -1]) for j, _, c in parts)
     return bool(n[-1] < -0.5 * np.linalg.norm(n))
 
 

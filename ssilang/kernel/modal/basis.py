@@ -119,7 +119,7 @@ def projected_relations(
         matrix.table,
         np.concatenate([[0], np.cumsum(counts)]),
         marks[flat],
-        tuple(unknowns[i] for i in flat),
+        tuple(unknowns[i] for i in flat.tolist()),
         values[np.repeat(kept, counts), flat],
         rows.multipliers[kept],
         rows.sense[kept],

@@ -106,7 +106,12 @@ def _points(signal: ModulatedSignal, natural: float, damping: float) -> tuple[Fl
 
 
 def _observed(
-    kind: str, u: ComplexArray, v: ComplexArray, push: ComplexArray, w0: float, damping: float
+    kind: str,
+    u: ComplexArray,
+    v: ComplexArray,
+    push: ComplexArray | FloatArray,
+    w0: float,
+    damping: float,
 ) -> tuple[ComplexArray, ComplexArray]:
     """The quantity and its rate: relative DEPL or VITE, absolute ACCE."""
     acceleration = -push - 2.0 * damping * w0 * v - w0 * w0 * u

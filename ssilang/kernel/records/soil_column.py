@@ -162,13 +162,13 @@ def free_field(
     surface = given[1:] / (outcrop if control is None else u[-1])
     mean = given[0].real / padded
     count = min(n - 1 + max(n // 10, 2), padded - 1) * finer + 1
-    times = np.arange(count) * (step / finer)
+    times = np.arange(count, dtype=float) * (step / finer)
 
     def history(spectrum: ComplexArray, at_zero: float = 0.0) -> FloatArray:
         full = np.zeros((len(spectrum), padded * finer // 2 + 1), complex)
         full[:, 1 : len(frequencies)] = spectrum
         full[:, 0] = at_zero * padded
-        return np.fft.irfft(full * finer, padded * finer)[:, :count]
+        return np.asarray(np.fft.irfft(full * finer, padded * finer)[:, :count])
 
     rows = slice(0, len(depths))
     motion = u[rows] * surface

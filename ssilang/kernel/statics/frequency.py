@@ -165,7 +165,7 @@ class _System:
         return NodeField(real.table, parts, real.nature)
 
 
-def _solved(A: sp.csc_array, b: ComplexArray, frequency: float) -> ComplexArray:
+def _solved(A: sp.csc_array, b: ComplexArray | FloatArray, frequency: float) -> ComplexArray:
     from scipy.sparse.linalg import splu
 
     try:
@@ -261,7 +261,7 @@ def natural_frequencies(system: _System) -> FloatArray:
     K = system.K + (assemble_blocks(springs, system.numbering) if springs else 0.0 * system.K)
     pair = [np.asarray(free.T @ np.asarray(matrix @ free)) for matrix in (K, system.M)]
     values = np.asarray(eig(pair[0], pair[1], right=False))
-    real: FloatArray = values[np.isfinite(values)].real
+    real = np.asarray(values[np.isfinite(values)].real, float)
     if not len(real) or real.max() <= 0.0:
         return np.zeros(0)
     found: FloatArray = np.sqrt(np.sort(real[real > 1e-8 * real.max()])) / (2.0 * np.pi)

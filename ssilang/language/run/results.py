@@ -32,7 +32,9 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
         held = [(values or {}).get(name) for name in (given.name, *given.more)]
         if None in held:
             return None
-        return tuple(type_of(v) for h in held for v in (h if isinstance(h, tuple | list) else (h,)))
+        return tuple(
+            type_of(v) for h in held for v in (h if isinstance(h, (tuple, list)) else (h,))
+        )
     if isinstance(given, By):
         return given.of((values or {}).get(given.name))
     if given is not None:

@@ -292,7 +292,7 @@ def elsewhere(word: str, language: str) -> str:
     found = find_cast3m_word(word)
     if found is None or find_operator(found.name) is not None:
         return ""
-    data = {"name": found.name, "operator": found.kind == "operator"}
+    data: dict[str, Any] = {"name": found.name, "operator": found.kind == "operator"}
     if found.subject == IN_SCOPE:
         data["reason"] = Sentence(f"help.reason-{found.reason}") if found.reason else ""
         return message.sentence("not-built", data, language)

@@ -181,7 +181,7 @@ def _syntax_error(source: Source, text: str, begin: int, place: int, end: int) -
     return SsiError("syntax", Span(source, place, place + 1), found=found, meant=_SET.get(found))
 
 
-_SET = {
+_SET: dict[str, str] = {
     **dict.fromkeys("\u2012\u2013\u2014\u2212", "-"),
     **dict.fromkeys("\u2018\u2019\u201c\u201d", "'"),
 }

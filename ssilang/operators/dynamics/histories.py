@@ -46,7 +46,7 @@ VECTORS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
 
 
 def _stand_in(
-    snapshot: Snapshot, nodes: IntArray | None, word: str, make: Callable[[], NodeField]
+    snapshot: Snapshot, nodes: IntArray | None, word: str, make: Callable[[], Any]
 ) -> InstantField | None:
     """A field of the whole body that stays unmade while single values are asked for."""
     if nodes is not None or word not in VECTORS:
@@ -153,7 +153,7 @@ class TableObserver:
             return self.track.cell_field(row, JOINTS[word])
         return self.track.node_field(row, VECTORS[word])
 
-    def _instant(self, row: int, word: str, make: Callable[[], NodeField]) -> InstantField | None:
+    def _instant(self, row: int, word: str, make: Callable[[], Any]) -> InstantField | None:
         """As `_stand_in`, of recorded rows."""
         if self.nodes is not None or word not in VECTORS:
             return None

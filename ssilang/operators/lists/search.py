@@ -50,7 +50,7 @@ def posi(
     if isinstance(where, str):
         return _in_word(str(item), where, fold, every)
     items, wanted = _comparable(call, item, where)
-    if isinstance(wanted, list | np.ndarray):
+    if isinstance(wanted, (list, np.ndarray)):
         return ListEnti([_first(equal_items(items, w, tolerance, fold)) for w in wanted])
     found = equal_items(items, wanted, tolerance, fold)
     if every:

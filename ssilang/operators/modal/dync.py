@@ -145,7 +145,7 @@ def _guess(
         return said
     Z, _ = oscillators.linear(w)
     load = oscillators.load * (w * w if oscillators.unbalance else 1.0)
-    return np.asarray(np.linalg.lstsq(Z, load.ravel(), rcond=None)[0].reshape(said.shape))
+    return np.asarray(np.linalg.lstsq(Z, load.ravel(), rcond=None)[0].reshape(said.shape), float)
 
 
 def _lengths(numbers: Numbers) -> Lengths:

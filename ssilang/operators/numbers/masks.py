@@ -197,7 +197,8 @@ def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, floa
 def _clipped_field(call: Call, value: Any, wanted: list[tuple[Any, float, float]]) -> Any:
     node = isinstance(value, NodeField)
     names = list(value.components) if node else cell_algebra.component_names(value)
-    made = None
+    united: Callable[..., Any] = node_algebra.united if node else cell_algebra.united
+    made: Any = None
     for who, low, high in wanted:
         if who is None and len(names) != 1:
             raise call.error("operators.numbers.which-component", names=names)
@@ -209,8 +210,7 @@ def _clipped_field(call: Call, value: Any, wanted: list[tuple[Any, float, float]
         if node:
             only = node_algebra.rebuilt(value, {name: node_algebra.component(value, name)})
             part: Any = node_algebra.applied(only, clip)
-            made = part if made is None else node_algebra.united(made, part)
         else:
             part = cell_algebra.applied(cell_algebra.extracted(value, [name], [name]), clip)
-            made = part if made is None else cell_algebra.united(made, part)
+        made = part if made is None else united(made, part)
     return made

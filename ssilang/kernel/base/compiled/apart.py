@@ -130,8 +130,8 @@ def _resolve(text: int, size: int) -> int:
         return int(function.address(words, lambda: pickle.loads(types)))
     except KeyboardInterrupt:
         return STOPPED
-    except Exception:
-        sys.excepthook(*sys.exc_info())
+    except Exception as error:
+        sys.excepthook(type(error), error, error.__traceback__)
         return 0
 
 

@@ -1,4 +1,4 @@
-"""The decorators for compiled inner loops, with types that mypy can follow.
+"""The decorators for compiled inner loops, with types that can be followed.
 
 A function finds its kept code when it is called, or has numba make it, which is imported then.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -99,10 +100,8 @@ def _shear(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     G13, G23, c, s = np.broadcast_arrays(*(parameters.at(n, support) for n in names))
     first, second = np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)
     pair = ((G13, first), (G23, second))
-    turned: FloatArray = sum(
-        G[..., None, None] * v[..., :, None] * v[..., None, :] for G, v in pair
-    )
-    return turned
+    turned: Any = sum(G[..., None, None] * v[..., :, None] * v[..., None, :] for G, v in pair)
+    return np.asarray(turned)
 
 
 def material_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:

@@ -220,7 +220,7 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
     refuse((columns["FNE"] > 0) & (columns["QT"] >= columns["KN"]), columns["QT"], "QT", "< KN")
 
 
-_PLASTIC = {
+_PLASTIC: dict[str, tuple[Var, ...]] = {
     "EPSE": (Var.CUMULATED,), "STAT": (Var.STATUS,), "EPOU": (Var.OPENING,),
     "LAM1": (Var.DAMAGE,), "PLA1": (Var.SLIP1,), "PLA2": (Var.SLIP2,),
     "PLA3": (Var.XI, Var.OPENING),

@@ -294,8 +294,7 @@ def _halved(state: _State, pairs: IntArray) -> NDArray[np.bool_]:
     """Cells of which one of the pairs (n, m, 2) of existing nodes has a node between them."""
     there = np.asarray(pairs.min(axis=-1) >= 0)
     keys = np.where(there, _edge_keys(np.maximum(pairs, 0)), -1)
-    found: NDArray[np.bool_] = ((state.edges.at(keys) >= 0) & there).any(axis=1)
-    return found
+    return np.asarray(((state.edges.at(keys) >= 0) & there).any(axis=1))
 
 
 def _divided(state: _State, cells: _Cells, marks: NDArray[np.bool_]) -> _Cells:

@@ -205,7 +205,9 @@ def cubic_through(
     """The cubic through four points at parameters 0, 1/3, 2/3, 1."""
     u = np.array([0.0, 1 / 3, 2 / 3, 1.0])
     points = np.array([start, second, third, end])
-    return Polynomial(np.linalg.solve(u[:, None] ** np.arange(4), points), regular=regular)
+    return Polynomial(
+        np.asarray(np.linalg.solve(u[:, None] ** np.arange(4), points), float), regular=regular
+    )
 
 
 def cubic_tangents(

@@ -95,7 +95,7 @@ class DenseSolver(BulkSolver):
                 moved += self._J.T @ (now.K @ (self._J @ held))
             rest = rest - self._Vt @ moved
         try:
-            return self._T @ np.linalg.solve(whole, rest), now.pushed
+            return self._T @ np.asarray(np.linalg.solve(whole, rest), float), now.pushed
         except np.linalg.LinAlgError as error:
             raise SingularFactorError(str(error)) from None
 

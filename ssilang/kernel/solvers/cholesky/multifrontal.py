@@ -7,9 +7,10 @@ a solve reads the factor once, from one end to the other, without an index an en
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, later
@@ -53,7 +54,7 @@ class Panels(NamedTuple):
 
     first: IntArray
     ptr: IntArray
-    rows: IntArray
+    rows: NDArray[np.signedinteger[Any]]
     at: IntArray
     values: FloatArray
 
@@ -113,7 +114,7 @@ class _Plan(NamedTuple):
     columns: Columns
     updates: Updates
     ptr: IntArray
-    rows: IntArray
+    rows: NDArray[np.signedinteger[Any]]
     at: IntArray
     waiting: int
     front: int

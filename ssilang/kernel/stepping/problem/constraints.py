@@ -102,7 +102,7 @@ class OrthogonalConstraints:
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m) of the inverse."""
-        return self._inverse[:, rows]
+        return np.asarray(self._inverse[:, rows], float)
 
 
 class NonAssociatedConstraints:

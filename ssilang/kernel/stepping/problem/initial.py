@@ -210,7 +210,7 @@ def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArr
                     raise
         return np.asarray(spla.splu(mass).solve(force))
     except (RuntimeError, SingularFactorError):
-        return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0])
+        return np.asarray(np.linalg.lstsq(mass.toarray(), force, rcond=1e-12)[0], float)
 
 
 def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:

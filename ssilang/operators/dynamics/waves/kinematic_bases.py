@@ -108,7 +108,7 @@ def _filter(
         entries.warn("operators.dynamics.base-moves-before-record", seconds=early * step)
     result.set("ACCELERATION", _curve("TEMP", times, "ACCE", moved))
     # a quarter of a period behind, as the slope of a wave that passes
-    turned = averaged(record.ordinates, np.asarray(-1j * share * slope * found.rotation))
+    turned = averaged(record.ordinates, np.asarray(-1j * share * slope * found.rotation, complex))
     result.set("ACCELERATION_ANGULAIRE", _curve("TEMP", times, "ACCE", turned))
 
 

@@ -146,6 +146,7 @@ class Coordinates:
             if self._factor is None or size * GAIN > old:
                 self._tangent(trial.D)
                 self._factor = la.lu_factor(self._matrix)
+            # pyrefly: ignore [no-matching-overload]
             old, dz = size, dz + la.lu_solve(self._factor, left.astype(np.float32))
         return dz, -MOST_TURNS, float(size)
 

@@ -51,11 +51,11 @@ class StepOutcome:
 class StepSolver(Protocol):
     """Solves `A du + c J^T (f_1 - f_0) = r`, `C du = dd`; updates the joints of the motion."""
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """The step's increment; `motion.delta, f, w, t, state` become those of its end.
 
-        `d` (m,) are the gaps of relations for du = 0 and the imposed values at the end of the step;
-        (2, m) with those of both ends where steps conserve energy.
+        `gap` (m,) are the gaps of relations for du = 0 and the imposed values at the end of the
+        step; (2, m) with those of both ends where steps conserve energy.
         """
         ...
 
@@ -76,7 +76,7 @@ class CondensedSolver:
             self._newton = workspace(shape, joints.size, mean)
             self._J = for_products(joints.J)
 
-    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, d: FloatArray) -> StepOutcome:
+    def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
         du = self.effective.solve(r)
         if dd.any():
