@@ -3,8 +3,9 @@
 The calculations of a deck that are kept are numbered as they begin. Of each the folder has two
 files. `N.state` is a zip of `head.json` and arrays (NPY): all that the steps to come depend on,
 written whole or not at all. `N.rows` only grows: names and arrays behind one another, of the steps
-done since the checkpoint before; the state says how many bytes of it count, and what lies behind
-them (of a run that was killed while it wrote) is written over. Nothing in them is ever executed.
+done since the checkpoint before; the state says how many bytes of it count and their CRC-32, and
+what lies behind them (of a run that was killed while it wrote) is written over. Nothing in them is
+ever executed.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
+from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +30,7 @@ from ssilang.io.errors import InputError, OutputError
 from ssilang.system import GUARDED, system_reason
 
 FORMAT = "ssilang-checkpoint"
-VERSION = 2
+VERSION = 3
 FOLDER = "checkpoints"
 _ARRAY = "@"  # key that stands for an array
 
@@ -88,7 +90,7 @@ class Checkpoints:
     deck: Deck
     resume: bool = False
     _number: int = 0
-    _lengths: dict[int, tuple[int, int]] = field(default_factory=dict)
+    _lengths: dict[int, tuple[int, int, int]] = field(default_factory=dict)
 
     @property
     def found(self) -> bool:
@@ -131,11 +133,12 @@ class Checkpoints:
         try:
             with zipfile.ZipFile(path) as file:
                 state = _decoded(head["state"], file)
-            rows = _read_rows(self._path(number, "rows"), head["batches"])
-            length, batches = int(head["length"]), int(head["batches"])
+            path = self._path(number, "rows")
+            length, total, batches = (int(head[name]) for name in ("length", "sum", "batches"))
+            rows = _read_rows(path, length, total, batches)
         except DAMAGES as error:
             raise self._damaged(path, error) from error
-        self._lengths[number] = length, batches
+        self._lengths[number] = length, total, batches
         return Kept(head["call"], state, rows)
 
     def write(
@@ -150,16 +153,17 @@ class Checkpoints:
         """
         if not (self.resume or self._lengths):
             self._remove()  # what an earlier run left is no part of this one
-        length, batches = self._lengths.get(number, (0, 0))
+        length, total, batches = self._lengths.get(number, (0, 0, 0))
         try:
             names = np.frombuffer(json.dumps(list(rows)).encode(), np.uint8)
-            length = _append(self._path(number, "rows"), length, [names, *rows.values()])
+            arrays = [names, *rows.values()]
+            length, total = _append(self._path(number, "rows"), length, total, arrays)
         except OSError as error:
             path = self._path(number, "rows")
             raise OutputError(
                 "io.cannot-written", path=path, strerror=system_reason(error)
             ) from error
-        arrays: list[NDArray[Any]] = []
+        arrays = []
         head = {
             "format": FORMAT,
             "version": VERSION,
@@ -167,13 +171,14 @@ class Checkpoints:
             "call": dict(call),
             "batches": batches + 1,
             "length": length,
+            "sum": total,
             "state": _encoded(state, arrays),
         }
         with replacing(self._path(number, "state")) as stream:
             _write_zip(stream, head, arrays)
             stream.flush()
             os.fsync(stream.fileno())
-        self._lengths[number] = length, batches + 1
+        self._lengths[number] = length, total, batches + 1
 
     def forget(self) -> None:
         """Remove them: the deck has come to its end."""
@@ -278,8 +283,8 @@ def _write_zip(stream: Any, head: dict[str, Any], arrays: list[NDArray[Any]]) ->
                 np.lib.format.write_array(member, array, allow_pickle=False)
 
 
-def _append(path: Path, length: int, arrays: Iterable[NDArray[Any]]) -> int:
-    """Write arrays behind the first `length` bytes of a file; its length then."""
+def _append(path: Path, length: int, total: int, arrays: Iterable[NDArray[Any]]) -> tuple[int, int]:
+    """Write arrays behind the first `length` bytes of a file; its length then, and its CRC-32."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle = os.open(path, os.O_RDWR | os.O_CREAT | GUARDED, 0o666)
     with os.fdopen(handle, "r+b") as stream:
@@ -289,12 +294,24 @@ def _append(path: Path, length: int, arrays: Iterable[NDArray[Any]]) -> int:
             np.lib.format.write_array(stream, array, allow_pickle=False)
         stream.flush()
         os.fsync(stream.fileno())
-        return stream.tell()
+        end = stream.tell()
+        stream.seek(length)
+        return end, _summed(stream, end - length, total)
 
 
-def _read_rows(path: Path, batches: int) -> list[Rows]:
+def _summed(stream: IO[bytes], count: int, total: int = 0) -> int:
+    """The CRC-32 of the next `count` bytes, behind others whose one is `total`."""
+    while piece := stream.read(min(count, 1 << 20)):
+        count, total = count - len(piece), crc32(piece, total)
+    return total
+
+
+def _read_rows(path: Path, length: int, total: int, batches: int) -> list[Rows]:
     """The arrays of each batch by name; the names stand before them."""
     with path.open("rb") as stream:
+        if _summed(stream, length) != total:
+            raise ValueError(f"CRC-32 of the first {length} bytes")
+        stream.seek(0)
         return [
             {
                 name: np.lib.format.read_array(stream, allow_pickle=False)

@@ -103,8 +103,11 @@ class Series:
 
         if self._one is not None:
             return self._one
-        self._reader.set_active_time_point(row)
-        found = self._reader.read()
+        try:
+            self._reader.set_active_time_point(row)
+            found = self._reader.read()
+        except (RuntimeError, OSError) as problem:  # a file of the series is gone, or damaged
+            raise InputError("io.not-viewed-no-points", path=self.path) from problem
         return found.combine() if isinstance(found, pyvista.MultiBlock) else found
 
 

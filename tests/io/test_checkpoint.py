@@ -141,13 +141,15 @@ def test_checkpoints_of_another_run(tmp_path: Path, deck: Deck, code: str, told:
 
 
 @pytest.mark.parametrize("damaged", ["1.state", "1.rows"])
-def test_half_a_file_is_told(tmp_path: Path, damaged: str) -> None:
+@pytest.mark.parametrize("harm", [lambda held: held[:70], lambda held: held[:-3] + b"\1\2\3"])
+def test_a_damaged_file_is_told(tmp_path: Path, damaged: str, harm) -> None:
     _kept(tmp_path)
     path = tmp_path / damaged
-    path.write_bytes(path.read_bytes()[:70])
+    path.write_bytes(harm(path.read_bytes()))
     with pytest.raises(InputError) as caught:
         Checkpoints(tmp_path, DECK, resume=True).read(1)
     assert caught.value.code == "io.checkpoint-damaged"
+    assert caught.value.data["path"] == path
 
 
 def test_what_tells_files_and_parameters_apart(tmp_path: Path) -> None:

@@ -140,6 +140,7 @@ def test_meshes_are_read_by_the_door_of_scripts(tmp_path: Path) -> None:
         (["empty", "-o", "x.png"], "holds nothing to show"),
         (["bad.txt", "-o", "x.png"], "of no kind that can be shown"),
         (["bad.vtu", "-o", "x.png"], "no points, or is damaged"),
+        (["cut", "-o", "x.png"], "no points, or is damaged"),
         (["bad.msh", "-o", "x.png"], "bad.msh cannot be read as GMSH"),
         (["one"], "ssilang view one -o picture.png"),
         (["one", "--lang", "fr"], "il n'y a pas d'écran"),
@@ -159,6 +160,9 @@ def test_what_cannot_be_shown_is_said(
     Path("empty").mkdir(exist_ok=True)
     for name in ("bad.msh", "bad.vtu", "bad.txt"):
         Path(name).write_text("nothing\n")
+    shutil.copytree("many", "cut", dirs_exist_ok=True)
+    for piece in Path("cut").rglob("*.vtu"):
+        piece.write_bytes(piece.read_bytes()[: piece.stat().st_size // 2])
     assert main(["view", *words]) == 2
     assert said in capsys.readouterr().err
     assert not list(results.glob("x.*"))

@@ -184,6 +184,15 @@ PASAPAS = (
     "T . 'CHARGEMENT' = {0} ; PASAPAS T ;"
 )
 
+MATRICES = "operators.matrices."
+MACRO = (
+    TIMES + "OPTI ELEM SEG2 ; {0} PT = 0. 1. ; MJ = MODE (MANU 'SEG2' {1}) 'MECANIQUE' 'ELASTIQUE' "
+    "'MACRO_SEMELLE' 'JOI1' ; AJ = MATE MJ 'KN' 1.E7 'KS' 1.E7 'LARG' 4. ; K = BLOQ 'DEPL' 'ROTA' "
+    "PB ; M = (MASS 'DEPL' 1. PT) ET (MASS 'ROTA' 1. PT) ; F = CHAR (FORC (0. -1.) PT) EV ; "
+    + TABLE
+    + "T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = AJ ; DYNAMIC T ;"
+)
+
 
 def loaded(x: str, y: str) -> str:
     """The oscillator's load with this curve."""
@@ -279,6 +288,44 @@ MODELS = {
     "mass on a new point": (
         OSCILLATOR.format("M = M ET (MASS 'UX' 1. (0. 0.)) ;", ""),
         "D.masses-alone",
+    ),
+    "mass and dashpot on a new point": (
+        OSCILLATOR.format("M = M ET (MASS 'UX' 1. (0. 0.)) ;", "T . 'AMOR' = 0.1 * M ;"),
+        "D.masses-alone",
+    ),
+    "both sides of joints held": (
+        FOOTING.format(HELD + WEIGHT, ""),
+        "D.joints-held",
+    ),
+    "a load on what is held": (
+        BODY.format(HELD + "F = F ET (CHAR (FORC (1. 0.) B) EV) ;", ""),
+        "D.load-on-supports",
+    ),
+    "dashpots on what is held": (
+        BODY.format(HELD + "C = AMOR MO B A ;", "T . 'AMOR' = C ;"),
+        "D.dashpots-on-supports",
+    ),
+    "dashpots inside the body": (
+        SQUARE + "L = DROI 2 (0 0.5) (1 0.5) ; ELIM 1.E-3 (S ET L) ; C = AMOR MO L A ;",
+        "operators.matrices.border-inside",
+    ),
+    "a load before the first instant": (
+        BODY.format(HELD, "T . 'TEMPS_CALCULES' = PROG 0.9 PAS 0.01 1. ;"),
+        "D.load-before",
+    ),
+    "joints under a part of the body": (
+        SQUARE.replace("DROI 2", "DROI 4") + "G = B PLUS (0. 0.) ; Q = TRAN 1 G (0 -1) ; "
+        "N = MODE Q 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE (RACC 0.001 (B ELEM (LECT 1 2)) "
+        "(G ELEM (LECT 1 2))) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2' ; "
+        "AJ = MATE MJ 'KN' 1.E5 'KS' 1.E5 ; K = K ET (RIGI MJ AJ) ET (BLOQ 'DEPL' (COTE 3 Q)) "
+        "ET (RIGI N (MATE N 'YOUN' 1.E7 'NU' 0.)) ; U = RESO K (FORC (0. -1.) H) ;",
+        "operators.matrices.beside-joints",
+    ),
+    "a footing that leans": (MACRO.format("PB = 0.5 0. ;", "PB PT"), MATRICES + "footing-inclined"),
+    "a footing upside down": (MACRO.format("PB = 0. 0. ;", "PT PB"), MATRICES + "footing-turned"),
+    "a large mesh, by its matter": (
+        SQUARE.replace("(1 0)", "(9000 0)"),
+        "operators.models.unusual-size",
     ),
     "loads of nought": (OSCILLATOR.format("F = CHAR (FORC (0. 0.) P) EV ;", ""), "D.nothing-moves"),
     "a curve of nought": (OSCILLATOR.format(loaded("0. 1.", "0. 0."), ""), "D.nothing-moves"),

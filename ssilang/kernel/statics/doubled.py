@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -191,8 +192,37 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
         return nodes[:0]
-    points = matrix.table.coordinates[nodes]
-    near, own, found = NEAR * float(np.ptp(points, axis=0).max()), body[nodes], [nodes[:0]]
+    return _met(matrix.table.coordinates, nodes, body[nodes])
+
+
+def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
+    """Nodes (n,) in the plane of surface joints, on nodes of another body, that no joint has.
+
+    None where they are fewer than a joint's side has: an edge of two bodies, no face.
+    """
+    faces = [z.cells.nodes.resolve(z.cells.raw) for z in joints if z.element != "JOI1"]
+    solid = [b.nodes for b in matrix.blocks if b.zone is not None and not is_joint(b.zone)]
+    solid = [x for x in solid if x.shape[1] > 1]
+    if not faces or not solid:
+        return np.zeros(0, np.int64)
+    points, joined = matrix.table.coordinates, np.unique(np.concatenate([x.ravel() for x in faces]))
+    middle = points[joined].mean(axis=0)
+    _, sizes, axes = np.linalg.svd(points[joined] - middle, full_matrices=False)
+    flat = axes[sizes <= NEAR * sizes[0]]
+    body = parts_of(
+        len(points), *(np.stack([np.repeat(x[:, 0], x.shape[1]), x.ravel()]) for x in solid)
+    )
+    nodes = np.setdiff1d(np.concatenate([x.ravel() for x in solid]), joined)
+    off = np.abs((points[nodes] - middle) @ flat.T).max(axis=1, initial=0.0)
+    nodes = nodes[(off <= NEAR * sizes[0]) & (len(flat) > 0)]
+    found = _met(points, nodes, body[nodes]) if len(nodes) else nodes
+    return found if len(found) >= min(x.shape[1] for x in faces) // 2 else nodes[:0]
+
+
+def _met(coordinates: FloatArray, nodes: IntArray, own: IntArray) -> IntArray:
+    """Those of the nodes (n,), of the bodies `own`, at whose place one of another body is."""
+    points = coordinates[nodes]
+    near, found = NEAR * float(np.ptp(points, axis=0).max()), [nodes[:0]]
     for shift in (0.25, 0.75):  # a search tree's library would cost every start of a motion 0.2 s
         grid = np.floor(points / near + shift)
         _, first, cell = np.unique(grid, axis=0, return_index=True, return_inverse=True)

@@ -12,7 +12,7 @@ bending of a mast hinged at its foot.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,6 +71,18 @@ def swapped_joints(
         if len(cosine) and (cosine < AGAINST).all():
             found.append(SwappedJoints(middle, zone.element == "JOI1", _overlap(joints)))
     return tuple(found)
+
+
+def inclinations(
+    model: Model | None, characteristics: CellField | None
+) -> Iterator[tuple[int, float]]:
+    """Upper node of each macro-element, and its normal's angle with the upward axis (degrees)."""
+    for zone in () if model is None else joint_zones(model):
+        joints = joint_cells(zone, zone_field(zone, characteristics))
+        if is_macro(joints):
+            nodes = zone.cells.nodes.resolve(joints.upper).ravel()
+            cosines = np.clip(joints.frames[:, 0, -1, -1], -1.0, 1.0)
+            yield from zip(nodes.tolist(), np.degrees(np.arccos(cosines)).tolist(), strict=True)
 
 
 def _overlap(joints: JointCells) -> float:

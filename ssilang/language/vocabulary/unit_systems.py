@@ -131,8 +131,8 @@ MATTER: tuple[dict[str, Range], ...] = (
     {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-11, 25e-9)},  # MPa, t/mm3
     {"YOUN": Range(high=1e4), "RHO": Range(1e-3, 100.0)},  # numbers without units
 )
-"""What a modulus and a density are together, in each system of units: outside of all, one of the
-two is in another."""
+"""What a modulus and a density are together, in each of `SYSTEMS`, in turn, and without units:
+outside of all, one of the two is in another."""
 
 
 WAVES = Range(20.0, 4000.0)

@@ -24,6 +24,8 @@ from ssilang.operators.curves.words import (
 from ssilang.operators.prelude import *
 
 _KINDS = ("DEPL", "VITE", "ACCE")
+_SHAKEN = 10  # changes of sign that make a record of a curve
+_DRIFT = 0.1  # of the largest velocity, that a record may end with
 
 
 _RULE = choice(
@@ -42,6 +44,9 @@ def insi(call: Call, curve: Curve = RECORD, rule: str = _RULE) -> tuple[Curve, C
     moved, fast = [], []
     for p in curve.parts:
         v, d = integrated(p.ordinates, constant_step(p.abscissas), linear)
+        turns = np.count_nonzero(np.diff(np.signbit(p.ordinates)))
+        if turns > _SHAKEN and abs(v[-1]) > _DRIFT * np.abs(v).max():
+            call.warn("operators.curves.drifts", curve, speed=float(v[-1]), way=float(d[-1]))
         moved.append(dataclasses.replace(p, ordinates=d, ordinate_name="DEPL"))
         fast.append(dataclasses.replace(p, ordinates=v, ordinate_name="VITE"))
     return Curve(tuple(moved), curve.title), Curve(tuple(fast), curve.title)

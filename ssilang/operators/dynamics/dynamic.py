@@ -69,7 +69,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
     warn_at_rest(entries, problem)
-    warn_of_loads(entries, inputs.load, times)
+    warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
     warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)

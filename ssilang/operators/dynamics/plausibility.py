@@ -27,6 +27,7 @@ NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
+SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
@@ -115,6 +116,21 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
         yield "operators.dynamics.masses-alone", told
 
 
+def _on_supports(problem: Problem, inputs: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.loading import nodal_terms
+    from ssilang.kernel.stepping.problem.plausibility import held_joints, on_supports
+
+    if held_joints(problem):
+        yield "operators.dynamics.joints-held", {}
+    loads, dashpots = on_supports(problem)
+    parts = () if inputs.load is None else inputs.load.parts
+    names = [part.name for part in parts for _ in nodal_terms(part)]
+    for name in dict.fromkeys(names[k] for k in loads):
+        yield "operators.dynamics.load-on-supports", {"name": name}
+    if dashpots:
+        yield "operators.dynamics.dashpots-on-supports", {}
+
+
 def _loose(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
 
@@ -153,7 +169,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
-    _joints_of_others,
+    _joints_of_others, _on_supports,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)
@@ -181,8 +197,13 @@ def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> 
         entries.warn("operators.dynamics.moves-far", way=way, size=size, times=way / size)
 
 
-def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> None:
-    """Warn of curves of loads that begin late, end early, or change between the instants."""
+def warn_of_loads(
+    entries: Entries, load: Load | None, times: FloatArray, *, at_rest: bool = False
+) -> None:
+    """Warn of curves of loads that begin late, end early, or change between the instants.
+
+    A calculation that starts `at_rest` is asked what of them lies before it.
+    """
     parts = () if load is None or len(times) < 2 else load.parts
     known: set[tuple[int, bytes]] = set()
     for part in parts:
@@ -194,7 +215,8 @@ def warn_of_loads(entries: Entries, load: Load | None, times: FloatArray) -> Non
         known.add(key)
         for curve in curves:
             for code, told in _flaws(curve.abscissas, curve.ordinates, times):
-                entries.warn(code, name=part.name, **told)
+                if at_rest or code != "operators.dynamics.load-before":
+                    entries.warn(code, name=part.name, **told)
 
 
 def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
@@ -211,6 +233,9 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
         yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
+    before = np.append(y[x < first], np.interp(first, x, y))
+    if np.abs(np.diff(before)).sum() > SWUNG * size:
+        yield "operators.dynamics.load-before", told
     inside = (x > first) & (x < last)
     seen = np.interp(x[inside], times, np.interp(times, x, y))
     off = np.abs(seen - y[inside])

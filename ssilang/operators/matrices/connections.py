@@ -13,6 +13,7 @@ from ssilang.operators.prelude import *
 Tell = Callable[..., None]
 _KEY = "connections"
 _NAMED = 4  # nodes that a warning names
+_UPRIGHT, _TURNED = 3.0, 120.0  # degrees between a footing's normal and the vertical
 
 
 def warn_connections(
@@ -48,6 +49,7 @@ def warn_connections(
     if model is None and made:
         model = Model(made)
     _warn_swapped_joints(tell, matrix, model, characteristics)
+    _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         _warn_apart(tell, matrix, model)
@@ -92,12 +94,16 @@ def _warn_springs_apart(
 
 
 def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.doubled import bodies_apart
+    from ssilang.kernel.statics.doubled import beside_joints, bodies_apart
 
     zones = () if model is None else model.zones
     if any(z.formulation == "CONTACT" for z in zones):
         return
-    found = bodies_apart(matrix, [z for z in zones if is_joint(z)])
+    joints = [z for z in zones if is_joint(z)]
+    found = bodies_apart(matrix, joints)
+    if len(left := beside_joints(matrix, joints)):
+        told = {"count": len(left), "place": matrix.table.told(int(left[0]))}
+        tell("operators.matrices.beside-joints", **told)
     if len(found) > 1:  # bodies that meet in a single node are seldom one
         place = matrix.table.told(int(found[0]))
         tell("operators.matrices.bodies-apart", count=len(found), place=place)
@@ -140,6 +146,22 @@ def _warn_swapped_joints(
         place = told_coordinates(matrix.table.shown(np.round(found.middle, 9)))
         told = {"points": found.points, "overlap": found.overlap}
         tell("operators.matrices.sides-swapped", place=place, **told)
+
+
+def _warn_footings(
+    tell: Tell,
+    matrix: Matrix,
+    model: Model | None,
+    characteristics: CellField | None,
+) -> None:
+    from ssilang.kernel.statics.swapped_joints import inclinations
+
+    for node, angle in inclinations(model, characteristics):
+        if angle > _TURNED:
+            tell("operators.matrices.footing-turned", node=matrix.table.told(node))
+        elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
+            told = {"node": matrix.table.told(node), "angle": angle}
+            tell("operators.matrices.footing-inclined", **told)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

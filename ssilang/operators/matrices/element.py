@@ -11,6 +11,7 @@ import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
+from ssilang.kernel.elements.boundary import parents
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
@@ -229,7 +230,11 @@ def amor(
     reference: bool,
 ) -> Matrix:
     """Absorbing boundary."""
-    return absorbing_boundary(present(call, model), boundary, joined(fields))
+    shown = present(call, model)
+    inner = sum(int(parents(block, shown).inner.sum()) for block in boundary.blocks)
+    if inner:
+        call.warn("operators.matrices.border-inside", boundary, count=inner)
+    return absorbing_boundary(shown, boundary, joined(fields))
 
 
 @amor.form(

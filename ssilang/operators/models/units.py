@@ -12,7 +12,7 @@ from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.materials.model import Mode
 from ssilang.language.vocabulary import Quantity
 from ssilang.language.vocabulary.terms import Range
-from ssilang.language.vocabulary.unit_systems import MATTER, UnitSystem, likely_units
+from ssilang.language.vocabulary.unit_systems import MATTER, SYSTEMS, UnitSystem, likely_units
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
 
@@ -37,10 +37,9 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
     """
     session, system = call.session, workspace(call.session).units
     ours = session.frame.procedure in session.library.standard_names
-    if system is not None and not ours:
-        _warn_of_size(call, zone, system)
-    elif not ours:
-        _warn_of_matter(call, given)
+    shown = system or (None if ours else _of_matter(call, given))
+    if shown is not None and not ours:
+        _warn_of_size(call, zone, shown)
     for name, (array, said) in given.items():
         meant = words.parameter(name, zone)
         ends = _ends(array) if meant is not None and array.dtype == float else ()
@@ -54,13 +53,17 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
             _warn(call, meant, unusual, said, system)
 
 
-def _warn_of_matter(call: Call, given: Mapping[str, Given]) -> None:
-    """Warn of a modulus and a density that are in different systems of units, not said."""
+def _of_matter(call: Call, given: Mapping[str, Given]) -> UnitSystem | None:
+    """The system in which a modulus and a density belong together; warn where there is none."""
     known = {n: _ends(a) for n, (a, _) in given.items() if n in MATTER[0] and a.dtype == float}
-    fits = (all(v in usual[n] for n in usual for v in known[n]) for usual in MATTER)
-    if len(known) == len(MATTER[0]) and all(known.values()) and not any(fits):
+    if len(known) < len(MATTER[0]) or not all(known.values()):
+        return None
+    fits = [all(v in usual[n] for n in usual for v in known[n]) for usual in MATTER]
+    if not any(fits):
         told = {n.lower(): max(ends) for n, ends in known.items()}
         call.warn("operators.models.no-units", given["RHO"][1], **told)
+    first = next((s for s, there in zip(SYSTEMS.values(), fits, strict=False) if there), None)
+    return first if sum(fits) == 1 else None
 
 
 def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:

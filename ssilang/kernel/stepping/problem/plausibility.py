@@ -254,9 +254,9 @@ def against_supports(problem: Problem) -> dict[str, IntArray]:
 
 
 def masses_alone(problem: Problem) -> IntArray:
-    """Nodes (n,) with mass or dashpots, not both, that nothing holds, joins, pushes or moves."""
+    """Nodes (n,) with mass or dashpots that nothing holds, joins, pushes or moves."""
     joints, contact, loading = problem.interface, problem.contact, problem.loading
-    others = [problem.K, problem.constraints.C]
+    others = [problem.K, problem.constraints.C, problem.C - sp.diags_array(problem.C.diagonal())]
     others += [] if joints is None else [joints.J]
     others += [] if contact is None else [contact.G]
     used = np.zeros(problem.numbering.size, bool)
@@ -265,7 +265,30 @@ def masses_alone(problem: Problem) -> IntArray:
     used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     nodes = problem.numbering.nodes
     heavy, damped = (nodes[matrix.diagonal() != 0.0] for matrix in (problem.M, problem.C))
-    return np.setdiff1d(np.setxor1d(heavy, damped), nodes[used])
+    return np.setdiff1d(np.union1d(heavy, damped), nodes[used])
+
+
+def held_joints(problem: Problem) -> bool:
+    """Whether supports hold both sides of all joints: none can open or slip."""
+    joints = problem.interface
+    if joints is None or problem.loading.imposed.any() or not joints.n_points:
+        return False
+    return bool(abs(joints.J @ problem.constraints.T).max() <= ROUNDING)
+
+
+def on_supports(problem: Problem) -> tuple[IntArray, bool]:
+    """Loads whose whole force is on what supports hold, and whether all dashpots are there."""
+    T, forces = problem.constraints.T, problem.loading.forces
+    sizes, left = (
+        np.abs(forces).max(axis=0, initial=0.0),
+        abs(T.T @ forces).max(axis=0, initial=0.0),
+    )
+    some = T @ (1.0 + np.cos(np.arange(T.shape[1])))
+    felt, damping = problem.C @ some, abs(problem.C) @ np.ones(len(some))
+    idle = bool(damping.any()) and bool(
+        np.abs(T.T @ felt).max(initial=0.0) <= ROUNDING * damping.max()
+    )
+    return np.flatnonzero((sizes > 0.0) & (left <= ROUNDING * sizes)), idle
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.
