@@ -277,7 +277,7 @@ def held_joints(problem: Problem) -> bool:
 
 
 def on_supports(problem: Problem) -> tuple[IntArray, bool]:
-    """Loads whose whole force is on what supports hold, and whether all dashpots are there."""
+    """Loads that change, all on what supports hold, and whether all dashpots are there."""
     T, forces = problem.constraints.T, problem.loading.forces
     sizes, left = (
         np.abs(forces).max(axis=0, initial=0.0),
@@ -288,7 +288,8 @@ def on_supports(problem: Problem) -> tuple[IntArray, bool]:
     idle = bool(damping.any()) and bool(
         np.abs(T.T @ felt).max(initial=0.0) <= ROUNDING * damping.max()
     )
-    return np.flatnonzero((sizes > 0.0) & (left <= ROUNDING * sizes)), idle
+    changes = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
+    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes)), idle
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.
