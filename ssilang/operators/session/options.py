@@ -171,8 +171,8 @@ def _mode(call: Call, word: str) -> None:
     elif said == "UNID":
         line = call.keyword(_LINES) or (glued[:4] if glued[:4] in _LINES else "PLAN")
         across = call.keyword(_UNID) or (glued[4:] if glued[4:] in _UNID else "DYDZ")
-        if (line, across) != ("PLAN", "DYDZ"):
-            raise call.error("operators.session.line-not-built", word=across if line == "PLAN" else line)
+        if (word := across if line == "PLAN" else line) != "DYDZ":
+            raise call.error("operators.session.line-not-built", word=word)
     ws.mode = _MODES[said]
 
 
