@@ -4,10 +4,20 @@ import pytest
 from script_runs import ran
 
 
-@pytest.mark.parametrize("mode", ["PLAN CONT", "PLAN DEFO", "PLAN GENE", "AXIS"])
-def test_mode_is_set_again_by_its_own_word(mode):
+@pytest.mark.parametrize(
+    ("dimension", "mode", "said"),
+    [
+        (2, "PLAN CONT", "PLANCONT"),
+        (2, "PLAN DEFO", "PLANDEFO"),
+        (2, "PLAN GENE", "PLANGENE"),
+        (2, "AXIS", "AXIS"),
+        (1, "UNID", "UNIDPLANDYDZ"),
+    ],
+)
+def test_mode_is_set_again_by_its_own_word(dimension, mode, said):
     result = ran(
-        f"OPTI DIME 2 MODE {mode} ; M = VALE 'MODE' ; OPTI DIME 3 ; OPTI DIME 2 ; OPTI 'MODE' M ; "
-        "N = VALE 'MODE' ; L = EGA M N ;"
+        f"OPTI DIME {dimension} MODE {mode} ; M = VALE 'MODE' ; OPTI DIME 3 ; "
+        f"OPTI DIME {dimension} ; OPTI 'MODE' M ; N = VALE 'MODE' ; "
+        f"L = (EGA M N) ET (EGA M '{said}') ;"
     )
     assert result.session.root.find("L") is True

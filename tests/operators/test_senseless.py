@@ -580,6 +580,7 @@ SENSIBLE_ENDS = {
         "X = CONC E (EVOL 'MANU' (PROG 1. 2.) (PROG 1. 2.)) ;"
     ),
     "lists of words of one kind": "X = (MOTS 'UX' 'UX') ;",
+    "the usual colour by a number below nought": SQUARE + "X = S COUL -3 ;",
     "an angle of rounding": "X = COS 3.3E-13 ; Y = SIN (PROG -2.E-13 0. 1.E-10) ;",
     "a signal whose last point closes the period": (
         "E = EVOL 'MANU' (PROG 0. PAS 1. 8.) (PROG 9 * 1.) ; X = TFR 3 E 'REIM' 'FMAX' 0.5 ;"

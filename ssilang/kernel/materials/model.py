@@ -17,12 +17,12 @@ class Mode(Enum):
     AXISYMMETRIC = "AXIS"
     FOURIER = "FOUR"
     THREE_DIMENSIONAL = "TRID"
-    UNIDIMENSIONAL = "UNID"
+    UNIDIMENSIONAL = "UNID PLAN DYDZ"
 
     @property
     def dimension(self) -> int:
         """Number of coordinates that a point has."""
-        return {"TRID": 3, "UNID": 1}.get(self.value, 2)
+        return {"TRID": 3, "UNID": 1}.get(self.value[:4], 2)
 
 
 @dataclass(frozen=True, eq=False)

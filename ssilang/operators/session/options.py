@@ -42,6 +42,7 @@ _MODES: dict[str, Mode] = {
     "UNID": Mode.UNIDIMENSIONAL, "CONT": Mode.PLANE_STRESS, "DEFO": Mode.PLANE_STRAIN,
     "GENE": Mode.GENERALISED_PLANE_STRAIN,
 }  # fmt: skip
+_LINES = ("PLAN", "AXIS", "SPHE")
 _UNID = (
     "DYDZ", "DYCZ", "CYDZ", "CYCZ", "GYDZ", "GYCZ", "DYGZ", "CYGZ", "GYGZ", "AXDZ", "AXCZ", "AXGZ",
 )  # fmt: skip
@@ -155,7 +156,7 @@ def _coul(call: Call, word: str) -> None:
 def _mode(call: Call, word: str) -> None:
     ws = workspace(call.session)
     said = _one_of(call, "MODE", ("PLAN", "AXIS", "FOURIER", "TRID", "UNID", "FREQ"))
-    glued = str(call.used[-1].value).upper().rstrip()[4:8]  # PLANCONT, as VALE 'MODE' says it
+    glued = str(call.used[-1].value).upper().rstrip()[4:]  # PLANCONT, as VALE 'MODE' says it
     ws.options["FREQ"] = said == "FREQ"
     if said == "FREQ":  # the hypothesis on displacements stays
         return
@@ -168,8 +169,10 @@ def _mode(call: Call, word: str) -> None:
         if ws.dimension == 3:  # a harmonic asked for after CREER_3D went to space
             ws.dimension = 2
     elif said == "UNID":
-        call.keyword(("PLAN", "AXIS", "SPHE"))
-        call.keyword(_UNID)
+        line = call.keyword(_LINES) or (glued[:4] if glued[:4] in _LINES else "PLAN")
+        across = call.keyword(_UNID) or (glued[4:] if glued[4:] in _UNID else "DYDZ")
+        if (word := across if line == "PLAN" else line) != "DYDZ":
+            raise call.error("operators.session.line-not-built", word=word)
     ws.mode = _MODES[said]
 
 

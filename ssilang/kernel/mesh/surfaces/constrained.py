@@ -11,7 +11,7 @@ from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.fill import SizeField, fill_contour
+from ssilang.kernel.mesh.surfaces.fill import SizeField, boundary_sizes, fill_contour
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import delaunay_triangles, recover_segments
 
@@ -61,8 +61,7 @@ def _flat(at: FloatArray, dimension: int) -> FloatArray:
     off = float(np.abs(centred @ axes[2]).max())
     if off > 1e-3 * extent:
         raise MeshError("kernel.mesh.lines-not-plane-point", off=off)
-    flat: FloatArray = centred @ axes[:2].T
-    return flat
+    return np.asarray(centred @ axes[:2].T)
 
 
 def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.bool_]:
@@ -91,8 +90,7 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     graph = np.full((n_parts + 1, n_parts + 1), np.inf)
     np.minimum.at(graph, (a[kept], b[kept]), cost[kept])
     steps = shortest_path(graph, directed=False, indices=n_parts)
-    inside: NDArray[np.bool_] = np.round(steps[part]) % 2 == 1
-    return inside
+    return np.asarray(np.round(steps[part]) % 2 == 1)
 
 
 def refined_triangles(
@@ -103,7 +101,8 @@ def refined_triangles(
     Parameters
     ----------
     ids, sizes : array (n,)
-        Nodes of the mesh and the sizes wanted there; all nodes are kept.
+        Nodes of the mesh, which are all kept, and the sizes wanted there; where none is (0),
+        the border's sides say it.
     limit : int, optional
         Most nodes of the result: the sizes grow alike until it is kept.
 
@@ -124,6 +123,10 @@ def refined_triangles(
     number[every] = np.arange(len(every))
     flat = chart.flatten(nodes.coordinates[every].copy())
     at = chart.flatten(nodes.coordinates[ids].copy())
+    own = boundary_sizes(flat, number[edge])[number[ids]]
+    sizes = np.where(sizes > 0.0, sizes, own)
+    known = sizes > 0.0  # within the border those without a size follow the others
+    at, sizes = at[known], sizes[known]
     field = SizeField(at, sizes)
     points, triangles = fill_contour(flat, number[edge], field, squares=False)
     while limit is not None and len(points) > limit:

@@ -25,7 +25,7 @@ from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parte
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
 from ssilang.language.registry import either
-from ssilang.language.vocabulary.terms import between
+from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.dispatch import CHAN, COUL, MANU
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *
@@ -212,7 +212,7 @@ def afco(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> Mesh:
     main("mesh", "MAILLAGE", en="mesh"),
     either(
         "colour",
-        group("number", arg("number", "ENTIER", en="its number", usual=between(0, len(COLOURS)))),
+        group("number", arg("number", "ENTIER", en="its number", usual=Range(high=len(COLOURS)))),
         group("name", arg("name", "MOT", en="its name", kind="colour")),
         optional=True,
         en="colour, that of OPTI COUL by default",

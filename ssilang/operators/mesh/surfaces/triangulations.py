@@ -109,8 +109,8 @@ def raft(
         wanted = mesh.nodes.density[ids].copy()
     else:
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
-    if not (wanted > 0).all():
-        raise MeshError("operators.mesh.sizes-not-positive")
+        if not (wanted > 0).all():
+            raise MeshError("operators.mesh.sizes-not-positive")
     return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
