@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from inspect import signature
 from types import FunctionType
-from typing import Any, Concatenate, Literal, ParamSpec
+from typing import Any, Concatenate, Literal, ParamSpec, TypedDict, Unpack
 
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.filled import Filled
@@ -152,23 +152,26 @@ class Chosen:
 Entry = Argument | Keyword | Select | Group | Either
 
 
-def arg(
-    name: str,
-    *types: str,
-    en: str = "",
-    unit: str = "",
-    kind: str = "",
-    range: Range = UNSAID,
-    usual: Range = UNSAID,
-    above: str = "",
-    distinct: bool = False,
-    over: str = "",
-) -> Any:
+class Meant(TypedDict, total=False):
+    """What an entry says of its operands beside their types, as `Argument` has it."""
+
+    en: str
+    unit: str
+    kind: str
+    leaving: int
+    left: tuple[str, ...]
+    behind: bool
+    whole: bool
+    range: Range
+    usual: Range
+    above: str
+    distinct: bool
+    over: str
+
+
+def arg(name: str, *types: str, **said: Unpack[Meant]) -> Any:
     """A mandatory operand of one of the types (none: any type)."""
-    return Argument(
-        name, types or (ANY,), en=en, unit=unit, kind=kind, range=range, usual=usual, above=above,
-        distinct=distinct, over=over,
-    )  # fmt: skip
+    return Argument(name, types or (ANY,), **said)
 
 
 def lead(name: str, *types: str, whole: bool = False, en: str = "", kind: str = "") -> Any:
@@ -189,41 +192,12 @@ def main(name: str, *types: str, en: str = "") -> Any:
     return Argument(name, types, en=en, main=True, range=CARRIED)
 
 
-def opt(
-    name: str,
-    *types: str,
-    default: Any = None,
-    en: str = "",
-    unit: str = "",
-    kind: str = "",
-    range: Range = UNSAID,
-    usual: Range = UNSAID,
-    distinct: bool = False,
-) -> Any:
+def opt(name: str, *types: str, default: Any = None, **said: Unpack[Meant]) -> Any:
     """An optional operand."""
-    return Argument(
-        name, types or (ANY,), optional=True, default=default, en=en, unit=unit, kind=kind,
-        range=range,
-        usual=usual,
-        distinct=distinct,
-    )  # fmt: skip
+    return Argument(name, types or (ANY,), optional=True, default=default, **said)
 
 
-def many(
-    name: str,
-    *types: str,
-    at_least: Literal[0, 1] = 0,
-    leaving: int = 0,
-    left: Sequence[str] = (),
-    behind: bool = False,
-    en: str = "",
-    unit: str = "",
-    kind: str = "",
-    whole: bool = False,
-    range: Range = UNSAID,
-    usual: Range = UNSAID,
-    distinct: bool = False,
-) -> Any:
+def many(name: str, *types: str, at_least: Literal[0, 1] = 0, **said: Unpack[Meant]) -> Any:
     """All operands of one of the types that can be read, as a tuple.
 
     With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
@@ -231,21 +205,7 @@ def many(
     those that stand behind it.
     """
     return Argument(
-        name,
-        types or (ANY,),
-        optional=at_least == 0,
-        repeated=True,
-        default=(),
-        en=en,
-        unit=unit,
-        kind=kind,
-        leaving=leaving,
-        left=tuple(left),
-        behind=behind,
-        whole=whole,
-        range=range,
-        usual=usual,
-        distinct=distinct,
+        name, types or (ANY,), optional=at_least == 0, repeated=True, default=(), **said
     )
 
 
@@ -799,32 +759,24 @@ def words_in(entries: Iterable[Entry]) -> Iterator[str]:
 
 def keywords_in(entries: Iterable[Entry]) -> Iterator[Keyword | Select]:
     """All keywords among entries, inner ones too."""
-    for entry in entries:
-        match entry:
-            case Keyword():
-                yield entry
-            case Select():
-                yield entry
-                for inner in entry.cases.values():
-                    yield from keywords_in(inner)
-            case Group():
-                yield from keywords_in(entry.entries)
-            case Either():
-                yield from keywords_in(entry.groups)
+    return (e for e in _with_inner(entries) if isinstance(e, Keyword | Select))
 
 
 def arguments_in(entries: Iterable[Entry]) -> Iterator[Argument]:
     """All operands of entries, inner ones too."""
+    return (e for e in _with_inner(entries) if isinstance(e, Argument))
+
+
+def _with_inner(entries: Iterable[Entry]) -> Iterator[Entry]:
     for entry in entries:
+        yield entry
         match entry:
-            case Argument():
-                yield entry
             case Keyword():
                 yield from entry.arguments
             case Select():
                 for inner in entry.cases.values():
-                    yield from arguments_in(inner)
+                    yield from _with_inner(inner)
             case Group():
-                yield from arguments_in(entry.entries)
+                yield from _with_inner(entry.entries)
             case Either():
-                yield from arguments_in(entry.groups)
+                yield from _with_inner(entry.groups)

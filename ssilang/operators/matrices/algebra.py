@@ -267,18 +267,10 @@ def imaginary_names(
     of=("RIGIDITE",),
 )
 def other_names(
-    call: Call,
-    matrix: Matrix,
-    old_unknowns: ListMots,
-    new_unknowns: ListMots,
-    old_equations: ListMots,
-    new_equations: ListMots,
-    shape: str | None,
-    own: bool,
+    call: Call, matrix: Matrix, shape: str | None, own: bool, **names: ListMots
 ) -> Matrix:
     """Other names, from lists."""
-    given = (old_unknowns, new_unknowns, old_equations, new_equations)
-    lists = [[str(w).rstrip() for w in v.values] for v in given]
+    lists = [[str(w).rstrip() for w in names[name].values] for name, _ in _FOUR]
     return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
 
 
@@ -289,19 +281,9 @@ def other_names(
     *_SHAPE,
     of=("RIGIDITE",),
 )
-def other_name(
-    call: Call,
-    matrix: Matrix,
-    old_unknowns: str,
-    new_unknowns: str,
-    old_equations: str,
-    new_equations: str,
-    shape: str | None,
-    own: bool,
-) -> Matrix:
+def other_name(call: Call, matrix: Matrix, shape: str | None, own: bool, **names: str) -> Matrix:
     """Other names of one unknown and one equation."""
-    given = (old_unknowns, new_unknowns, old_equations, new_equations)
-    lists = [[w.upper().rstrip()] for w in given]
+    lists = [[names[name].upper().rstrip()] for name, _ in _FOUR]
     return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
 
 

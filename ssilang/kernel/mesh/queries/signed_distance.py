@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
-
-CHUNK = 2_000_000  # pairs of a point and a cell held at once
 
 
 def facets(mesh: Mesh, dimension: int) -> IntArray:
@@ -44,51 +44,44 @@ def nearest_on_segments(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArr
     return np.asarray(a + np.clip(s, 0.0, 1.0)[..., None] * along)
 
 
-def nearest_on_triangles(p: FloatArray, corners: FloatArray) -> FloatArray:
-    """Nearest points (n, m, 3) of m triangles (m, 3, 3) to n points."""
-    a, b, c = (corners[:, i] for i in range(3))
-    normal = np.cross(b - a, c - a)
-    size = np.maximum((normal**2).sum(axis=1), 1e-300)
-    height = np.einsum("nmd,md->nm", p[:, None] - a[None], normal) / size
-    foot = p[:, None] - height[..., None] * normal
-    inside = np.ones(height.shape, bool)
-    for u, v in ((a, b), (b, c), (c, a)):
-        inside &= np.einsum("nmd,md->nm", foot - u, np.cross(normal, v - u)) >= 0.0
-    best, gap = foot, np.where(inside, 0.0, np.inf)
-    for u, v in ((a, b), (b, c), (c, a)):
-        edge = nearest_on_segments(p, u, v)
-        distance = ((edge - p[:, None]) ** 2).sum(axis=2)
-        nearer = distance < gap
-        nearer &= ~inside
-        best, gap = np.where(nearer[..., None], edge, best), np.where(nearer, distance, gap)
-    return np.asarray(best)
+def before_triangles(points: FloatArray, xyz: FloatArray, triangles: IntArray) -> FloatArray:
+    """Distance (n,) of points (n, 3) to triangles (m, 3), positive on the side of the normals.
+
+    At an edge or a corner the mean normal of the triangles there, by their angles, says the side.
+    """
+    from vtkmodules.util import numpy_support
+    from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
+
+    of: Any = numpy_support  # has no types
+    used, places = np.unique(triangles, return_inverse=True)
+    corners, table, surface = vtkPoints(), vtkCellArray(), vtkPolyData()
+    corners.SetData(of.numpy_to_vtk(xyz[used]))
+    table.SetData(3, of.numpy_to_vtkIdTypeArray(places.ravel()))
+    surface.SetPoints(corners)
+    surface.SetPolys(table)
+    distance, found = vtkImplicitPolyDataDistance(), vtkDoubleArray()
+    distance.SetInput(surface)
+    distance.FunctionValue(of.numpy_to_vtk(np.ascontiguousarray(points)), found)
+    return np.array(of.vtk_to_numpy(found))
 
 
 def signed_distance(points: FloatArray, mesh: Mesh, dimension: int) -> FloatArray:
     """Distance (n,) of points (n, 2 or 3), positive on the side of the cells' normals.
 
     The normal of a segment is its direction turned by a right angle to the left; that of a
-    triangle goes by its sense. Where several cells are equally near (at a corner), the one whose
+    triangle goes by its sense. Where two segments are equally near (at a corner), the one whose
     normal is most along the way to the point says the sign.
     """
     cells = facets(mesh, dimension)
-    corners = mesh.nodes.coordinates[cells][..., :dimension]
-    if dimension == 2:
-        d = corners[:, 1] - corners[:, 0]
-        normals = np.column_stack([-d[:, 1], d[:, 0]])
-    else:
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    if dimension == 3:
+        return before_triangles(points, mesh.nodes.coordinates, cells)
+    corners, p = mesh.nodes.coordinates[cells][..., :2], points[:, :2]
+    d = corners[:, 1] - corners[:, 0]
+    normals = np.column_stack([-d[:, 1], d[:, 0]])
     normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    found = np.empty(len(points))
-    step = max(CHUNK // len(cells), 1)
-    for i in range(0, len(points), step):
-        p = points[i : i + step, :dimension]
-        if dimension == 2:
-            nearest = nearest_on_segments(p, corners[:, 0], corners[:, 1])
-        else:
-            nearest = nearest_on_triangles(p, corners)
-        found[i : i + step] = _signed(p[:, None] - nearest, normals)
-    return found
+    return _signed(p[:, None] - nearest_on_segments(p, corners[:, 0], corners[:, 1]), normals)
 
 
 def _signed(way: FloatArray, normals: FloatArray) -> FloatArray:

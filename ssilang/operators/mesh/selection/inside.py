@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.mesh.boundary import contour
-from ssilang.kernel.mesh.combine import (
-    take,
-)
+from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
-from ssilang.kernel.mesh.queries.signed_distance import nearest_on_triangles
+from ssilang.kernel.mesh.queries.signed_distance import before_triangles
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
 from ssilang.operators.prelude import *
 
@@ -35,8 +33,7 @@ def deda(
     triangles = np.concatenate(corners)
     if ray_inside(at, mesh.nodes.coordinates, triangles)[0]:
         return True
-    gaps = nearest_on_triangles(at, mesh.nodes.coordinates[triangles])[0] - at
-    return bool(np.linalg.norm(gaps, axis=1).min() <= tolerance)
+    return bool(abs(before_triangles(at, mesh.nodes.coordinates, triangles)[0]) <= tolerance)
 
 
 @operator("INCL", family="mesh", full_name="INCLUS")
